@@ -12,7 +12,8 @@ from microros_gen.ros.errors import RosUnusableError
 from microros_gen.ros.peer import Peer
 
 
-def _peer(domain: int | None) -> Peer:
+def graph_peer(domain: int | None) -> Peer:
+    """Return the node of a graph server; UserError without a usable ROS 2."""
     try:
         return Peer(NODE, domain=domain)
     except RosUnusableError as error:
@@ -39,7 +40,7 @@ def command(domain: int | None) -> None:
 
     Prints 'graph server ready: /microros_graph' on stdout. SIGINT and SIGTERM end it with status 0.
     """
-    with _peer(domain) as peer:
+    with graph_peer(domain) as peer:
         server = GraphServer(peer, lambda line: click.echo(f"warning: {line}", err=True))
         with stopped_by_signals(server):
             click.echo(f"graph server ready: {peer.name}")

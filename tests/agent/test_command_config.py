@@ -30,6 +30,7 @@ NOTHING = {
     "domain": None,
     "discovery": False,
     "discovery_port": None,
+    "graph_server": False,
     "client_timeout": None,
     "max_clients": None,
     "limits": (),
@@ -107,6 +108,14 @@ def test_the_command_line_wins(tmp_path: Path) -> None:
     assert (got.domain, got.log_format, got.verbose, got.discovery) == (0, "text", 1, 9)
     assert got.limits == Limits(clients=4, client_timeout_s=9.0, message_bytes=1000, objects=5)
     assert got.references == (tmp_path / "refs.xml", Path("more.xml"))
+
+
+def test_a_graph_server_inside_the_agent(tmp_path: Path) -> None:
+    head = "version: 1\ntransports: [udp4: {}]\n"
+    assert options(head + "graph_server: true\n", tmp_path).graph_server
+    assert not options(head + "graph_server: false\n", tmp_path).graph_server
+    assert not options(head, tmp_path).graph_server
+    assert options(head, tmp_path, graph_server=True).graph_server
 
 
 def test_discovery_as_a_word(tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from typing import Any
 import pytest
 
 from tests.support.agent.line_process import LineProcess
+from tests.support.agent.process import running_agent
 from tests.support.e2e.graph_peer import NODE, graph_peer
 from tests.support.e2e.graph_server import graph_server
 from tests.support.e2e.images import C_FILES, Images, ends_well, started
@@ -168,6 +169,20 @@ def test_changes_and_matched_counts(program: Path, agent: object, domain: int) -
         while device.lines("changes") == ["0"]:  # a notice comes at most 0.2 s after the change
             device.call("spin 100")
             assert time.monotonic() < end
+
+
+def test_a_server_inside_the_agent(program: Path, relay: Relay, domain: int) -> None:
+    options = ("--domain", str(domain), "--graph-server")
+    with running_agent(domain, *options) as agent:
+        relay.connect(agent.port)
+        assert "graph server ready: /microros_graph" in "\n".join(agent.log)
+        with graph_peer(domain) as peer, running(program) as device:
+            served(device)
+            alike(lambda: sorted(device.lines("nodes")), lambda: peer.ask(do="nodes"), "/ microros_graph")
+            peer.ask(do="subscribe", topic="/arm/count")
+            assert device.call("change 20000")[0] == OK
+            alike(lambda: device.lines("count matched_subscriptions"), lambda: ["1"])
+        assert agent.stop() == 0
 
 
 def test_a_server_that_restarts(program: Path, agent: object, domain: int) -> None:

@@ -61,6 +61,7 @@ class AgentFile:
     transports: tuple[TransportChoice, ...] = ()
     discovery: int | None = None
     domain: int | None = None
+    graph_server: bool = False
     limits: tuple[tuple[str, float], ...] = ()
     references: tuple[NamedPath, ...] = ()
     entities: tuple[NamedPath, ...] = ()

@@ -51,6 +51,7 @@ def parse_agent_file(source: Source, diagnostics: Diagnostics) -> AgentFile:
         transports=tuple(t for item in items(child(tree, "transports")) for t in _transports(item)),
         discovery=_discovery(child(tree, "discovery")),
         domain=int_of(child(tree, "domain")),
+        graph_server=bool_of(child(tree, "graph_server")) or False,
         limits=_numbers(child(tree, "limits")),
         references=_paths(child(tree, "references")),
         entities=_paths(child(tree, "entities")),

@@ -62,6 +62,12 @@ _COMMON = (
         help=f"The port of --discovery, which it implies. Default: {DISCOVERY_PORT}.",
     ),
     click.option(
+        "--graph-server",
+        is_flag=True,
+        help="Answer queries of the ROS graph, too, as `microros-gen graph-server` does; in the domain of --domain,"
+        " else ROS_DOMAIN_ID.",
+    ),
+    click.option(
         "--client-timeout",
         type=click.FloatRange(min=0.1),
         metavar="SECONDS",
@@ -131,6 +137,7 @@ class AgentOptions:
     transports: tuple[TransportChoice, ...] = ()
     discovery: int | None = None
     domain: int | None = None
+    graph_server: bool = False
     limits: Limits = DEFAULTS
     references: tuple[Path, ...] = ()
     entities: tuple[Path, ...] = ()
@@ -158,6 +165,7 @@ class AgentOptions:
             transports=chosen,
             discovery=file.discovery if discovery_port is None else discovery_port,
             domain=file.domain if options["domain"] is None else options["domain"],
+            graph_server=options["graph_server"] or file.graph_server,
             limits=_limits(file, options),
             references=_paths(folder, file.references, options["references"]),
             entities=_paths(folder, file.entities, options["entities"]),

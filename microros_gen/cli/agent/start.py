@@ -34,6 +34,7 @@ from microros_gen.agent.server import Server, stopped_by_signals
 from microros_gen.agent.trace import TracedTransport
 from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.transport.sockets import PROTOCOLS
+from microros_gen.cli.agent.graph import graph_server
 from microros_gen.cli.agent.options import AgentOptions, read_sources
 from microros_gen.cli.agent.types import ClientTypes, HashOf, TypeHashes, read_manifests
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
@@ -89,7 +90,7 @@ def serve(options: AgentOptions) -> None:
     announcements = EventLog(sys.stdout, as_json)
     gc.collect()
     gc.freeze()  # modules and libraries stay: to look through them now and then would stop the agent for 20 ms
-    with stopped_by_signals(server):
+    with graph_server(options.graph_server, options.domain, log), stopped_by_signals(server):
         notify("READY=1")
         server.run(lambda transport: _announce(announcements, transport), time.monotonic)
 
