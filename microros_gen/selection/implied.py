@@ -41,7 +41,7 @@ def with_implied(application: Application, selection: Selection, diagnostics: Di
 
 
 def _refuse(endpoints: Sequence[EndpointDecl], application: Application, diagnostics: Diagnostics) -> None:
-    """Report endpoints that need a declared node: in one message, since one line mends all."""
+    """Report endpoints that need a declared node: in one message, since one line fixes all of them."""
     if not endpoints:
         return
     first, others = endpoints[0], len(endpoints) - 1
