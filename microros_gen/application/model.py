@@ -213,6 +213,8 @@ class ExecutorDecl:
 class NodeDecl:
     """A node and what it owns. `given_name`, `given_namespace`: what the source has, where `remap:` changes them.
 
+    `parameter_file`: one of generate_parameter_library, relative to the folder of the application file; its
+    parameters are among `parameters` once it was read, before those of the application file.
     `clock_topic`: where a rule of `remap:` puts /clock, to which a node subscribes by itself; empty: no rule.
     """
 
@@ -223,6 +225,7 @@ class NodeDecl:
     span: Span | None = None
     timers: tuple[TimerDecl, ...] = ()
     parameters: tuple[ParameterDecl, ...] = ()
+    parameter_file: Named | None = None
     executors: tuple[ExecutorDecl, ...] = ()
     name_span: Span | None = None
     given_name: str = ""

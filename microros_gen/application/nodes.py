@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from microros_gen.application.kinds import KIND, KINDS
 from microros_gen.application.limits import endpoint_limits
-from microros_gen.application.model import EndpointDecl, ExecutorDecl, NodeDecl, TimerDecl
+from microros_gen.application.model import EndpointDecl, ExecutorDecl, NodeDecl, ParameterDecl, TimerDecl
 from microros_gen.application.names import (
     absolute,
     expand_topic_name,
@@ -61,6 +61,7 @@ def _node(item: YamlNode, diagnostics: Diagnostics) -> NodeDecl:
         span=item.span,
         timers=tuple(_timer(t, diagnostics) for t in items(child(item, "timers"))),
         parameters=parse_declarations(child(item, "parameters"), diagnostics),
+        parameter_file=named_of(child(child(item, "parameters"), "file")),
         name_span=span_of(name) or item.span,
     )
     remap = child(item, "remap")
@@ -70,6 +71,15 @@ def _node(item: YamlNode, diagnostics: Diagnostics) -> NodeDecl:
     for kind, named in (("timer", node.timers), ("parameter", node.parameters), ("executor", executors)):
         check_unique(kind, [(n.name, n.span) for n in named], diagnostics)
     return rename_endpoints(replace(node, executors=executors), remap, diagnostics)
+
+
+def with_declarations(
+    node: NodeDecl, declared: tuple[ParameterDecl, ...], diagnostics: Diagnostics
+) -> NodeDecl:
+    """Return the node with further parameters before those that it has; no name may come twice."""
+    every = (*declared, *node.parameters)
+    check_unique("parameter", [(p.name, p.span) for p in every], diagnostics)
+    return replace(node, parameters=every)
 
 
 def _endpoints(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Iterator[EndpointDecl]:

@@ -27,8 +27,12 @@ _Scalar = bool | int | float | str
 
 
 def parse_declarations(tree: YamlNode | None, diagnostics: Diagnostics) -> tuple[ParameterDecl, ...]:
-    """Return the declarations of a list; each default that its parameter would refuse is an error at its place."""
-    return tuple(_parameter(item, diagnostics) for item in items(tree))
+    """Return the declarations of a list, or of `declare` in a mapping.
+
+    Each default that its parameter would refuse is an error at its place.
+    """
+    declared = child(tree, "declare") or tree
+    return tuple(_parameter(item, diagnostics) for item in items(declared))
 
 
 def _parameter(item: YamlNode, diagnostics: Diagnostics) -> ParameterDecl:
@@ -44,7 +48,7 @@ def _parameter(item: YamlNode, diagnostics: Diagnostics) -> ParameterDecl:
         step=number_of(child(bounds, "step")),
         size=size_of(child(item, "size")),
         span=item.span,
-        one_of=tuple(v for v in map(_scalar, items(choice)) if v is not None),
+        one_of=tuple(v for v in map(scalar_of, items(choice)) if v is not None),
         unit=text_of(child(item, "unit")) or "",
     )
     check_declaration(parameter, Places(default, span_of(bounds), choice), diagnostics)
@@ -54,11 +58,12 @@ def _parameter(item: YamlNode, diagnostics: Diagnostics) -> ParameterDecl:
 def value_of(node: YamlNode | None) -> _Scalar | tuple[_Scalar, ...] | None:
     """Return a scalar, or the scalars of a list."""
     if isinstance(node, SequenceNode):
-        return tuple(v for v in map(_scalar, node.items) if v is not None)
-    return _scalar(node)
+        return tuple(v for v in map(scalar_of, node.items) if v is not None)
+    return scalar_of(node)
 
 
-def _scalar(node: YamlNode | None) -> _Scalar | None:
+def scalar_of(node: YamlNode | None) -> _Scalar | None:
+    """Return the value of a scalar."""
     return node.value if isinstance(node, ScalarNode) else None
 
 
@@ -175,7 +180,7 @@ def _check_choice(parameter: ParameterDecl, places: Places, diagnostics: Diagnos
 
 def _check_choices(parameter: ParameterDecl, choice: YamlNode, diagnostics: Diagnostics) -> None:
     for node in items(choice):
-        value = _scalar(node)
+        value = scalar_of(node)
         if value is None or not _fits(value, parameter.type):
             message = f"a value of `one_of` is not of type {parameter.type}"
             diagnostics.error(message, node.span, "Change it, or the type", id="MG-3060")

@@ -38,11 +38,14 @@ def resolved(schema: dict[str, Any]) -> dict[str, Any]:
 
 
 def key_paths(schema: dict[str, Any], path: str = "") -> Iterator[str]:
-    """Yield the path of every key, with [] for the items of a list; limits have their own syntax."""
+    """Yield the path of every key, with [] for the items of a list.
+
+    Limits have their own syntax; the items of `declare` are those of the list that is short for it.
+    """
     for key, value in schema.get("properties", {}).items():
         here = f"{path}.{key}".lstrip(".")
         yield here
-        if key != "limits":
+        if key not in ("limits", "declare"):
             value = resolved(value)
             yield from key_paths(value, here)
             yield from key_paths(resolved(value.get("items", {})), f"{here}[]")

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads the parameter files that the nodes of an application name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+from microros_gen.application.model import Application, NodeDecl
+from microros_gen.application.nodes import with_declarations
+from microros_gen.application.parameter_file import parse_parameter_file
+from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.documents.files import read_text, reason_of
+
+
+def parameter_paths(application: Application, near: Path) -> Iterator[Path]:
+    """Yield the parameter files of the nodes; `near` is the folder of the application file."""
+    for node in application.nodes:
+        if node.parameter_file is not None:
+            yield near / node.parameter_file.name
+
+
+def with_parameter_files(application: Application, near: Path, diagnostics: Diagnostics) -> Application:
+    """Return the application with what its parameter files declare."""
+    nodes = tuple(_with_file(node, near, diagnostics) for node in application.nodes)
+    return replace(application, nodes=nodes)
+
+
+def _with_file(node: NodeDecl, near: Path, diagnostics: Diagnostics) -> NodeDecl:
+    if node.parameter_file is None:
+        return node
+    path = near / node.parameter_file.name
+    try:
+        source = Source(str(path), read_text(path))
+    except (OSError, UnicodeDecodeError) as error:
+        message = f"cannot read the parameter file '{path}': {reason_of(error)}"
+        hint = "Its path is relative to the folder of this file"
+        diagnostics.error(message, node.parameter_file.span, hint, id="MG-3073")
+        return node
+    return with_declarations(node, parse_parameter_file(source, diagnostics), diagnostics)

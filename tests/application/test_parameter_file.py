@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Files of generate_parameter_library: what they declare, and what a device does not check."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from microros_gen import compiler
+from microros_gen.application.model import ParameterDecl
+from microros_gen.application.parameter_file import parse_parameter_file
+from microros_gen.compiler.pipeline import read_paths
+from microros_gen.diagnostics import Diagnostics, Source, UserError
+from microros_gen.output.tree import MANIFEST
+from tests.support.ids import without_id
+
+LARGEST = sys.float_info.max
+GOOD = """\
+motor:
+  gains:
+    p: {type: double, default_value: 1.5, description: "Part: p", validation: {bounds<>: [0.0, 10.0]}}
+    i: {type: double, default_value: 0, validation: {gt_eq<>: [0.0]}}
+    d: {type: double, default_value: 0.0, validation: {lt_eq<>: [5]}}
+  steps: {type: int, default_value: 3, read_only: true, validation: {gt<>: [0], lt<>: [9], lower_bounds<>: [2]}}
+  mode: {type: string, default_value: slow, validation: {one_of<>: [["slow", "fast"]]}}
+  label: {type: string_fixed_8, default_value: "left"}
+  name: {type: string, default_value: a, validation: {size_lt<>: [6]}}
+  on: {type: bool, default_value: false}
+  ports: {type: int_array_fixed_4, default_value: [1, 2], validation: {size_lt<>: [4]}}
+  flags: {type: bool_array, default_value: [], validation: {size_lt<>: [3]}}
+  scales: {type: double_array_fixed_2, default_value: [1.0, 2.5]}
+  joints: {type: string_array_fixed_2, default_value: ["a", "b"]}
+  filters: {type: none, description: Declared by another program}
+"""
+
+
+def parsed(text: str) -> tuple[tuple[ParameterDecl, ...], list[str]]:
+    diagnostics = Diagnostics()
+    found = parse_parameter_file(Source("p.yaml", text), diagnostics)
+    return found, [without_id(d.headline()) for d in diagnostics]
+
+
+def test_everything_that_a_device_has() -> None:
+    found, faults = parsed(GOOD)
+    assert faults == []
+    shown: dict[str, tuple[Any, ...]] = {
+        p.name: (p.type, p.default, p.minimum, p.maximum, p.one_of, p.size) for p in found
+    }
+    assert shown == {
+        "gains.p": ("double", 1.5, 0.0, 10.0, (), None),
+        "gains.i": ("double", 0, 0.0, LARGEST, (), None),
+        "gains.d": ("double", 0.0, -LARGEST, 5, (), None),
+        "steps": ("integer", 3, 2, 8, (), None),
+        "mode": ("string", "slow", None, None, ("slow", "fast"), None),
+        "label": ("string", "left", None, None, (), 8),
+        "name": ("string", "a", None, None, (), 5),
+        "on": ("bool", False, None, None, (), None),
+        "ports": ("integer[]", (1, 2), None, None, (), 3),
+        "flags": ("bool[]", (), None, None, (), 2),
+        "scales": ("double[]", (1.0, 2.5), None, None, (), 2),
+        "joints": ("string[]", ("a", "b"), None, None, (), 2),
+    }
+    assert [p.name for p in found if p.read_only] == ["steps"]
+    assert found[0].description == "Part: p"
+
+
+FAULTS = {
+    "a list": ("- 1\n", "p.yaml:1:1: error: a file of generate_parameter_library has one key"),
+    "two roots": ("a: {}\nb: {}\n", "p.yaml:1:1: error: a file of generate_parameter_library has one key"),
+    "mapped": (
+        "a:\n  __map_joints: {type: int, default_value: 1}\n",
+        "p.yaml:2:3: error: '__map_joints' is no name of a parameter: one for each value of another is not",
+    ),
+    "no type": ("a:\n  x: 3\n", "p.yaml:2:3: error: 'x' has no type. Write x: {type: int}"),
+    "unknown type": (
+        "a:\n  x: {type: float, default_value: 1.0}\n",
+        "p.yaml:2:13: error: the type 'float' of 'x' is not supported. Available: bool, int, double",
+    ),
+    "no default": (
+        "a:\n  x: {type: int}\n",
+        "p.yaml:2:3: error: 'x' has no default_value, and nothing sets parameters when a device starts",
+    ),
+    "array without an end": (
+        "a:\n  x: {type: int_array, default_value: [1]}\n",
+        "p.yaml:2:3: error: the array 'x' has no largest size. Write type: int_array_fixed_8, or validation",
+    ),
+    "unknown key": (
+        "a:\n  x: {type: int, default_value: 1, unit: mm}\n",
+        "p.yaml:2:36: error: 'unit' of a parameter is not supported. Remove it; available: type, default_value",
+    ),
+    "a rule that is not checked": (
+        "a:\n  x: {type: string, default_value: a, validation: {not_empty<>: []}}\n",
+        "p.yaml:2:52: error: a device does not check 'not_empty<>'. Check it in the callback; available: bounds<>",
+    ),
+    "a rule of another program": (
+        'a:\n  x: {type: int, default_value: 1, validation: {"own::even": []}}\n',
+        "p.yaml:2:49: error: a device does not check 'own::even'",
+    ),
+    "above a floating-point number": (
+        "a:\n  x: {type: double, default_value: 1, validation: {gt<>: [0]}}\n",
+        "p.yaml:2:58: error: 'gt<>' does not fit 'x' of type double. Write gt_eq<>: a range of floating-point",
+    ),
+    "bounds of a text": (
+        "a:\n  x: {type: string, default_value: a, validation: {bounds<>: [0, 1]}}\n",
+        "p.yaml:2:62: error: 'bounds<>' does not fit 'x' of type string. Write bounds<>: [0, 10]",
+    ),
+    "one bound": (
+        "a:\n  x: {type: int, default_value: 1, validation: {bounds<>: [0]}}\n",
+        "p.yaml:2:59: error: 'bounds<>' does not fit 'x' of type integer",
+    ),
+    "list of values without its list": (
+        "a:\n  x: {type: int, default_value: 1, validation: {one_of<>: [1, 2]}}\n",
+        "p.yaml:2:59: error: 'one_of<>' does not fit 'x' of type integer",
+    ),
+    "a value of another type": (
+        "a:\n  x: {type: int, default_value: 1, validation: {one_of<>: [[1, b]]}}\n",
+        "p.yaml:2:64: error: a value of `one_of` is not of type integer",
+    ),
+    "default out of range": (
+        "a:\n  x: {type: int, default_value: 11, validation: {bounds<>: [0, 10]}}\n",
+        "p.yaml:2:33: error: the default of the parameter 'x' is not in its range. It goes from 0 to 10",
+    ),
+    "default of another type": (
+        "a:\n  x: {type: int, default_value: 1.5}\n",
+        "p.yaml:2:33: error: the default of the parameter 'x' is not of type integer",
+    ),
+    "YAML 1.1": (
+        "a:\n  x: {type: int, default_value: 1, read_only: yes}\n",
+        "p.yaml:2:47: error: this value must be true or false. Write true or false",
+    ),
+    "rules in a list": (
+        "a:\n  x: {type: int, default_value: 1, validation: [bounds]}\n",
+        "p.yaml:2:48: error: 'validation' must be a mapping of rules. Write {bounds<>: [0, 10]}",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", FAULTS)
+def test_what_a_device_does_not_check_is_reported_at_its_place(case: str) -> None:
+    text, expected = FAULTS[case]
+    found, faults = parsed(text)
+    assert found == ()
+    assert len(faults) == 1, faults
+    assert faults[0].startswith(expected), faults
+
+
+APPLICATION = """\
+version: 1
+profiles: [pure_sender]
+components: [+parameters]
+nodes:
+  - name: arm
+    parameters:
+      file: config/motor.yaml
+      declare: [{name: own, type: integer, default: 4}]
+"""
+
+
+def planned(folder: Path) -> compiler.Planned:
+    config = folder / "microros.yaml"
+    config.write_text(APPLICATION)
+    return compiler.plan(compiler.resolve(compiler.read(compiler.Options(config=config))))
+
+
+def test_a_node_has_those_of_the_file_first(tmp_path: Path) -> None:
+    (tmp_path / "config").mkdir()
+    file = tmp_path / "config/motor.yaml"
+    file.write_text(GOOD)
+    found = planned(tmp_path)
+    names = [p.name for p in found.resolved.request.application.nodes[0].parameters]
+    assert (names[0], names[-1], len(names)) == ("gains.p", "own", 13)
+    files = compiler.render(found)
+    assert b'"gains.p", 0.0, 10.0, 0.0' in files["src/parameters/rclc_parameter_declared.c"]
+    assert b"parameter file motor.yaml" in files[MANIFEST]
+    assert file in set(read_paths(found))
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        (None, "cannot read the parameter file"),
+        (
+            "m:\n  own: {type: bool, default_value: true}\n",
+            "duplicate parameter 'own'; the first is in line 2",
+        ),
+    ],
+    ids=["missing", "twice"],
+)
+def test_a_file_that_does_not_fit(tmp_path: Path, text: str | None, expected: str) -> None:
+    if text is not None:
+        (tmp_path / "config").mkdir()
+        (tmp_path / "config/motor.yaml").write_text(text)
+    with pytest.raises(UserError) as caught:
+        planned(tmp_path)
+    assert any(expected in without_id(d.headline()) for d in caught.value.diagnostics)
