@@ -93,6 +93,6 @@ def test_its_size(builds: Builds) -> None:
     built = builds.build(NAME, APPLICATION)
     image = builds.application(built, "parameters.c")
     size = image_sections(built, image)
-    assert size.text + size.data <= 25_700
-    assert size.ram <= 6_040
-    assert bounded_stack(built, image) <= 1328
+    assert size.text + size.data <= 25_520
+    assert size.ram <= 6_032
+    assert bounded_stack(built, image) <= 1312

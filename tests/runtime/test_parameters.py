@@ -361,3 +361,21 @@ def test_strings(programs: dict[str, Program], stack: ExitStack, codec: Codec) -
     assert client.ok("add n").code == 0
     assert client.call("text n").error == "parameter n: it has another type"
     assert client.call("text n a").error == "parameter n: it has another type"
+
+
+def test_three_strings_for_two_places(programs: dict[str, Program], stack: ExitStack, codec: Codec) -> None:
+    """Larger than the input: in fragments that fit it is refused with a reason; a datagram above it is malformed."""
+    device = started(programs, stack, codec, TEXTS)
+    device.open()
+    device.client.ok("text label +")
+    device.spin(12)
+    values = [text_of("label", "a" * size) for size in (3, 4, 5)]
+    device.agent.mtu = programs[TEXTS].input_size
+    assert reasons(device, *values) == [LARGE] * 3
+    assert device.client.statistics()["malformed"] == 0
+    device.agent.mtu = MOST
+    device.ask("set_parameters", parameters=values)
+    answered = len(device.agent.answered)
+    device.spin(12)
+    assert len(device.agent.answered) == answered
+    assert device.client.statistics()["malformed"] > 0
