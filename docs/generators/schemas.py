@@ -45,7 +45,11 @@ def _keys(schema: Schema, part: Schema, path: str) -> Iterator[str]:
         here = f"{path}.{key}".lstrip(".")
         inner = [] if name in _shared(schema) else list(_objects(schema, found, here))
         below += inner
-        target = anchor(inner[0][0]) if inner else name if any(_objects(schema, found, here)) else ""
+        target = (
+            anchor(inner[0][0])
+            if inner
+            else _section(schema, name or _resolved(schema, found.get("items", {}))[1])
+        )
         required = " Required." if key in part.get("required", ()) else ""
         rows.append((_key_cell(key, target), _value(schema, found), cell(_said(value, found)) + required))
     if rows:
@@ -56,6 +60,11 @@ def _keys(schema: Schema, part: Schema, path: str) -> Iterator[str]:
         if object_part.get("description"):
             yield cell(object_part["description"].rstrip(".")) + "."
         yield from _keys(schema, object_part, here)
+
+
+def _section(schema: Schema, name: str) -> str:
+    """Return the anchor of a definition that has its own section; empty: it has none."""
+    return name if name in _shared(schema) and any(_named(schema["$defs"][name])) else ""
 
 
 def _named(part: Schema) -> Iterator[tuple[str, Schema]]:
@@ -74,8 +83,9 @@ def _objects(schema: Schema, part: Schema, path: str) -> Iterator[tuple[str, Sch
     """Yield the objects with their own keys that a value may be: itself, the items of a list, alternatives."""
     if any(_named(part)):
         yield path, part
-    if "items" in part:
-        yield from _objects(schema, _resolved(schema, part["items"])[0], f"{path}[]")
+    items, name = _resolved(schema, part.get("items", {}))
+    if name not in _shared(schema):
+        yield from _objects(schema, items, f"{path}[]") if items else ()
     for other in (*part.get("anyOf", ()), *part.get("oneOf", ())):
         yield from _objects(schema, _resolved(schema, other)[0], path)
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What the application does with its parameters. */
 #include "microros/error.h"
+#include "microros/rclc_parameter_array.h"
 #include "microros/rclc_parameter_string.h"
 #include "microros/rclc_parameters.h"
 #include "microros/text.h"
@@ -80,6 +81,7 @@ static rcl_ret_t parameter_set(
   old_state.type = place->type;
   old_state.value = place->value;
   rclc_parameter_string_old(place, &old_state);
+  rclc_parameter_array_old(place, &old_state);
   new_state = old_state;
   new_state.value = *value;
   if (!rclc_parameter_accepts(server, &old_state, &new_state)) {
@@ -201,6 +203,7 @@ rcl_ret_t rclc_parameter_set_string(
   old_state.type = place->type;
   old_state.value = place->value;
   old_state.string = place->string;
+  rclc_parameter_array_old(place, &old_state);
   new_state = old_state;
   new_state.string = parameter_server->string_new;
   if (!rclc_parameter_accepts(parameter_server, &old_state, &new_state)) {
