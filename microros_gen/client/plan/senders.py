@@ -54,9 +54,10 @@ def plan_sent_storage(
 
 
 def _declared(application: Application, types: Mapping[TypeName, TypePlan]) -> Iterator[Sender]:
+    """Yield what the application fills; what the library encodes itself needs no memory of messages."""
     for kind in ("publisher", "service", "client"):
         for index, (_, node, endpoint) in enumerate(declarations(application, kind)):
-            for name in _sent_types(kind, endpoint.type):
+            for name in _sent_types(kind, endpoint.type) if endpoint.stored else ():
                 own = types[name].limit_set(kind, index)
                 limits = own.limits if own else types[name].limits
                 yield Sender(name, limits, full_name(node, endpoint))
