@@ -140,6 +140,9 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         "parameters-every": _BUSY + EVERY_PARAMETER + "profiles: [pure_sender]\ncomponents: [+parameters]\n",
         "graph": _BUSY
         + "profiles: [pure_sender]\ncomponents: [+graph]\nmemory: {arena: 4096}\nerrors: code\n",
+        "parameter-storage": _BUSY
+        + "    parameters: [{name: gain, type: double}]\n"
+        + "profiles: [pure_sender]\ncomponents: [+parameter_storage]\n",
         "logging": _POOL + "logging: [{to: console, level: debug}, callback]\n",
         "rosout": _BUSY + "profiles: [pure_sender]\nlogging: [rosout, console]\n",
         "ring": _BUSY

@@ -165,6 +165,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "target: {name: qemu-mps2-an386}\nlogging: [{to: rosout, level: warn}, {to: ring, level: debug}]\n",
         "rosout_board": _BOTH
         + "target: {name: qemu-mps2-an386}\nlogging: [rosout, {to: callback, level: warn}]\n",
+        "parameters_kept": _NODES.replace("    publishers:\n", "") + "components: [+parameter_storage]\n",
         "parameters": _NODES.replace("    publishers:\n", "") + "components: [+parameters]\n",
         "parameters_every": _NODES.replace("    publishers:\n", "")
         + EVERY_PARAMETER

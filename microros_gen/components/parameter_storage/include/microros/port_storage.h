@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Memory that keeps its content without power, in slots: pages of flash, an EEPROM, files. A slot is erased as a whole, then
+ * written once at each offset: first what follows the header, at last the header at offset 0. Offsets and sizes are multiples
+ * of 8 bytes. Called in the task that loads and saves.
+ */
+#ifndef MICROROS_PORT_STORAGE_H
+#define MICROROS_PORT_STORAGE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Erases a slot; its content is any afterwards that no write has made. Returns false if it cannot. */
+bool port_storage_erase(uint32_t slot);
+
+/* Writes `size` bytes, and returns when they are there. Returns false if they are not, or the slot ends before. */
+bool port_storage_write(uint32_t slot, uint32_t offset, const uint8_t * bytes, uint32_t size);
+
+/* Reads `size` bytes, written or not. Returns false if there is no such slot, or it ends before. */
+bool port_storage_read(uint32_t slot, uint32_t offset, uint8_t * bytes, uint32_t size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_PORT_STORAGE_H */

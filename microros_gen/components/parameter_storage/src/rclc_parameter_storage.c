@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Each record is the body of an rcl_interfaces/srv/SetParameters_Request with one parameter, after its size: saved values
+ * pass the checks that values from other nodes pass, and firmware with other parameters reads what it knows.
+ */
+#include "rclc_parameter/parameter_storage.h"
+
+#include "microros/error.h"
+#include "microros/port_storage.h"
+#include "microros/rclc_parameter_out.h"
+#include "microros/rclc_parameter_storage_slot.h"
+#include "microros/rclc_parameters.h"
+
+#include <string.h>
+
+enum { STORAGE_SLOTS = 2 };
+
+/* The slots of a server: the newest that counts, and what the other one is. */
+typedef struct storage_found_t {
+  uint32_t newest; /* slot; without a good one the first */
+  storage_state_t newest_state;
+  storage_state_t other_state;
+  storage_header_t header; /* of the newest */
+} storage_found_t;
+
+static rcl_ret_t storage_refuse(const char * why)
+{
+  return microros_error_named(RCL_RET_ERROR, microros_error_storage, why);
+}
+
+static rcl_ret_t storage_check_call(const rclc_parameter_server_t * server)
+{
+  if (server == NULL || server->node == NULL) {
+    return rclc_parameter_refuse_argument();
+  }
+  return server->on_callback ? RCLC_PARAMETER_DISABLED_ON_CALLBACK : RCL_RET_OK;
+}
+
+/* Both slots are good only after a save: the one with the later number counts, over its wrap as well. */
+static storage_found_t storage_find(rclc_parameter_server_t * server, uint32_t set)
+{
+  const uint32_t first = set * (uint32_t)STORAGE_SLOTS;
+  storage_header_t second;
+  storage_found_t found = {.newest = first};
+
+  found.newest_state =
+    microros_storage_look(first, &found.header, server->request, MICROROS_PARAMETER_REQUEST_SIZE);
+  found.other_state =
+    microros_storage_look(first + 1u, &second, server->request, MICROROS_PARAMETER_REQUEST_SIZE);
+  if (
+    found.other_state > found.newest_state ||
+    (found.other_state == STORAGE_GOOD && second.sequence - found.header.sequence < 0x80000000u)) {
+    const storage_state_t state = found.newest_state;
+
+    found.newest = first + 1u;
+    found.newest_state = found.other_state;
+    found.other_state = state;
+    found.header = second;
+  }
+  return found;
+}
+
+/* Whether the request that the server has is one parameter. */
+static bool storage_is_parameter(const rclc_parameter_server_t * server)
+{
+  cdr_fault_t fault = {.field = ""};
+  cdr_in_t in = rclc_parameter_request_begin(server, &fault);
+  const uint32_t count = rclc_parameter_request_length(&in);
+
+  if (count == 1u) {
+    (void)rclc_parameter_request_parameter(&in);
+  }
+  return count == 1u && !in.failed;
+}
+
+/* Sets what a record has. Returns whether the parameter took it. */
+static bool storage_apply(rclc_parameter_server_t * server, uint32_t slot, uint32_t offset, uint32_t size)
+{
+  const uint32_t whole = size - size % (uint32_t)STORAGE_UNIT;
+  uint8_t last[STORAGE_UNIT];
+
+  if (size > (uint32_t)sizeof(server->request) || !port_storage_read(slot, offset, server->request, whole)) {
+    return false;
+  }
+  if (size != whole) {
+    if (!port_storage_read(slot, offset + whole, last, (uint32_t)STORAGE_UNIT)) {
+      return false;
+    }
+    (void)memcpy(&server->request[whole], last, size - whole);
+  }
+  server->request_size = size;
+  server->request_swaps = false;
+  if (!storage_is_parameter(server)) {
+    return false;
+  }
+  rclc_parameter_set_each(server);
+  return server->outcomes[0] == (uint8_t)PARAMETER_SET;
+}
+
+static uint32_t storage_aligned(uint32_t size)
+{
+  return (size + (uint32_t)STORAGE_UNIT - 1u) / (uint32_t)STORAGE_UNIT * (uint32_t)STORAGE_UNIT;
+}
+
+/* Returns how many records no parameter took. Records that are no records end the slot. */
+static size_t storage_apply_all(rclc_parameter_server_t * server, const storage_found_t * found)
+{
+  uint32_t done = 0;
+  size_t skipped = 0;
+
+  while (done + (uint32_t)STORAGE_UNIT <= found->header.size) {
+    const uint32_t at = microros_storage_first() + done;
+    uint32_t prefix[STORAGE_UNIT / sizeof(uint32_t)];
+
+    done += (uint32_t)STORAGE_UNIT;
+    if (
+      !port_storage_read(found->newest, at, (uint8_t *)prefix, (uint32_t)STORAGE_UNIT) ||
+      prefix[0] > found->header.size - done) {
+      return skipped + 1u;
+    }
+    if (!storage_apply(server, found->newest, at + (uint32_t)STORAGE_UNIT, prefix[0])) {
+      ++skipped;
+    }
+    done += storage_aligned(prefix[0]);
+  }
+  return skipped;
+}
+
+rcl_ret_t rclc_parameter_storage_load(
+  rclc_parameter_server_t * parameter_server, uint32_t set, size_t * skipped)
+{
+  rcl_ret_t result = storage_check_call(parameter_server);
+  storage_found_t found;
+  size_t count = 0;
+
+  if (result != RCL_RET_OK) {
+    return result;
+  }
+  found = storage_find(parameter_server, set);
+  if (found.newest_state == STORAGE_GOOD) {
+    count = storage_apply_all(parameter_server, &found);
+  } else if (found.newest_state == STORAGE_OTHER_VERSION) {
+    result = storage_refuse(MICROROS_ERROR_WORDS("the values are of another version of the format"));
+  } else if (found.newest_state == STORAGE_DAMAGED) {
+    result = storage_refuse(MICROROS_ERROR_WORDS("the values are damaged"));
+  } else {
+    /* nothing was ever saved */
+  }
+  if (skipped != NULL) {
+    *skipped = count;
+  }
+  return result;
+}
+
+/* Adds all values that other nodes may set. */
+static void storage_put_all(rclc_parameter_server_t * server, storage_out_t * out)
+{
+  for (size_t i = 0; i < server->count; ++i) {
+    const rclc_parameter_place_t * const place = &server->places[i];
+    parameter_out_t body = {server->request, 0, MICROROS_PARAMETER_REQUEST_SIZE, false};
+    uint32_t prefix[STORAGE_UNIT / sizeof(uint32_t)] = {0};
+
+    if (place->read_only || place->event == (uint8_t)PARAMETER_EVENT_DELETED) {
+      continue;
+    }
+    rclc_parameter_out_4(&body, 1u);
+    rclc_parameter_out_text(&body, place->name);
+    rclc_parameter_out_value(&body, place);
+    prefix[0] = body.position;
+    microros_storage_put(out, (const uint8_t *)prefix, (uint32_t)STORAGE_UNIT);
+    microros_storage_put(out, server->request, body.position);
+    out->failed = out->failed || body.full;
+  }
+}
+
+rcl_ret_t rclc_parameter_storage_save(rclc_parameter_server_t * parameter_server, uint32_t set)
+{
+  const rcl_ret_t result = storage_check_call(parameter_server);
+  storage_out_t measured = {0};
+  storage_out_t written = {.is_written = true};
+  storage_header_t header;
+  storage_found_t found;
+  bool is_good;
+
+  if (result != RCL_RET_OK) {
+    return result;
+  }
+  found = storage_find(parameter_server, set);
+  storage_put_all(parameter_server, &measured);
+  is_good = found.newest_state == STORAGE_GOOD;
+  if (
+    is_good && !measured.failed && measured.size == found.header.size &&
+    measured.checksum == found.header.records_checksum) {
+    return RCL_RET_OK; /* saves the memory a write */
+  }
+  /* Never the slot that counts. Without one either may be written. */
+  written.slot = is_good ? (found.newest ^ 1u) : found.newest;
+  if (measured.failed || !port_storage_erase(written.slot)) {
+    return storage_refuse(MICROROS_ERROR_WORDS("the memory cannot be erased"));
+  }
+  storage_put_all(parameter_server, &written);
+  if (!microros_storage_commit(&written, is_good ? found.header.sequence + 1u : 0u)) {
+    return storage_refuse(MICROROS_ERROR_WORDS("the memory cannot be written"));
+  }
+  if (
+    microros_storage_look(
+      written.slot, &header, parameter_server->request, MICROROS_PARAMETER_REQUEST_SIZE) != STORAGE_GOOD) {
+    return storage_refuse(MICROROS_ERROR_WORDS("the memory reads other bytes than were written"));
+  }
+  return RCL_RET_OK;
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Slots are files microros_storage.0, microros_storage.1, … of the folder that the environment variable MICROROS_STORAGE
+ * names, without it of the current one.
+ */
+#define _POSIX_C_SOURCE 200809L
+#include "microros/port_storage.h"
+
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { STORAGE_PATH_SIZE = 1024, STORAGE_MODE = 0644 };
+
+/* Returns the descriptor of a slot, which the caller closes; -1 if it cannot be opened. */
+static int storage_open(uint32_t slot, int flags)
+{
+  const char * const folder = getenv("MICROROS_STORAGE");
+  char path[STORAGE_PATH_SIZE];
+  const int size = snprintf(
+    path, sizeof(path), "%s/microros_storage.%lu", folder != NULL ? folder : ".", (unsigned long)slot);
+
+  if (size < 0 || size >= (int)sizeof(path)) {
+    return -1;
+  }
+  return open(path, flags | O_CLOEXEC, STORAGE_MODE);
+}
+
+bool port_storage_erase(uint32_t slot)
+{
+  const int file = storage_open(slot, O_WRONLY | O_CREAT | O_TRUNC);
+
+  return file >= 0 && fsync(file) == 0 && close(file) == 0;
+}
+
+bool port_storage_write(uint32_t slot, uint32_t offset, const uint8_t * bytes, uint32_t size)
+{
+  const int file = storage_open(slot, O_WRONLY);
+  bool is_there;
+
+  if (file < 0) {
+    return false;
+  }
+  is_there = pwrite(file, bytes, size, (off_t)offset) == (ssize_t)size && fsync(file) == 0;
+  return close(file) == 0 && is_there;
+}
+
+bool port_storage_read(uint32_t slot, uint32_t offset, uint8_t * bytes, uint32_t size)
+{
+  const int file = storage_open(slot, O_RDONLY);
+  bool is_there;
+
+  if (file < 0) {
+    return false;
+  }
+  is_there = pread(file, bytes, size, (off_t)offset) == (ssize_t)size;
+  return close(file) == 0 && is_there;
+}
