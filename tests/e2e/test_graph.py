@@ -109,6 +109,15 @@ def served(device: Device) -> None:
         time.sleep(0.1)
 
 
+def matched_subscriptions(device: Device) -> int:
+    """Wait until the server has discovered the device's publisher; return how many subscriptions match it."""
+    end = deadline(30)
+    while (result := device.call("count matched_subscriptions"))[0] != OK:
+        assert time.monotonic() < end, result
+        time.sleep(0.1)
+    return int(result[2][0].partition(" ")[2])
+
+
 def compare_names(device: Device, peer: LineProcess) -> None:
     for what, part in (
         ("topics", "/arm/count std_msgs/msg/Int32"),
@@ -158,7 +167,7 @@ def test_what_rclpy_sees(program: Path, agent: object, domain: int) -> None:
 def test_changes_and_matched_counts(program: Path, agent: object, domain: int) -> None:
     with graph_peer(domain) as peer, graph_server(domain), running(program) as device:
         served(device)
-        before = int(device.lines("count matched_subscriptions")[0])
+        before = matched_subscriptions(device)
         peer.ask(do="subscribe", topic="/arm/count")
         assert device.call("change 20000")[0] == OK
         alike(lambda: device.lines("count matched_subscriptions"), lambda: [str(before + 1)])
@@ -182,6 +191,7 @@ def test_a_server_inside_the_agent(program: Path, relay: Relay, domain: int) -> 
             agent.wait_for(SERVER_READY)
         with graph_peer(domain) as peer, running(program) as device:
             served(device)
+            assert matched_subscriptions(device) == 0
             alike(lambda: sorted(device.lines("nodes")), lambda: peer.ask(do="nodes"), "/ microros_graph")
             peer.ask(do="subscribe", topic="/arm/count")
             assert device.call("change 20000")[0] == OK

@@ -83,6 +83,7 @@ def test_over_a_bad_line_rclpy_gets_every_reliable_sample_and_the_agent_says_wha
         started("agent", "serial", "--dev", relay.device, "--domain", str(domain), domain=domain) as agent,
     ):
         agent.wait_for("agent ready")
+        observer.ask(do="samples")  # of another test's board
         running.go_on()
         agent.wait_for("publisher /count")
         relay.fault = noisy(11, 400)

@@ -140,6 +140,9 @@ def test_endpoints_and_counts_are_those_that_rclpy_sees(peer: Peer) -> None:
             expected = here("/data")
             total = partial(asked.endpoints, what, "/data")
             agree(peer, lambda: len(here("/data")), lambda: total()["total"])  # noqa: B023
+            # Endpoints are discovered before the names of their nodes.
+            known = lambda: {e["node"] for e in total()["endpoints"]}  # noqa: B023, E731
+            agree(peer, lambda: {pair.name}, known)
             response = asked.endpoints(what, "/data")
             assert not response["truncated"]
             for item, endpoint in zip(response["endpoints"], expected, strict=True):

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from microros_gen.selection.find_profiles import load_builtin_profiles
 from tests.support.ids import without_id
 from tests.support.migrate.proposals import Init, application_in, entities_of, undecided_in
 from tests.support.paths import ROOT
@@ -18,9 +19,16 @@ APPLICATIONS = sorted(path.parent.name for path in EXAMPLES.glob("*/main.c"))
 
 
 JOINTS = "sensor_msgs/msg/JointState"
+STATUS = "diagnostic_msgs/msg/DiagnosticStatus"
 # ping_pong gives a frame_id 32 bytes, static_types describes its message by rules, time_sync by a text.
 LIMITS = {
     "ping_pong": {("std_msgs/msg/Header", "frame_id"): (31, 31)},
+    "parameters": {
+        (STATUS, "name"): (6, 6),
+        (STATUS, "message"): (14, 14),
+        (STATUS, "values", "key"): (7, 7),
+        ("*",): (64, 16),
+    },
     "time_sync": {("std_msgs/msg/Header", "frame_id"): (5, 5)},
     "static_types": {
         (JOINTS, "header", "frame_id"): (16, 16),
@@ -30,6 +38,10 @@ LIMITS = {
         (JOINTS, "effort"): (1, 1),
     },
 }
+
+
+PROFILES = {"parameters": {"pure_sender"}}
+"""Proposals that name the components of the example's profile instead."""
 
 
 def test_there_are_examples() -> None:
@@ -46,8 +58,12 @@ def test_the_proposal_is_what_the_example_declares(name: str, init: Init, tmp_pa
     assert entities_of(proposed) == entities_of(declared)
     assert proposed.transport.type == declared.transport.type
     assert proposed.transport.framing == declared.transport.framing
-    assert {c.name for c in proposed.components} <= {c.name for c in declared.components}
-    assert {p.name for p in proposed.profiles} == {p.name for p in declared.profiles}
+    writers = {f"logging_{writer.to}" for writer in declared.logging}
+    profiles = [load_builtin_profiles()[profile.name] for profile in declared.profiles]
+    selected = {c.name for c in declared.components}
+    selected |= {c.name for profile in profiles for c in profile.components}
+    assert {c.name for c in proposed.components} <= selected | writers
+    assert {p.name for p in proposed.profiles} == PROFILES.get(name, {p.name for p in declared.profiles})
     limits = {rule.path: (rule.string, rule.sequence) for rule in proposed.limits}
     assert limits == LIMITS.get(name, {})
     # The sources stay where they are, and nobody asked for a golden copy.

@@ -367,6 +367,7 @@ ELSEWHERE = {
 }
 TIMELESS = {
     "base": "constants, and a lock that sleeps a millisecond; no state",
+    "graph": "its waits are those of wait sets; the period is a time-out",
     "entities_binary": "the deadline of a QoS is a number for the agent",
     "entities_preconfigured": "hands a time-out on to the session",
     "logging": "stamps messages with the time of day, which has 64 bits; its period is an unsigned difference",

@@ -7,22 +7,44 @@
 #include "microros/port_storage.h"
 
 #include <fcntl.h>
-#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { STORAGE_PATH_SIZE = 1024, STORAGE_MODE = 0644 };
+enum { STORAGE_PATH_SIZE = 1024, STORAGE_DIGITS = 10, STORAGE_MODE = 0644 };
+
+/* Writes folder, name and number of a slot, at most STORAGE_DIGITS digits; returns false if they have no room. */
+static bool storage_path(char path[STORAGE_PATH_SIZE], const char * folder, uint32_t slot)
+{
+  static const char name[] = "/microros_storage.";
+  const size_t size = strlen(folder);
+  size_t end = size + sizeof(name) - 1u;
+  uint32_t divisor = 1;
+
+  if (size + sizeof(name) + STORAGE_DIGITS > STORAGE_PATH_SIZE) {
+    return false;
+  }
+  (void)memcpy(path, folder, size);
+  (void)memcpy(&path[size], name, sizeof(name));
+  while (slot / divisor >= 10u) {
+    divisor *= 10u;
+  }
+  for (; divisor != 0u; divisor /= 10u) {
+    path[end] = (char)('0' + (char)(slot / divisor % 10u));
+    ++end;
+  }
+  path[end] = '\0';
+  return true;
+}
 
 /* Returns the descriptor of a slot, which the caller closes; -1 if it cannot be opened. */
 static int storage_open(uint32_t slot, int flags)
 {
   const char * const folder = getenv("MICROROS_STORAGE");
   char path[STORAGE_PATH_SIZE];
-  const int size = snprintf(
-    path, sizeof(path), "%s/microros_storage.%lu", folder != NULL ? folder : ".", (unsigned long)slot);
 
-  if (size < 0 || size >= (int)sizeof(path)) {
+  if (!storage_path(path, folder != NULL ? folder : ".", slot)) {
     return -1;
   }
   return open(path, flags | O_CLOEXEC, STORAGE_MODE);
@@ -32,7 +54,9 @@ bool port_storage_erase(uint32_t slot)
 {
   const int file = storage_open(slot, O_WRONLY | O_CREAT | O_TRUNC);
 
-  return file >= 0 && fsync(file) == 0 && close(file) == 0;
+  const bool is_there = file >= 0 && fsync(file) == 0;
+
+  return file >= 0 && close(file) == 0 && is_there;
 }
 
 bool port_storage_write(uint32_t slot, uint32_t offset, const uint8_t * bytes, uint32_t size)
