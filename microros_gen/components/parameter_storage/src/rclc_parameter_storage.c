@@ -77,12 +77,13 @@ static bool storage_is_parameter(const rclc_parameter_server_t * server)
 static bool storage_apply(rclc_parameter_server_t * server, uint32_t slot, uint32_t offset, uint32_t size)
 {
   const uint32_t whole = size - size % (uint32_t)STORAGE_UNIT;
-  uint8_t last[STORAGE_UNIT];
 
   if (size > (uint32_t)sizeof(server->request) || !port_storage_read(slot, offset, server->request, whole)) {
     return false;
   }
   if (size != whole) {
+    uint8_t last[STORAGE_UNIT];
+
     if (!port_storage_read(slot, offset + whole, last, (uint32_t)STORAGE_UNIT)) {
       return false;
     }

@@ -93,10 +93,11 @@ static void storage_put_units(storage_out_t * out, const uint8_t * bytes, uint32
 void microros_storage_put(storage_out_t * out, const uint8_t * bytes, uint32_t size)
 {
   const uint32_t rest = size % (uint32_t)STORAGE_UNIT;
-  uint8_t last[STORAGE_UNIT] = {0};
 
   storage_put_units(out, bytes, size - rest);
   if (rest != 0u) {
+    uint8_t last[STORAGE_UNIT] = {0};
+
     (void)memcpy(last, &bytes[size - rest], rest);
     storage_put_units(out, last, (uint32_t)STORAGE_UNIT);
   }

@@ -12,12 +12,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { STORAGE_PATH_SIZE = 1024, STORAGE_DIGITS = 10, STORAGE_MODE = 0644 };
+enum { STORAGE_PATH_SIZE = 1024, STORAGE_DIGITS = 10 };
 
 /* Writes folder, name and number of a slot, at most STORAGE_DIGITS digits; returns false if they have no room. */
 static bool storage_path(char path[STORAGE_PATH_SIZE], const char * folder, uint32_t slot)
 {
   static const char name[] = "/microros_storage.";
+  static const char digits[] = "0123456789";
   const size_t size = strlen(folder);
   size_t end = size + sizeof(name) - 1u;
   uint32_t divisor = 1;
@@ -31,7 +32,7 @@ static bool storage_path(char path[STORAGE_PATH_SIZE], const char * folder, uint
     divisor *= 10u;
   }
   for (; divisor != 0u; divisor /= 10u) {
-    path[end] = (char)('0' + (char)(slot / divisor % 10u));
+    path[end] = digits[slot / divisor % 10u];
     ++end;
   }
   path[end] = '\0';
@@ -47,7 +48,7 @@ static int storage_open(uint32_t slot, int flags)
   if (!storage_path(path, folder != NULL ? folder : ".", slot)) {
     return -1;
   }
-  return open(path, flags | O_CLOEXEC, STORAGE_MODE);
+  return open(path, flags | O_CLOEXEC, S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH);
 }
 
 bool port_storage_erase(uint32_t slot)
