@@ -10,8 +10,8 @@ import pytest
 from microros_gen import compiler
 from microros_gen.components.parameters.plan import ParametersPlan
 from microros_gen.diagnostics import UserError
-from microros_gen.interfaces.find import shipped_folder
 from microros_gen.interfaces.types import TypeName
+from tests.support.components.rendered import planned
 from tests.support.ids import without_id
 
 BARE = """\
@@ -37,13 +37,6 @@ SERVICES = [
     *("describe_parameters", "get_parameter_types", "get_parameters"),
     *("list_parameters", "set_parameters", "set_parameters_atomically"),
 ]
-
-
-def planned(folder: Path, text: str) -> compiler.Planned:
-    config = folder / "microros.yaml"
-    config.write_text(text)
-    options = compiler.Options(config=config, interface_paths=(shipped_folder(),))
-    return compiler.plan(compiler.resolve(compiler.read(options)))
 
 
 def slice_of(found: compiler.Planned) -> ParametersPlan:
