@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import sys
 import time
+from collections.abc import Callable
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
@@ -45,7 +46,7 @@ class Operator(Node):
         self.changes += [item.value for status in message.status for item in status.values]
 
 
-def wait(node: Operator, what: str, condition) -> None:  # type: ignore[no-untyped-def]
+def wait(node: Operator, what: str, condition: Callable[[], object]) -> None:
     """Spin until `condition()`; exit with the name of what does not come."""
     end = time.monotonic() + TIMEOUT_S
     while not condition():
