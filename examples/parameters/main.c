@@ -46,7 +46,7 @@ static bool on_parameter(const Parameter * old_param, const Parameter * new_para
     const char * const color = new_param->value.string_value.data;
 
     if (strcmp(color, "white") != 0 && strcmp(color, "red") != 0) {
-      RCUTILS_LOG_WARN_NAMED("dimmer", "there is no light of the color %s", color);
+      RCUTILS_LOG_WARN_NAMED("dimmer", "the color %s is not available", color);
       return false;
     }
   }

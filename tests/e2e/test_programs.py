@@ -154,7 +154,7 @@ SET_BY_ROS = [
     "/brightness rises to 50.0",
     "/diagnostics reports 1 change",
     "/rosout: gain changes",
-    "/rosout: there is no light of the color green",
+    "/rosout: the color green is not available",
 ]
 
 

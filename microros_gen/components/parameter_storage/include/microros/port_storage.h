@@ -20,7 +20,7 @@ bool port_storage_erase(uint32_t slot);
 /* Writes `size` bytes, and returns when they are there. Returns false if they are not, or the slot ends before. */
 bool port_storage_write(uint32_t slot, uint32_t offset, const uint8_t * bytes, uint32_t size);
 
-/* Reads `size` bytes, written or not. Returns false if there is no such slot, or it ends before. */
+/* Reads `size` bytes, whether or not they have been written. Returns false if the slot does not exist or is too short. */
 bool port_storage_read(uint32_t slot, uint32_t offset, uint8_t * bytes, uint32_t size);
 
 #ifdef __cplusplus

@@ -280,7 +280,7 @@ rcl_ret_t rclc_parameter_get_string(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, const char ** output);
 
 /* Longer strings than `size` bytes, without the NUL, are refused. RCL_RET_ERROR: no such parameter, it has another type,
- * or a string that is longer already; RCL_RET_INVALID_ARGUMENT: there is no room for so many. */
+ * or a string that is longer already; RCL_RET_INVALID_ARGUMENT: `size` is above the plan's limit. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_add_parameter_constraint_string(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, size_t size);
@@ -330,7 +330,7 @@ rcl_ret_t rclc_parameter_get_double_array(
   size_t * count);
 
 /* More than `size` elements are refused. RCL_RET_ERROR: no such parameter, it is no array, or has more already;
- * RCL_RET_INVALID_ARGUMENT: there is no room for so many. */
+ * RCL_RET_INVALID_ARGUMENT: `size` is above the plan's limit. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_add_parameter_constraint_array(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, size_t size);
