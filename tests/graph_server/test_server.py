@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import select
 import signal
 import subprocess
 import sys
@@ -25,6 +24,7 @@ from microros_gen.graph_server.server import (
 from microros_gen.ros.peer import Peer
 from microros_gen.ros.qos import Qos
 from tests.support.agent.process import environment, own_domain
+from tests.support.e2e.graph_server import graph_server
 from tests.support.patience import seconds
 
 pytestmark = pytest.mark.ros
@@ -35,21 +35,13 @@ READY = "graph server ready: /microros_graph\n"
 
 @pytest.fixture(scope="module")
 def server() -> Iterator[subprocess.Popen[str]]:
+    """The process; peers of this process are in its domain."""
+    domain = own_domain()
     with pytest.MonkeyPatch.context() as patch:
-        for name, value in environment(own_domain()).items():
+        for name, value in environment(domain).items():
             patch.setenv(name, value)
-        process = subprocess.Popen(
-            [sys.executable, "-m", "microros_gen", "graph-server"], stdout=subprocess.PIPE, text=True
-        )
-        assert process.stdout is not None
-        try:
-            assert select.select([process.stdout], [], [], PATIENCE_S)[0]
-            assert process.stdout.readline() == READY
+        with graph_server(domain) as process:
             yield process
-        finally:
-            process.kill()
-            process.wait()
-            process.stdout.close()
 
 
 @pytest.fixture
