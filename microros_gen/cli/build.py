@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,9 @@ from microros_gen.cli.budgets import check_planned
 from microros_gen.cli.generate import files_line, warnings_text
 from microros_gen.cli.options import output_option, selection_options
 from microros_gen.cli.summary import built_summary, plan_summary
+from microros_gen.documents.templates import compile_ahead
 from microros_gen.image.folder import read_folder
+from microros_gen.output.runs import compiled_templates
 from microros_gen.output.tree import check_build_folders
 
 
@@ -31,7 +34,9 @@ def command(output: Path | None, **options: Any) -> None:
     microros-gen build --profile pure_sender
     microros-gen build -c microros.yaml -o build/robot
     """
-    resolved = compiler.resolve(compiler.read(compiler.Options(**options)))
+    request = compiler.read(compiler.Options(**options))
+    compile_ahead(compiled_templates(os.environ))
+    resolved = compiler.resolve(request)
     out = compiler.output_folder(resolved, output)
     planned = compiler.plan(resolved)
     click.echo(warnings_text(planned.warnings), nl=False, err=True)

@@ -13,7 +13,7 @@ import click
 
 from microros_gen import compiler
 from microros_gen.cli.options import output_option, selection_options
-from microros_gen.output.runs import Run, find_run, record_run
+from microros_gen.output.runs import Run, compiled_templates, find_run, record_run
 
 if TYPE_CHECKING:
     from microros_gen.diagnostics import Diagnostic
@@ -49,13 +49,17 @@ def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
         click.echo(last.warnings, nl=False, err=True)
         click.echo(last.summary + _files_line(last.out, 0, last.files, 0), nl=False)
         return
+    started_ns = time.time_ns()
+    request = compiler.read(compiler.Options(**options))
+    from microros_gen.documents.templates import compile_ahead
+
+    compile_ahead(compiled_templates(os.environ))
     from microros_gen.cli.summary import plan_summary
     from microros_gen.compiler.pipeline import read_paths
     from microros_gen.output.depfile import write_depfile
     from microros_gen.output.tree import JOURNAL, MANIFEST
 
-    started_ns = time.time_ns()
-    resolved = compiler.resolve(compiler.read(compiler.Options(**options)))
+    resolved = compiler.resolve(request)
     out = compiler.output_folder(resolved, output)
     planned = compiler.plan(resolved)
     warnings = warnings_text(planned.warnings)
