@@ -48,9 +48,9 @@ from microros_gen.records import dataclass
 
 OUT_OF_SESSION = (SESSION_NONE_WITH_KEY, SESSION_NONE_WITHOUT_KEY)
 SILENT_PART = 0.75
-"""Of the time-out: who was silent for so long, and asked for a sign of life, may lose its place."""
+"""Fraction of the time-out: a client that was silent for so long, despite a probe, may lose its place."""
 LOOK_AGAIN_S = 0.1
-"""Seconds until somebody who could give way is looked for again, after there was nobody."""
+"""Seconds until the agent again looks for a client to remove, after it found no candidate."""
 
 
 @dataclass(frozen=True)
@@ -107,11 +107,11 @@ class Admission:
         transport: Transport,
         now: float,
     ) -> Client | None:
-        """Answer a message outside of any session: CREATE_CLIENT, GET_INFO, and DELETE of a client that has left.
+        """Answer a message outside of any session: CREATE_CLIENT, GET_INFO, or DELETE of a client that has left.
 
-        `client` is the known client of this address. Other messages are counted and not answered, with two exceptions:
-        the message of a client that is to be adopted, and the first message of a newcomer. These are not processed
-        here; their client is returned.
+        `client` is the known client of this address. All other messages are counted and not answered, except two: the
+        message of a client that is to be adopted, and the first message of a newcomer. Their client is returned, for
+        the caller to process the message.
         """
         header = Header.decode(data)
         newcomer = self._newcomers.proved(header, address)
@@ -121,7 +121,7 @@ class Admission:
             self._count_stranger(now)
         elif not client.rate.take(now):
             raise MalformedError("too_many_operations", "a client says too much outside of its session")
-        # What is out of session may be another client's by now: systems give a port to one after another.
+        # A message without a session may be from another client: systems reuse UDP ports.
         left = client is None and header.session not in OUT_OF_SESSION
         key = self._conflicts.observe(transport, address, now) if left else None
         holder = self._clients.with_key(key) if key else None
@@ -131,7 +131,7 @@ class Admission:
             submessage = decode(identifier, flags, data, at, end)
             if isinstance(submessage, WriteData | Heartbeat) and client is None:
                 return self._adopt(header, submessage, address, transport, now)
-            self._strangers.forget(transport, address)  # it knows how to help itself
+            self._strangers.forget(transport, address)  # it opens its session again by itself
             if isinstance(submessage, GetInfo):
                 known = header.session in OUT_OF_SESSION and bool(client or self._newcomers.at(address))
                 if client is not None and known:
@@ -148,7 +148,7 @@ class Admission:
         return None
 
     def move(self, client: Client, transport: Transport, address: Hashable, now: float) -> None:
-        """Note that `client` now sends from another address."""
+        """Register that `client` now sends from another address."""
         before = client.place
         self._conflicts.moved(client, transport, address, now)
         client.transport.release(client.address, moved=True)
@@ -166,7 +166,7 @@ class Admission:
         )
 
     def leave(self, client: Client, data: bytes, at: int) -> None:
-        """Carry out the DELETE of `client` itself, whose payload begins at `data[at]`, and answer it."""
+        """Remove `client` on its own DELETE, whose payload begins at `data[at]`, and answer it."""
         request = data[at] << 8 | data[at + 1]
         status = StatusReply(request, data[at + 2] << 8 | data[at + 3], Status.OK)
         answer = client.session.unnumbered(status)
@@ -174,18 +174,18 @@ class Admission:
         client.send(answer)
 
     def dismiss(self, client: Client, why: str) -> None:
-        """Remove a client; its entities leave the ROS graph, as fast as the rate of changes allows."""
+        """Remove a client; its entities leave the ROS graph as fast as the rate limit of changes allows."""
         self._clients.remove(client)
         client.transport.release(client.address)
         self._deliveries.forget(client)
         client.ready.clear()
         client.work.clear()
         self._turns.begin(client, Job(client.objects.clearing(), adds=False))
-        client.session.reset()  # what its streams hold is not kept alive by who still knows the client
+        client.session.reset()  # release the contents of its streams, even if the client is still referenced
         self._report(client, "client_gone", "client {client} " + why)
 
     def send_away(self, client: Client) -> None:
-        """Dismiss an adopted client that behaves like another one; it is not adopted again."""
+        """Remove an adopted client that turned out to be a different one; it is not adopted again."""
         self._never_adopted.add(client.session.link.key)
         self.dismiss(client, "sent away: it is not what its samples were taken for; it is not adopted again")
 
@@ -234,11 +234,11 @@ class Admission:
             )
 
     def _is_known(self, newcomer: Newcomer) -> bool:
-        """Return whether the address of a newcomer is in use: by a connection, or by a client in session."""
+        """Return whether the address of a newcomer is genuine: a connection, or that of a client in session."""
         return not newcomer.transport.forgeable or self._clients.at(newcomer.address) is not None
 
     def _note(self, newcomer: Newcomer, now: float) -> Status:
-        """Remember a sender whose address may be forged, if there would be a place for it."""
+        """Record a sender whose address may be forged, if a place for its session is available."""
         known = self._clients.with_key(newcomer.link.key) is not None
         if not known and now >= self._full_until and not self._has_room(now):
             self._full_until = now + LOOK_AGAIN_S
@@ -248,7 +248,7 @@ class Admission:
         return Status.OK
 
     def _let_in(self, newcomer: Newcomer, now: float) -> Client:
-        """Return the client that a newcomer becomes with its first message in the session."""
+        """Open the session of a newcomer, which sent its first message in it; return the client."""
         if self._admit(newcomer, now) is not Status.OK:
             raise MalformedError("client_resources", "its place is taken by now")
         client = self._clients.at(newcomer.address)
@@ -278,7 +278,7 @@ class Admission:
         self._report(
             new, "client_connected", text, peer=new.place, session=f"{link.session:#04x}", mtu=link.mtu
         )
-        if client is not None and client.work:  # what it had still leaves the ROS graph: that comes first
+        if client is not None and client.work:  # its old entities leave the ROS graph first
             self._turns.begin(new, client.work[0])
         self._give(new)
         return Status.OK
@@ -313,7 +313,7 @@ class Admission:
         return new
 
     def _give(self, client: Client) -> None:
-        """Create the objects that the files have for a client; existing ones stay."""
+        """Create the preconfigured objects of a client; existing ones stay."""
         if self._held.preconfigured.objects(client.session.link.key):
             self._turns.begin(client, Job(self._giving(client), adds=True))
 
@@ -331,7 +331,7 @@ class Admission:
         transport: Transport,
         now: float,
     ) -> Client | None:
-        """Return the client that a message without a session is from (see `preconfigured`); MalformedError: none."""
+        """Return the client that sent a message without a session (see `preconfigured`), or raise MalformedError."""
         if isinstance(submessage, Heartbeat):
             writer, fits = None, is_reliable(submessage.stream)
         else:
@@ -357,7 +357,7 @@ class Admission:
     def _welcome_back(
         self, client: Client, link: Link, address: Hashable, transport: Transport, now: float
     ) -> None:
-        self.keeping.begin_again(client, now)  # whoever starts again has not asked for anything yet
+        self.keeping.begin_again(client, now)  # a client that restarted has not requested anything yet
         client.session.reset(link)
         client.unacknowledged.clear()
         client.objects.forget_requests()
@@ -371,7 +371,7 @@ class Admission:
         self._give(client)
 
     def _count_stranger(self, now: float) -> None:
-        """Count a message outside of any session; MalformedError when there are too many of them."""
+        """Count a message outside of any session. Raises MalformedError if there are too many."""
         if now >= self._second:
             self._second, self._answered = now + 1.0, 0
         self._answered += 1

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What all clients together may make the agent store, by kind, and what one of them stores of each kind.
+"""Memory budgets: what all clients together may make the agent store, by kind, and the share of each client.
 
-The bytes are upper estimates of what Python and Fast DDS 2.14.5 take, measured on 64 bits.
+The numbers of bytes are upper estimates for Python and Fast DDS 2.14.5, measured on a 64-bit machine.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from microros_gen.agent.wire.constants import ObjectKind
 from microros_gen.records import dataclass
 
 OBJECT_BYTES = 2_048
-"""What an object takes besides its representation and its side in ROS 2."""
+"""Bytes of an object without its representation and its ROS 2 entity."""
 ROS_BYTES = {
     ObjectKind.PARTICIPANT: 8_192,
     ObjectKind.DATAWRITER: 36_864,
@@ -20,55 +20,56 @@ ROS_BYTES = {
     ObjectKind.REQUESTER: 86_016,
     ObjectKind.REPLIER: 98_304,
 }
-"""What the side in ROS 2 of an object takes, without samples."""
+"""Bytes of the ROS 2 entity of an object, by kind, without samples."""
 CALL_BYTES = 256
-"""What an open request takes."""
+"""Bytes of an open request."""
 BASE_BYTES = 80 << 20
-"""What the agent takes without a client, in ROS domains too: Python, ROS 2, and gaps on the heap."""
+"""Bytes of the agent without clients, ROS domains included: Python, ROS 2, and gaps on the heap."""
 BASE_DESCRIPTORS, DOMAIN_DESCRIPTORS, NODE_DESCRIPTORS = 32, 32, 2
-"""Descriptors of the agent without a client, of a ROS domain, and of a node (its events and a timer): of all objects
-a node takes most for the bytes that are counted for it."""
+"""File descriptors of the agent without clients, of a ROS domain, and of a node (its events and a timer).
+
+Of all objects, a node has the most descriptors for its counted bytes."""
 HELD_CALLS_BYTES = 16 << 20
-"""What requests and replies take that wait for the other side of their service (`ros/services.py`)."""
+"""Bytes of requests and replies that wait for the other side of their service (`ros/services.py`)."""
 
 
 @dataclass
 class Gate:
-    """Closed while the memory of the process is tight."""
+    """Closed while the process is short of memory."""
 
     closed: bool = False
 
 
 @dataclass(frozen=True)
 class Shares:
-    """What one client stores; unlimited without pools."""
+    """The memory of one client, in bytes; unlimited without pools."""
 
     history: Holder
-    """Samples in the histories of its writers, and what those of its readers take at least."""
+    """Samples in the histories of its writers, and the minimum memory of those of its readers."""
     objects: Holder
     """Its objects."""
     output: Holder
-    """What waits for it."""
+    """Output that waits for it."""
     calls: Holder
     """Its open requests."""
     object_history: int
-    """Bytes of history that one object of it may have."""
+    """Maximum bytes of history of one of its objects."""
     gate: Gate
-    """Whether anything more may be made."""
+    """Whether more objects may be created."""
 
     @staticmethod
     def unlimited() -> Shares:
-        """Return shares without a limit, for a client that is used alone."""
+        """Return unlimited shares, for a client outside of an agent."""
         return Shares(Holder(), Holder(), Holder(), Holder(), 1 << 62, Gate())
 
     @property
     def held(self) -> int:
-        """All stored bytes."""
+        """Number of all stored bytes."""
         return self.history.held + self.objects.held + self.output.held + self.calls.held
 
 
 class Budgets:
-    """One pool for each kind."""
+    """One pool for each kind of memory, shared by all clients."""
 
     def __init__(self, limits: Limits, connections: int = 0) -> None:
         """Create the pools; `connections` is the number of TCP connections that share the output pool."""
@@ -94,7 +95,7 @@ class Budgets:
 
 
 def cost_of(object_id: int, representation: int) -> int:
-    """Return the bytes that an object takes whose representation has `representation` bytes."""
+    """Return the bytes of an object whose representation has `representation` bytes."""
     return OBJECT_BYTES + 2 * representation + ROS_BYTES.get(ObjectKind(object_id & 0x0F), 0)
 
 
@@ -107,6 +108,6 @@ def most_descriptors(limits: Limits, connections: int) -> int:
 
 
 def most_bytes(limits: Limits) -> int:
-    """Return the bytes that the agent takes when every pool is full."""
+    """Return the bytes of the agent if every pool is full."""
     pools = limits.input_bytes + limits.history_bytes + limits.object_bytes + limits.output_bytes
     return BASE_BYTES + HELD_CALLS_BYTES + pools + limits.call_bytes

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is refused before anything is made: an application of 500 objects costs nothing when its last one cannot be."""
+"""Checks before anything is created, so that an application with an invalid last object costs nothing."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ def part_ids(application: int, description: Application) -> tuple[int, ...]:
 def check_application(
     application: int, description: Application, taken: Collection[int], maximum: int, replace: bool
 ) -> None:
-    """Refuse an application whose parts cannot all be, besides what is `taken` of `maximum` ids (its own is not).
+    """Check that all parts of an application can be created if `taken` of `maximum` ids are in use (its own excluded).
 
-    RefusedError, or BridgeError for names that ROS 2 cannot have.
+    Raises RefusedError, or BridgeError for names that are invalid in ROS 2.
     """
     ids = part_ids(application, description)
     present = [object_id for object_id in ids if object_id in taken]
@@ -64,7 +64,7 @@ def check_application(
 
 
 def check_object(description: Description) -> None:
-    """Refuse what ROS 2 cannot represent, instead of omitting it silently."""
+    """Raise RefusedError for settings that ROS 2 cannot represent, rather than ignore them silently."""
     if isinstance(description, Endpoint) and description.content_filter:
         reason = f"ROS 2 cannot filter by content: '{description.content_filter}'"
         raise RefusedError(Status.INCOMPATIBLE, reason)
@@ -74,7 +74,7 @@ def check_object(description: Description) -> None:
 
 
 def check_names(description: Description) -> None:
-    """Raise BridgeError for names that ROS 2 would refuse."""
+    """Raise BridgeError for names that are invalid in ROS 2."""
     if isinstance(description, Endpoint) and description.topic is not None:
         description = description.topic
     if isinstance(description, Topic):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The samples of one WRITE_DATA, decoded as far as the turn of its client permits."""
+"""Decoding of the samples of one WRITE_DATA, in as many turns of its client as it takes."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from microros_gen.agent.wire.cdr import Reader
 from microros_gen.agent.wire.samples import Sample, cut_samples
 
 SAMPLES = 16
-"""Samples of a sequence between two looks whether the turn is over."""
+"""Number of samples between two checks whether the turn is over."""
 
 
 class TurnOverError(Exception):
-    """The turn of a client ended within a submessage, of which `done` samples are processed."""
+    """The turn of a client ended within a submessage of which `done` samples are processed."""
 
     def __init__(self, done: int) -> None:
         super().__init__(done)
@@ -31,7 +31,7 @@ class Cutting:
         self._cut: list[Sample] = []
 
     def is_of(self, data: bytes, at: int) -> bool:
-        """Return whether it belongs to this submessage."""
+        """Return whether the samples are those of the submessage with its payload at `data[at]`."""
         return self._data is data and self._at == at
 
     def go_on(self, over: Callable[[], bool], done: int) -> Sequence[Sample]:

@@ -195,7 +195,7 @@ class _Reader:
         if setting.value in values:
             self._keys[key] = _value(values[setting.value], setting)
         else:
-            self._without(setting, f"'{setting.value}' is none of {', '.join(values)}", undecided=True)
+            self._without(setting, f"'{setting.value}' is not one of {', '.join(values)}", undecided=True)
 
     def _profiles(self) -> tuple[str, ...]:
         pools = self._groups["pools"]

@@ -92,7 +92,7 @@ def test_several_files_join() -> None:
         ),
         (
             PROFILES.replace(">RELIABLE<", ">RELIABEL<"),
-            "refs0.xml:8:69: error: data_writer 'count__dw': 'qos/reliability/kind' is none of RELIABLE, BEST_EFFORT",
+            "refs0.xml:8:69: error: data_writer 'count__dw': 'qos/reliability/kind' is not one of RELIABLE, BEST_EFFORT",
         ),
         (
             PROFILES.replace(">10<", ">many<"),
@@ -191,11 +191,11 @@ def test_a_client_that_names_its_entities() -> None:
         (
             PROFILES,
             "count_dw",
-            "reference 'count_dw' is none of the 1 of kind datawriter. Did you mean 'count__dw'?",
+            "unknown reference 'count_dw' among 1 of kind datawriter. Did you mean 'count__dw'?",
         ),
-        (PROFILES, "zzz", "reference 'zzz' is none of the 1 of kind datawriter\n"),
-        ("<profiles/>", "x", "reference 'x': this agent has none; start it with --references FILE"),
-        (PROFILES, "y" * 20_000, "is none of the 1 of kind datawriter\n"),
+        (PROFILES, "zzz", "unknown reference 'zzz' among 1 of kind datawriter\n"),
+        ("<profiles/>", "x", "reference 'x': the agent has no references; start it with --references FILE"),
+        (PROFILES, "y" * 20_000, "' among 1 of kind datawriter\n"),
     ],
 )
 def test_an_unknown_reference(references: str, name: str, wanted: str) -> None:

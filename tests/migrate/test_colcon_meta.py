@@ -140,7 +140,7 @@ def test_what_is_not_needed_is_named_with_its_reason_and_line(init: Init, tmp_pa
             "declare the nodes and write `components: [+graph]`, which needs a graph server",
         ),
         ("RMW_UXRCE_ALLOW_DYNAMIC_ALLOCATIONS=ON", "pools do not grow: the library has no heap"),
-        ("RMW_UXRCE_CREATION_MODE=xml", "'xml' is none of bin, refs"),
+        ("RMW_UXRCE_CREATION_MODE=xml", "'xml' is not one of bin, refs"),
         ("RMW_UXRCE_TRANSPORT=custom_serial", "the transport 'custom_serial' is not known here"),
         ("RMW_UXRCE_MAX_SUBSCRIPTIOS=2", "not known here. Did you mean 'RMW_UXRCE_MAX_SUBSCRIPTIONS'?"),
     ],

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Objects that an agent makes for clients that create none (`entities: preconfigured`)."""
+"""Objects that the agent creates for clients that create none (`entities: preconfigured`)."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from microros_gen.records import dataclass
 
 @dataclass(frozen=True)
 class PreconfiguredObject:
-    """One object; `id` is (index << 4) | kind as in DDS-XRCE, `parent` that of what contains it.
+    """One object. `id` is (index << 4) | kind as in DDS-XRCE (clause 7.7), `parent` the id of its container.
 
-    A participant has `name` and `domain`, a topic `name` and `type` (names of DDS), a data writer or reader `topic` (an
-    object id) and its quality of service; depth 0 means the default of 1. A requester or replier has the `name` of
-    its service and the DDS names of its types and topics; topics may be empty, then they follow from the name.
+    A participant has `name` and `domain`, a topic `name` and `type` (DDS names), a data writer or reader `topic` (an
+    object id) and its QoS; `depth` 0 means the default of 1. A requester or replier has the `name` of its service and
+    the DDS names of its types and topics; empty topic names are derived from the service's name.
     """
 
     id: int
@@ -38,9 +38,9 @@ class PreconfiguredObject:
 
 @dataclass(frozen=True)
 class PreconfiguredClient:
-    """A client by its key (4 bytes, None: every client without its own entry) and its objects, parents first.
+    """The objects, containers first, of the client with `key` (4 bytes; None: every client without an entry).
 
-    `adopt`: the client never opens its session again, so its samples are taken when no session of it is known.
+    `adopt`: the client never opens its session again, so the agent accepts its samples without a session.
     """
 
     key: bytes | None

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Text of an entities file (`microros-gen agent … --entities`) → clients and their objects.
+"""Parser of entities files (`microros-gen agent … --entities`): clients and their objects.
 
-The file is JSON, which YAML includes; every fault is reported at its place in one run.
+The file is JSON, a subset of YAML. All faults are reported in one run, each with its position.
 
     {"version": 1, "clients": [{"key": "0xAABBCCDD", "objects": [
       {"id": "0x0001", "kind": "participant", "name": "imu_node", "domain": 0},
@@ -13,11 +13,11 @@ The file is JSON, which YAML includes; every fault is reported at its place in o
        "request_type": "std_srvs::srv::dds_::SetBool_Request_",
        "reply_type": "std_srvs::srv::dds_::SetBool_Response_"}]}]}
 
-Subscribers and data readers are like publishers and data writers, requesters like repliers. The topics of these follow
-from the name (`rq/armRequest`, `rr/armReply`) unless `request_topic` and `reply_topic` name them.
+Subscribers and data readers have the same keys as publishers and data writers, requesters the same as repliers. Topics
+of services are derived from the name (`rq/armRequest`, `rr/armReply`) unless `request_topic` and `reply_topic` are set.
 
-`key` "*" applies to every client without its own entry. `adopt: true` is for a client without liveliness, which
-never opens its session again: the agent takes its samples also after a restart (agent/preconfigured.py).
+`key` "*" applies to every client without an entry. `adopt: true` is for a client without liveliness, which never opens
+its session again: the agent accepts its samples even after the agent restarted (agent/preconfigured.py).
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ _KEYS: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = MappingProxyType(
         "replier": (("id", "kind", "parent", "name", *_TYPES), _TOPICS),
     }
 )
-"""Keys that an object must have, and may have."""
+"""Required and optional keys of each kind of object."""
 _PARENT: Mapping[str, str] = MappingProxyType(
     {
         "topic": "participant",
@@ -83,7 +83,7 @@ _DEPTHS = range(65_536)
 def parse_preconfigured(
     sources: Sequence[Source], diagnostics: Diagnostics
 ) -> tuple[PreconfiguredClient, ...]:
-    """Return the clients of some files; what is wrong goes to `diagnostics`."""
+    """Return the clients of all files; report faults to `diagnostics`."""
     found = [client for source in sources for client in _clients(source, diagnostics)]
     if not diagnostics.has_errors():
         _check_distinct(found, diagnostics)
@@ -91,7 +91,7 @@ def parse_preconfigured(
 
 
 def _clients(source: Source, diagnostics: Diagnostics) -> list[PreconfiguredClient]:
-    # A tab in JSON is never inside a text; YAML takes none as space between values.
+    # Tabs are valid white space between the values of JSON, but not in YAML; texts in JSON contain none.
     tree = parse_yaml(Source(source.name, source.text.replace("\t", " ")), diagnostics)
     if tree is None:
         if not source.text.strip():
@@ -172,15 +172,15 @@ def _check_distinct(clients: list[PreconfiguredClient], diagnostics: Diagnostics
 
 
 class _Objects:
-    """Reads the objects of one client in their order; each may name those before it."""
+    """Reader of the objects of one client, in order; each object may refer to earlier ones."""
 
     def __init__(self, diagnostics: Diagnostics) -> None:
         self._diagnostics = diagnostics
-        self._unsure = False  # an id or a kind was wrong: what names that object is not at fault
+        self._unsure = False  # an id or kind was wrong, so references to that object are not reported
         self.found: dict[int, PreconfiguredObject] = {}
 
     def read(self, item: YamlNode) -> None:
-        """Read one object; it is kept when nothing is wrong with its id and kind."""
+        """Read one object and add it to `found` if its kind is known and its id is new."""
         node = expect_mapping(item, "an object", self._diagnostics)
         if node is None:
             return

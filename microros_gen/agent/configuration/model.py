@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a configuration file of the agent says. Paths are as written; whoever reads the file knows its folder."""
+"""The contents of the agent's configuration file. Paths are as written, relative to the file's folder."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from microros_gen.records import dataclass
 
 @dataclass(frozen=True)
 class SocketChoice:
-    """A UDP or TCP transport: `kind` is udp4, udp6, tcp4 or tcp6; without `bind` it listens on the loopback address.
+    """A UDP or TCP transport: `kind` is udp4, udp6, tcp4 or tcp6; `port` is 0 to 65,535.
 
-    `limits` are those of TCP connections, by name.
+    Without `bind` it listens on the loopback address. `limits` are those of TCP connections, by name.
     """
 
     kind: str
@@ -34,7 +34,7 @@ class SerialChoice:
 
 @dataclass(frozen=True)
 class PtyChoice:
-    """A pseudo-terminal, and the symbolic link to make to it."""
+    """A pseudo-terminal, and the path of the symbolic link that points to it."""
 
     link: str | None = None
     span: Span | None = field(default=None, compare=False, repr=False)
@@ -45,7 +45,7 @@ TransportChoice = SocketChoice | SerialChoice | PtyChoice
 
 @dataclass(frozen=True)
 class NamedPath:
-    """A path as written, and where."""
+    """A path as written, and its position in the file."""
 
     path: str
     span: Span | None = field(default=None, compare=False, repr=False)
@@ -53,9 +53,9 @@ class NamedPath:
 
 @dataclass(frozen=True)
 class AgentFile:
-    """Everything that the file may say; None and empty: nothing was said.
+    """All contents of the file; keys that are not set are None, False or empty.
 
-    `discovery` is a port. `limits` are those of the agent (microros_gen.agent.limits), by name.
+    `discovery` is a UDP port. `limits` are those of the agent (microros_gen.agent.limits), by name.
     """
 
     transports: tuple[TransportChoice, ...] = ()

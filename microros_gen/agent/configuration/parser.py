@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Text of a configuration file (`microros-gen agent --config`) → what it says. Every fault is reported at its place.
+"""Parser of the agent's configuration file (`microros-gen agent --config`). Every fault is reported with its position.
 
-The structure is that of agent.schema.json, which editors use as well.
+The structure is defined by agent.schema.json, which editors use as well.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ _TCP_LIMITS = ("connections", "connections_per_host", "output_bytes", "patience_
 
 @reads
 def parse_agent_file(source: Source, diagnostics: Diagnostics) -> AgentFile:
-    """Return what the file says; what is wrong goes to `diagnostics`, and reads as not there."""
+    """Return the contents of the file; report faults to `diagnostics` and then return an empty AgentFile."""
     found = Diagnostics()
     tree = parse_yaml(source, found)
     if not found.has_errors():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""From what a CREATE carries (binary, XML or reference) to one description of the object."""
+"""Parsing of the representations in a CREATE (binary, XML or reference) into one description of the object."""
 
 from __future__ import annotations
 
@@ -42,10 +42,10 @@ __all__ = [
 
 
 def describe(create: Create, references: References, known: Known | None = None) -> Description:
-    """Return what `create` describes; `known` is what XML may name.
+    """Return the description in `create`, a CREATE (DDS-XRCE 1.0, 7.7.3); XML may refer to the contents of `known`.
 
-    MalformedError when it cannot be read, UnknownReferenceError for a name that `references` does not hold,
-    UnknownNameError for one that `known` does not, UnsupportedKindError for a kind of object without that form.
+    Raises MalformedError if it is invalid, UnknownReferenceError for a name that is not in `references`,
+    UnknownNameError for one that is not in `known`, and UnsupportedKindError if the kind of object has no such form.
     """
     if create.format == Format.BINARY:
         return from_binary(create)

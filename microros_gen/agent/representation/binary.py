@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Binary representations (DDS-XRCE 1.0, annex A, OBJK_*_Binary); alignment counts from the blob's start."""
+"""Binary representations (DDS-XRCE 1.0, annex A, OBJK_*_Binary); alignment is relative to the start of the body."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _DURABILITY = (
 
 
 def from_binary(create: Create) -> Description:
-    """Return what the blob of `create` describes; MalformedError, UnsupportedKindError for other kinds."""
+    """Return the description in the binary `create`. Raises MalformedError, or UnsupportedKindError for other kinds."""
     reader = Reader(create.body, 0, len(create.body), create.little)
     if create.kind == ObjectKind.PARTICIPANT:
         return _participant(reader, create.domain)
@@ -76,7 +76,7 @@ def _reader(reader: Reader) -> Endpoint:
         return Endpoint(None, topic, Qos(reliable=False))
     qos = _qos(reader)
     if reader.remaining() == 0:
-        return Endpoint(None, topic, qos)  # the qualities of a writer: some clients send no more
+        return Endpoint(None, topic, qos)  # some clients send the shorter QoS of a writer
     separation = reader.optional(reader.u32) or 0
     return Endpoint(None, topic, qos, separation, reader.optional(reader.string) or "")
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The XML of the standard itself (DDS-XRCE 1.0, 7.7.3.2 to 7.7.3.11, after DDS-XML): types, qualities, applications.
+"""The XML of the standard (DDS-XRCE 1.0, 7.7.3.2 to 7.7.3.11, based on DDS-XML): types, QoS profiles, applications.
 
-Clients of the public library write Fast DDS profiles instead (module `xml`); an element with the attributes of DDS-XML
-(`topic_ref`, `register_type_ref`) is read here. Qualities that are not said have the defaults of DDS: writers reliable,
-readers best effort, volatile, the last sample.
+Clients of the public library send Fast DDS profiles instead (module `xml`); elements with the attributes of DDS-XML
+(`topic_ref`, `register_type_ref`) are read here. QoS policies that are not set have the defaults of DDS: writers are
+reliable, readers best effort; both are volatile and keep the last sample.
 """
 
 from __future__ import annotations
@@ -33,30 +33,30 @@ from microros_gen.records import dataclass
 Element = ElementTree.Element
 _T = TypeVar("_T")
 WRITER, READER = Qos(), Qos(reliable=False)
-"""What DDS takes where nothing is said."""
+"""The default QoS of DDS for writers and readers."""
 _RELIABILITY = {"RELIABLE": True, "BEST_EFFORT": False}
 _HISTORY = {"KEEP_LAST": True, "KEEP_ALL": False}
 _DURABILITY = {member.name: member for member in Durability}
 _TYPES = ("struct", "union", "enum", "typedef", "bitmask", "bitset")
 _LONGEST = 0xFFFFFFFF
-"""Milliseconds: the largest deadline or lifespan; a longer one is none."""
+"""Largest deadline or lifespan in ms; a longer one is treated as infinite."""
 
 
 @dataclass(frozen=True)
 class Known:
-    """What descriptions may name: qualities by `Library::Profile`, and the topics of a participant by their names."""
+    """What a description may refer to: QoS profiles by `Library::Profile`, and topics of its participant by name."""
 
     profiles: Mapping[str, QosProfile] = field(default_factory=dict)
     topics: Mapping[str, Topic] = field(default_factory=dict)
 
 
 def is_standard(element: Element) -> bool:
-    """Return whether an element is written as DDS-XML has it."""
+    """Return whether an element has attributes that only DDS-XML has."""
     return "topic_ref" in element.attrib or "register_type_ref" in element.attrib
 
 
 def read_types(root: Element, text: str) -> TypeDefinition:
-    """Return the type that a `types` element defines: the one that is not nested; MalformedError for none or more."""
+    """Return the one type in `types` that is not nested. Raises MalformedError unless there is exactly one."""
     _expect(root, "types")
     found = [name for name, nested in _types_in(root, "") if not nested]
     if len(found) != 1:
@@ -65,13 +65,13 @@ def read_types(root: Element, text: str) -> TypeDefinition:
 
 
 def read_qos_library(root: Element, known: Known) -> QosProfile:
-    """Return the one profile of a `qos_library`."""
+    """Return the only profile of a `qos_library`. Raises MalformedError, or UnknownNameError for its base profile."""
     _expect(root, "qos_library")
     return read_qos_profile(_name(root), _only(root, "qos_profile"), known)
 
 
 def read_qos_profile(library: str, profile: Element, known: Known) -> QosProfile:
-    """Return a profile of the library with a name."""
+    """Return a profile (`qos_profile`) of the library named `library`. Raises as `read_qos_library`."""
     base = _profile(profile.get("base_name", ""), known)
     return QosProfile(
         f"{library}::{_name(profile)}",
@@ -81,13 +81,13 @@ def read_qos_profile(library: str, profile: Element, known: Known) -> QosProfile
 
 
 def read_application_library(root: Element, known: Known) -> Application:
-    """Return the one application of an `application_library`, with everything in it."""
+    """Return the only application of an `application_library`. Raises MalformedError or UnknownNameError."""
     _expect(root, "application_library")
     return read_application(_name(root), _only(root, "application"), known)
 
 
 def read_application(library: str, application: Element, known: Known) -> Application:
-    """Return an application of the library with a name."""
+    """Return an application of the library `library`, with its parts. Raises MalformedError or UnknownNameError."""
     parts: list[Part] = []
     for element in application.findall("domain_participant"):
         _add_participant(parts, element, known)
@@ -95,7 +95,7 @@ def read_application(library: str, application: Element, known: Known) -> Applic
 
 
 def read_participant(root: Element, domain: int) -> Participant:
-    """Return the one participant of a `domain_participant_library`; its domain is that of the CREATE."""
+    """Return the only participant of a `domain_participant_library`; `domain` is that of the CREATE."""
     _expect(root, "domain_participant_library")
     element = _only(root, "domain_participant")
     check_alone(element, ("topic", "publisher", "subscriber"))
@@ -103,7 +103,7 @@ def read_participant(root: Element, domain: int) -> Participant:
 
 
 def check_alone(element: Element, contents: tuple[str, ...]) -> None:
-    """Refuse an element with objects in it: they would have no ids by which to use them (MalformedError)."""
+    """Raise MalformedError if an element contains objects: without ids, a client could not use them."""
     inside = next((child.tag for child in element if child.tag in contents), None)
     if inside is not None:
         raise MalformedError(
@@ -112,7 +112,7 @@ def check_alone(element: Element, contents: tuple[str, ...]) -> None:
 
 
 def read_topic(element: Element, types: Mapping[str, str] | None = None) -> Topic:
-    """Return a topic; `types`: names by which types are registered."""
+    """Return a topic; `types` maps registered names to types. Raises MalformedError if the topic names no type."""
     reference = element.get("register_type_ref", "")
     if not reference:
         raise MalformedError("xml", f"topic '{_name(element)}' has no register_type_ref")
@@ -120,7 +120,7 @@ def read_topic(element: Element, types: Mapping[str, str] | None = None) -> Topi
 
 
 def read_endpoint(element: Element, known: Known) -> Endpoint:
-    """Return a data writer or reader; UnknownNameError when it names what is not there."""
+    """Return a data writer or reader. Raises UnknownNameError for an unknown topic or QoS profile."""
     name = element.get("topic_ref", "")
     topic = known.topics.get(name)
     if topic is None:
@@ -176,7 +176,7 @@ def _choice(element: Element, policy: str, choices: Mapping[str, _T], default: _
         return default
     found = choices.get(value.removesuffix(f"_{policy.upper()}_QOS"))
     if found is None:
-        raise MalformedError("xml", f"{policy} '{value[:40]}' is none of {', '.join(choices)}")
+        raise MalformedError("xml", f"{policy} '{value[:40]}' is not one of {', '.join(choices)}")
     return found
 
 
@@ -196,7 +196,7 @@ def _milliseconds(element: Element, path: str, default: int = 0) -> int:
 def _profile(name: str, known: Known) -> QosProfile:
     if not name:
         return QosProfile("")
-    library, _, profile = name.replace("::", ":").partition(":")  # the standard writes both
+    library, _, profile = name.replace("::", ":").partition(":")  # the standard uses both separators
     found = known.profiles.get(f"{library}::{profile}")
     if found is None:
         raise UnknownNameError(f"unknown quality of service '{name}'")

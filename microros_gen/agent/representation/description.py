@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What an object is, whichever way the client described it."""
+"""Descriptions of objects, independent of the form in which the client sent them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Durability(Enum):
 
 @dataclass(frozen=True)
 class Qos:
-    """Quality of service of an endpoint; depth 0 means the default of 1; times in ms, 0 for no limit."""
+    """Quality of service of an endpoint. `depth` 0 means the default of 1; times are in ms, 0 means no limit."""
 
     reliable: bool = True
     durability: Durability = Durability.VOLATILE
@@ -35,7 +35,7 @@ class Qos:
 
 @dataclass(frozen=True)
 class Participant:
-    """A participant: a ROS node. `name` is `node` or `namespace/node`, or empty."""
+    """A participant, which becomes a ROS node. `name` is `node`, `namespace/node` or empty; `domain` is 0 to 232."""
 
     name: str
     domain: int
@@ -61,7 +61,8 @@ class Group:
 class Endpoint:
     """A data writer or reader; its topic is described in place (XML) or is the object `topic_id` (binary).
 
-    `separation_ms`: a reader's time-based filter. `content_filter`: what it asks for, which ROS 2 does not have.
+    `separation_ms`: minimum time between two samples of a reader (time-based filter), 0 for no minimum.
+    `content_filter`: filter expression that the client requests; ROS 2 has no such filters, so it is refused.
     """
 
     topic: Topic | None
@@ -73,7 +74,7 @@ class Endpoint:
 
 @dataclass(frozen=True)
 class Service:
-    """A requester or a replier; topic names may be empty, then they follow from the service's name."""
+    """A requester or replier. If its topic names are empty, they are derived from the service's name."""
 
     name: str
     request_type: str
@@ -84,9 +85,9 @@ class Service:
 
 @dataclass(frozen=True)
 class TypeDefinition:
-    """A type by its full name; `text` is its definition in XML, empty for one that is named only.
+    """A type by its full name; `text` is its definition in XML, empty if the client sent only the name.
 
-    ROS 2 knows its types by name, so a definition is kept and compared, and not used.
+    ROS 2 identifies types by name, so the definition is only compared with that of another CREATE.
     """
 
     name: str
@@ -95,7 +96,7 @@ class TypeDefinition:
 
 @dataclass(frozen=True)
 class QosProfile:
-    """A named quality of service (`Library::Profile`) for writers and for readers; None: it does not say."""
+    """A QoS profile, named `Library::Profile`, for writers and for readers; None if it does not define one."""
 
     name: str
     writer: Qos | None = None
@@ -104,7 +105,7 @@ class QosProfile:
 
 @dataclass(frozen=True)
 class Part:
-    """An object within an application: its kind, and the place of its container among the parts (None: none)."""
+    """An object in an application: its kind, and the index of its container among the parts (None: no container)."""
 
     kind: int
     container: int | None
@@ -113,7 +114,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Application:
-    """Several objects that are made together, containers before what they contain."""
+    """Several objects that are created together; containers come before their contents."""
 
     name: str
     parts: tuple[Part, ...] = ()
@@ -123,8 +124,8 @@ Description = Participant | Topic | Group | Endpoint | Service | TypeDefinition 
 
 
 class UnknownNameError(Exception):
-    """A description names a topic or a quality of service that is not there; the text is for people."""
+    """A description refers to an unknown topic or QoS profile; the text is for people."""
 
 
 class UnsupportedKindError(Exception):
-    """An object of a kind that the agent does not have; the text names the kind."""
+    """A description is of a kind that the agent does not support; the text names the kind."""

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files of references, as the public agent takes them with `-r`: XML profiles of Fast DDS.
+"""Reference files, as the public agent reads them with `-r`: XML profiles of Fast DDS.
 
 The root is `profiles`, or `dds` with `profiles` in it. Each participant, topic, data_writer, data_reader, requester
-and replier has the attribute `profile_name`, by which a CREATE names it; publisher and subscriber are older names of
-data_writer and data_reader. Profiles of other things (transports, types, logs) are none of the agent's business.
-Libraries of DDS-XML may follow, or be the root: `qos_library` and `application_library`, whose content a CREATE
-names as `Library::Name` (DDS-XRCE 1.0, 7.7.3.2.1 and 7.7.3.5.1).
+and replier has the attribute `profile_name`, by which a CREATE refers to it; publisher and subscriber are older names
+of data_writer and data_reader. Profiles of anything else (transports, types, logs) are ignored. Libraries of DDS-XML
+may follow, or be the root: `qos_library` and `application_library`, to whose contents a CREATE refers as
+`Library::Name` (DDS-XRCE 1.0, 7.7.3.2.1 and 7.7.3.5.1).
 
     <profiles>
         <participant profile_name="participant_profile"><rtps><name>imu_node</name></rtps></participant>
@@ -45,12 +45,12 @@ _SERVED = (
 )
 _OTHERS = ("domainparticipant_factory", "library_settings", "transport_descriptors", "types", "log")
 _LIBRARIES = ("qos_library", "application_library")
-"""Of DDS-XML, as the standard describes them; qualities first, for applications name them."""
+"""Libraries of DDS-XML; QoS libraries come first, since applications refer to them."""
 _BESIDE_PROFILES = ("library_settings", "types", "log", *_LIBRARIES)
 
 
 def read_references(sources: Sequence[Source]) -> References:
-    """Return what the files hold together; UserError with every fault and its place."""
+    """Return the descriptions in all files. Raises UserError with a diagnostic for every fault."""
     diagnostics = Diagnostics()
     gathered = _Gathered(diagnostics)
     libraries: list[tuple[Element, _Tree]] = []
@@ -69,7 +69,7 @@ def read_references(sources: Sequence[Source]) -> References:
 
 
 class _Tree:
-    """The elements of one file and where each begins; tags without their namespace."""
+    """The elements of one file and their positions; tags have no namespace."""
 
     def __init__(self, source: Source) -> None:
         self._source = source
@@ -83,7 +83,7 @@ class _Tree:
         self._doctypes: list[Span] = []
 
     def parse(self, diagnostics: Diagnostics) -> Element | None:
-        """Return the root; None and an error when the text is not well-formed XML."""
+        """Return the root; report an error and return None if the text is not well-formed XML."""
         try:
             self._parser.Parse(self._source.text.encode(), True)
         except expat.ExpatError as error:
@@ -98,7 +98,7 @@ class _Tree:
         return None if self._doctypes else self._builder.close()
 
     def place(self, element: Element) -> Span:
-        """Return where an element begins."""
+        """Return the position of an element."""
         return self._spans[element]
 
     def _here(self) -> Span:
@@ -123,7 +123,7 @@ class _Gathered:
         self.known: dict[tuple[int, str], Description] = {}
 
     def add(self, element: Element, tree: _Tree) -> None:
-        """Add a profile."""
+        """Add a profile; report it if it is invalid or a duplicate."""
         place = tree.place(element)
         if element.tag not in _SERVED:
             if element.tag not in _OTHERS:
@@ -144,7 +144,7 @@ class _Gathered:
             self._keep(found, name, place)
 
     def add_library(self, library: Element, tree: _Tree) -> None:
-        """Add what a library of qualities of service or of applications holds, as `Library::Name`."""
+        """Add the contents of a QoS or application library as `Library::Name`; report faults and duplicates."""
         name = library.get("name", "")
         if not name:
             self._diagnostics.error(

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """XML representations, in the profile language that Fast DDS reads.
 
-Defaults are those of that language: writers reliable and transient-local, readers best effort and volatile,
-KEEP_LAST with depth 1.
+Its defaults apply: writers are reliable and transient-local, readers best effort and volatile; KEEP_LAST with depth 1.
 """
 
 from __future__ import annotations
@@ -41,7 +40,7 @@ _MAXIMUM_DEPTH = 65_535
 
 
 class XmlError(MalformedError):
-    """An element that does not say what it should; `element` is it, or the one that lacks it."""
+    """An element is invalid or missing; `element` is the invalid one, or the one in which it is missing."""
 
     def __init__(self, element: Element, detail: str) -> None:
         super().__init__("xml", detail)
@@ -49,9 +48,9 @@ class XmlError(MalformedError):
 
 
 def from_xml(kind: int, text: str, domain: int, known: Known | None = None) -> Description:
-    """Return what `text` describes; `known` is what it may name.
+    """Return the description in `text`, which may refer to the contents of `known`; `domain` is that of the CREATE.
 
-    MalformedError, UnknownNameError, or UnsupportedKindError for kinds without an XML form.
+    Raises MalformedError, UnknownNameError, or UnsupportedKindError for kinds without an XML form.
     """
     known = known or Known()
     if kind == ObjectKind.TYPE:
@@ -65,7 +64,7 @@ def from_xml(kind: int, text: str, domain: int, known: Known | None = None) -> D
     tag, read = _READERS[kind]
     if not text.strip():
         if kind in (ObjectKind.PUBLISHER, ObjectKind.SUBSCRIBER):
-            return Group()  # clients send the empty text for these
+            return Group()  # clients send an empty text for these
         raise MalformedError("xml", "empty")
     root = _parse(text)
     if kind == ObjectKind.PARTICIPANT and root.tag == "domain_participant_library":
@@ -77,7 +76,7 @@ def from_xml(kind: int, text: str, domain: int, known: Known | None = None) -> D
 
 
 def from_profile(element: Element) -> tuple[int, Description] | None:
-    """Return kind and description of a profile; None for profiles of other things; XmlError for a faulty one."""
+    """Return kind and description of a profile; None for anything else. Raises XmlError if it is invalid."""
     tag = _OLDER_TAGS.get(element.tag, element.tag)
     for kind, (name, read) in _READERS.items():
         if name == tag and kind not in (ObjectKind.PUBLISHER, ObjectKind.SUBSCRIBER):
@@ -165,7 +164,7 @@ def _choice(element: Element, path: str, default: str, choices: tuple[str, ...])
         if value.removesuffix(ending) in choices:
             return value.removesuffix(ending)
     place = element.find(path)
-    raise XmlError(element if place is None else place, f"'{path}' is none of {', '.join(choices)}")
+    raise XmlError(element if place is None else place, f"'{path}' is not one of {', '.join(choices)}")
 
 
 def _service(element: Element, _domain: int) -> Service:
@@ -190,4 +189,4 @@ _READERS: Mapping[int, tuple[str, Callable[[Element, int], Description]]] = Mapp
 )
 
 _OLDER_TAGS: Mapping[str, str] = MappingProxyType({"publisher": "data_writer", "subscriber": "data_reader"})
-"""In files of profiles the older names of writers and readers; in a CREATE they are groups."""
+"""Older names of writers and readers in files of profiles; in a CREATE these are groups."""

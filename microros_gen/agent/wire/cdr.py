@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reading and writing XCDR1 in strict bounds; alignment counts from the first byte given."""
+"""Bounds-checked reader and writer of XCDR1; alignment is relative to the first byte of the payload."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from microros_gen.agent.wire.errors import MalformedError
 
 T = TypeVar("T")
 MOST_ELEMENTS = 8_192
-"""Elements of one sequence: samples in a message of 64 KiB, each with its length, are not more."""
+"""Maximum number of elements of a sequence: a message of 64 KiB holds no more samples with their lengths."""
 
 
 class Reader:
-    """Reads one payload (`data[start:end]`); every method raises MalformedError instead of leaving it."""
+    """Reader of one payload, `data[start:end]`. Every method raises MalformedError rather than read beyond its end."""
 
     def __init__(self, data: bytes, start: int, end: int, little: bool) -> None:
         self._data = data
@@ -30,7 +30,7 @@ class Reader:
         return self._end - self._at
 
     def raw(self, size: int) -> bytes:
-        """Return the next `size` bytes as they are."""
+        """Return the next `size` bytes, unaligned."""
         if size > self._end - self._at:
             raise MalformedError("truncated", f"{size} bytes wanted, {self._end - self._at} left")
         start = self._at
@@ -38,7 +38,7 @@ class Reader:
         return bytes(self._data[start : self._at])
 
     def rest(self) -> bytes:
-        """Return everything that is left."""
+        """Return all remaining bytes."""
         return self.raw(self._end - self._at)
 
     def u8(self) -> int:
@@ -46,7 +46,7 @@ class Reader:
         return self.raw(1)[0]
 
     def identifier(self) -> int:
-        """Return a request or object id: two bytes, first one high, whatever the byte order flag says."""
+        """Return a request or object id: two bytes, always high byte first."""
         pair = self.raw(2)
         return pair[0] << 8 | pair[1]
 
@@ -63,7 +63,7 @@ class Reader:
         return self._number("I", 4)
 
     def u64(self) -> int:
-        """Return an unsigned 64-bit number, aligned to 4 as in XCDR2."""
+        """Return an unsigned 64-bit number, aligned to 4 as in XCDR2 (XCDR1 would align it to 8)."""
         low, high = self.u32(), self.u32()
         return low | high << 32 if self.little else low << 32 | high
 
@@ -72,39 +72,39 @@ class Reader:
         return self._number("i", 4)
 
     def flag(self) -> bool:
-        """Return a boolean; a byte other than 0 and 1 is malformed."""
+        """Return a boolean. Raises MalformedError for bytes other than 0 and 1."""
         value = self.u8()
         if value > 1:
             raise MalformedError("boolean", f"byte {value:#04x}")
         return value == 1
 
     def string(self) -> str:
-        """Return a string: u32 length that counts the closing NUL, then UTF-8."""
+        """Return a string: u32 length including the terminating NUL, then UTF-8. Length 0 means the empty string."""
         size = self.u32()
         if size == 0:
             return ""
         text = self.raw(size)
         if text[-1] != 0:
-            raise MalformedError("string", "it does not end in NUL")
+            raise MalformedError("string", "not terminated by NUL")
         try:
             return text[:-1].decode("utf-8")
         except UnicodeDecodeError as error:
-            raise MalformedError("string", "it is not UTF-8") from error
+            raise MalformedError("string", "invalid UTF-8") from error
 
     def octets(self) -> bytes:
         """Return a sequence of bytes: u32 count, then the bytes."""
         return self.raw(self.u32())
 
     def optional(self, read: Callable[[], T]) -> T | None:
-        """Return what `read` returns when the flag byte before it says that it is there, else None."""
+        """Return None if the flag byte that comes first is 0, else what `read` returns."""
         return read() if self.flag() else None
 
     def sequence(self, read: Callable[[], T]) -> tuple[T, ...]:
-        """Return a sequence: u32 count, then as many elements of at least one byte each."""
+        """Return a sequence: u32 count, then that many elements, each read by `read` and at least one byte long."""
         return tuple(read() for _ in range(self.count()))
 
     def count(self) -> int:
-        """Return how many elements of at least one byte each follow."""
+        """Return the u32 count of elements that follow, each at least one byte long; at most MOST_ELEMENTS."""
         count = self.u32()
         if count > self.remaining():
             raise MalformedError("truncated", f"{count} elements announced, {self.remaining()} bytes left")
@@ -122,7 +122,7 @@ class Reader:
 
 
 class Writer:
-    """Builds one payload; padding is zero."""
+    """Writer of one payload; every method returns the writer. Padding bytes are 0."""
 
     def __init__(self, little: bool = True) -> None:
         self._out = bytearray()
@@ -134,7 +134,7 @@ class Writer:
         return bytes(self._out)
 
     def raw(self, value: bytes) -> Writer:
-        """Append bytes as they are."""
+        """Append bytes, unaligned."""
         self._out += value
         return self
 
@@ -174,23 +174,23 @@ class Writer:
         return self.u8(1 if value else 0)
 
     def string(self, value: str) -> Writer:
-        """Append a string with its length and closing NUL."""
+        """Append a string: u32 length including the terminating NUL, then UTF-8 and the NUL."""
         text = value.encode("utf-8") + b"\0"
         return self.u32(len(text)).raw(text)
 
     def octets(self, value: bytes) -> Writer:
-        """Append a sequence of bytes with its count."""
+        """Append a sequence of bytes: u32 count, then the bytes."""
         return self.u32(len(value)).raw(value)
 
     def optional(self, write: Callable[[T], object], value: T | None) -> Writer:
-        """Append the flag byte, and `value` by `write` when there is one."""
+        """Append the flag byte, followed by `value`, written by `write`, unless it is None."""
         self.flag(value is not None)
         if value is not None:
             write(value)
         return self
 
     def sequence(self, write: Callable[[T], object], values: tuple[T, ...]) -> Writer:
-        """Append the count, then each of `values` by `write`."""
+        """Append the u32 count, then each of `values`, written by `write`."""
         self.u32(len(values))
         for value in values:
             write(value)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Numbers of the protocol (DDS-XRCE 1.0, clauses 7.7, 8.3 and annex A)."""
+"""Constants of the protocol (DDS-XRCE 1.0, clauses 7.7, 8.3 and annex A)."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ COOKIE = b"XRCE"
 VERSION = b"\x01\x00"
 """Protocol version 1.0: major, minor."""
 VENDOR = b"\x01\x0f"
-"""The vendor id that the public agent and client carry; clients of either kind accept it."""
+"""The vendor id of the public agent and client; clients of both projects accept it."""
 
 SESSION_NONE_WITH_KEY = 0x00
 """Session ids below 0x80 put the client key into the message header."""
 SESSION_NONE_WITHOUT_KEY = 0x80
 STREAM_NONE = 0x00
 STREAM_BEST_EFFORT = 0x01
-"""First of the best-effort streams 0x01 to 0x7F; STATUS goes out on it."""
+"""First of the best-effort streams, 0x01 to 0x7F; STATUS is sent on it."""
 STREAM_RELIABLE = 0x80
-"""First of the reliable streams 0x80 to 0xFF; STATUS goes out on it."""
+"""First of the reliable streams, 0x80 to 0xFF; STATUS is sent on it."""
 
 FLAG_LITTLE = 0x01
 FLAG_REUSE = 0x02
@@ -33,11 +33,11 @@ INFO_ACTIVITY = 0x02
 OBJECT_CLIENT = 0xFFFE
 OBJECT_AGENT = 0xFFFD
 RELIABLE_WINDOW = 16
-"""Messages that may be unacknowledged on a reliable stream; an ACKNACK has a bit for each."""
+"""Maximum number of unacknowledged messages on a reliable stream; an ACKNACK has one bit for each."""
 
 
 class SubmessageId(IntEnum):
-    """First byte of a submessage (clause 8.3.5)."""
+    """First byte of a submessage; clause 8.3.5.(n + 1) describes submessage n."""
 
     CREATE_CLIENT = 0
     CREATE = 1
@@ -58,7 +58,7 @@ class SubmessageId(IntEnum):
 
 
 class ObjectKind(IntEnum):
-    """Low four bits of an object id, and discriminant of an object's representation."""
+    """Low four bits of an object id, and discriminator of an object's representation."""
 
     INVALID = 0x00
     PARTICIPANT = 0x01
@@ -78,7 +78,7 @@ class ObjectKind(IntEnum):
 
 
 class Format(IntEnum):
-    """How a CREATE describes its object."""
+    """How a CREATE describes its object (RepresentationFormat, clause 7.7.3)."""
 
     REFERENCE = 0x01
     XML = 0x02
@@ -86,7 +86,7 @@ class Format(IntEnum):
 
 
 class DataFormat(IntEnum):
-    """Layout of the data in WRITE_DATA, READ_DATA and DATA (bits 1 to 3 of the flags)."""
+    """Layout of the data in WRITE_DATA, READ_DATA and DATA; bits 1 to 3 of the flags (clause 7.7.1)."""
 
     DATA = 0x00
     SAMPLE = 0x02
@@ -96,7 +96,7 @@ class DataFormat(IntEnum):
 
 
 class Status(IntEnum):
-    """Result of an operation; OK_MATCHED is a success."""
+    """Result of an operation (annex A). OK_MATCHED, too, means success."""
 
     OK = 0x00
     OK_MATCHED = 0x01

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Submessages that carry or ask for samples: WRITE_DATA, READ_DATA, DATA."""
+"""Submessages that carry or request samples: WRITE_DATA, READ_DATA, DATA."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from microros_gen.agent.wire.constants import DATA_FORMAT_MASK, SubmessageId
 from microros_gen.records import dataclass
 
 DATA_PREFIX = 4
-"""Bytes of WRITE_DATA and DATA before the data: request id and object id."""
+"""Number of bytes of WRITE_DATA and DATA before the data: request id and object id."""
 
 DELIVERY_CONTROL = 8
-"""Bytes of a DataDeliveryControl."""
+"""Number of bytes of a DataDeliveryControl."""
 
 
 @dataclass(frozen=True)
 class WriteData:
-    """WRITE_DATA: a sample for a writer; `data` is the CDR body, in FORMAT_DATA without its header."""
+    """WRITE_DATA: samples for a writer. In FORMAT_DATA, `data` is one CDR body without encapsulation header."""
 
     ID: ClassVar = SubmessageId.WRITE_DATA
     request: int
@@ -39,7 +39,7 @@ class WriteData:
 
 @dataclass(frozen=True)
 class Data:
-    """DATA: a sample from a reader, in answer to the READ_DATA of the same request id."""
+    """DATA: samples from a reader, in answer to the READ_DATA with the same request id."""
 
     ID: ClassVar = SubmessageId.DATA
     request: int
@@ -60,7 +60,11 @@ class Data:
 
 @dataclass(frozen=True)
 class DeliveryControl:
-    """How much is asked for: samples (0xFFFF: no end), seconds, bytes/s, ms between two samples."""
+    """Limits of a READ_DATA (clause 7.7.14), each from 0 to 65,535.
+
+    `max_samples`: samples, 0xFFFF for no limit. `max_elapsed_time`: s. `max_bytes_per_second`: bytes/s.
+    `min_pace_period`: minimum time between two samples, ms.
+    """
 
     max_samples: int
     max_elapsed_time: int = 0
@@ -69,20 +73,20 @@ class DeliveryControl:
 
     @staticmethod
     def read(reader: Reader) -> DeliveryControl:
-        """Read it at the reader's place; with a DHEADER in front, as in annex B.4.2, or without, as clients send it."""
+        """Read one, with the DHEADER of annex B.4.2 or without it, as clients send it."""
         if reader.remaining() >= DELIVERY_CONTROL + 4:
             reader.u32()
         return DeliveryControl(reader.u16(), reader.u16(), reader.u16(), reader.u16())
 
     def write(self, writer: Writer) -> None:
-        """Append it."""
+        """Append its four numbers, without a DHEADER."""
         writer.u16(self.max_samples).u16(self.max_elapsed_time)
         writer.u16(self.max_bytes_per_second).u16(self.min_pace_period)
 
 
 @dataclass(frozen=True)
 class ReadData:
-    """READ_DATA: deliver samples of a reader on stream `stream`."""
+    """READ_DATA: request samples of a reader on stream `stream` (0 to 255)."""
 
     ID: ClassVar = SubmessageId.READ_DATA
     request: int

@@ -33,11 +33,11 @@ _WITHOUT_PARENT = frozenset((ObjectKind.TYPE, ObjectKind.QOSPROFILE, ObjectKind.
 
 @dataclass(frozen=True)
 class Representation:
-    """What an ObjectVariant holds for the kinds that clients create.
+    """Description of an object in a CREATE or INFO (ObjectVariant, clause 7.7.3).
 
-    `body` is the text (reference or XML, UTF-8) or the binary representation. `parent` is the id of the participant,
-    publisher or subscriber that the object belongs to; 0 for a participant, which has a `domain` instead, and for what
-    belongs to nothing. `little`: byte order of a binary `body`.
+    `body` is text in UTF-8 (reference or XML) or the binary representation, whose byte order is `little`. `parent` is
+    the id of the participant, publisher or subscriber that contains the object; 0 for objects without a container. A
+    participant has a `domain` instead.
     """
 
     kind: int
@@ -49,7 +49,7 @@ class Representation:
 
     @staticmethod
     def read(reader: Reader, kind: int) -> Representation:
-        """Read what follows the discriminator `kind`."""
+        """Read one of kind `kind`, whose discriminator was read. Raises MalformedError if it is invalid."""
         form = reader.u8()
         if form == Format.BINARY:
             body = reader.octets()
@@ -67,7 +67,7 @@ class Representation:
         return Representation(kind, form, body, parent, domain, reader.little)
 
     def write(self, writer: Writer) -> None:
-        """Append it, discriminator first."""
+        """Append the discriminator and the description."""
         writer.u8(self.kind).u8(self.format)
         if self.format == Format.BINARY:
             writer.octets(self.body)
@@ -81,7 +81,7 @@ class Representation:
 
 @dataclass(frozen=True)
 class Create:
-    """CREATE: make an object; the members besides the ids and the creation mode are those of Representation."""
+    """CREATE: create an object. Besides the ids and the creation mode it has the members of Representation."""
 
     ID: ClassVar = SubmessageId.CREATE
     request: int
@@ -97,7 +97,7 @@ class Create:
 
     @property
     def representation(self) -> Representation:
-        """What describes the object."""
+        """The object's description."""
         return Representation(self.kind, self.format, self.body, self.parent, self.domain, self.little)
 
     @staticmethod
@@ -119,7 +119,7 @@ class Create:
 
 @dataclass(frozen=True)
 class Delete:
-    """DELETE: drop an object, or with object 0xFFFE the client itself."""
+    """DELETE: delete an object, or the client's session (object 0xFFFE)."""
 
     ID: ClassVar = SubmessageId.DELETE
     request: int
@@ -160,7 +160,7 @@ class StatusReply:
 
 @dataclass(frozen=True)
 class Acknack:
-    """ACKNACK: all before `first` arrived; bit i of `missing` (16 bits) asks for `first + i` again."""
+    """ACKNACK: every message before `first` arrived. Bit i of `missing` (16 bits) requests `first + i` again."""
 
     ID: ClassVar = SubmessageId.ACKNACK
     first: int
@@ -169,7 +169,7 @@ class Acknack:
 
     @staticmethod
     def decode(reader: Reader, flags: int) -> Acknack:
-        """Read the payload; the bitmap is two bytes, high one first, in either byte order."""
+        """Read the payload. The bitmap is two bytes, always high byte first."""
         return Acknack(reader.u16(), reader.identifier(), reader.u8())
 
     def encode(self, writer: Writer) -> int:
@@ -180,7 +180,7 @@ class Acknack:
 
 @dataclass(frozen=True)
 class Heartbeat:
-    """HEARTBEAT: messages `first` to `last` of the stream can be sent again, older ones cannot."""
+    """HEARTBEAT: the sender can repeat messages `first` to `last` of the stream, and no older ones."""
 
     ID: ClassVar = SubmessageId.HEARTBEAT
     first: int
@@ -200,7 +200,7 @@ class Heartbeat:
 
 @dataclass(frozen=True)
 class Reset:
-    """RESET: all streams of the session begin again at sequence number 0."""
+    """RESET: restart all streams of the session at sequence number 0."""
 
     ID: ClassVar = SubmessageId.RESET
 
@@ -216,7 +216,7 @@ class Reset:
 
 @dataclass(frozen=True)
 class Fragment:
-    """FRAGMENT: a piece of submessages too large for one message; reliable streams only."""
+    """FRAGMENT: a part of submessages that do not fit into one message; on reliable streams only."""
 
     ID: ClassVar = SubmessageId.FRAGMENT
     data: bytes

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Messages: the header, and the submessages one after another (DDS-XRCE 1.0, clauses 8.3.2 to 8.3.4)."""
+"""Messages: a header followed by submessages (DDS-XRCE 1.0, clauses 8.3.2 to 8.3.4)."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from microros_gen.records import dataclass
 
 CREATE_CLIENT = int(SubmessageId.CREATE_CLIENT)
 MOST_REQUESTS = 256
-"""Submessages of one message that are no samples. Clients send a few; each may take ROS 2 a millisecond."""
+"""Maximum number of submessages in a message, samples not counted: each may take ROS 2 a millisecond."""
 SUBMESSAGE_HEADER = 4
-"""Bytes of a submessage header."""
+"""Number of bytes of a submessage header."""
 Span = tuple[int, int, int, int]
 """One submessage in a message: id, flags, offset of its payload, offset after its payload."""
 
 
 @dataclass(frozen=True)
 class Header:
-    """Header of a message; `key` is there for session ids below 0x80 only."""
+    """Header of a message. `key` has 4 bytes for session ids below 0x80, otherwise it is empty."""
 
     session: int
     stream: int
@@ -33,19 +33,19 @@ class Header:
 
     @staticmethod
     def decode(data: bytes) -> Header:
-        """Read the header of `data`; MalformedError when it is cut off."""
+        """Read the header of `data`. Raises MalformedError if it is truncated."""
         size = header_size(data)
         return Header(data[0], data[1], data[2] | data[3] << 8, bytes(data[4:size]))
 
 
 def header_bytes(session: int, stream: int, sequence: int, key: bytes) -> bytes:
-    """Return a message header; `key` (4 bytes) is left out for session ids from 0x80."""
+    """Return a message header; `key` (4 bytes) is omitted for session ids from 0x80."""
     head = bytes((session, stream, sequence & 0xFF, sequence >> 8))
     return head + key if session < 0x80 else head
 
 
 def header_size(data: bytes) -> int:
-    """Return 4 or 8; MalformedError when `data` is shorter than that."""
+    """Return the size of the header of `data`, 4 or 8 bytes. Raises MalformedError if `data` is shorter."""
     size = 4 if data and data[0] >= 0x80 else 8
     if len(data) < size:
         raise MalformedError("short_header", f"{len(data)} bytes")
@@ -53,13 +53,13 @@ def header_size(data: bytes) -> int:
 
 
 def split(data: bytes, at: int, rest_when_zero: bool = False) -> list[Span]:
-    """Return the submessages of `data` from offset `at` on (the end of the header).
+    """Return the submessages of `data` from offset `at`, the end of the message header.
 
-    A submessage header begins at a multiple of 4 from the start of `data`. With `rest_when_zero` a WRITE_DATA
-    of length 0 takes everything to the end: so a client sends more than 65,535 bytes in fragments. So does a
-    CREATE_CLIENT of 16 bytes that says it has properties: the public client (2.4, 3.0) does not count them.
-    MalformedError when a payload leaves the message, or there are more than `MOST_REQUESTS`; trailing bytes too few
-    for a header are padding.
+    Submessage headers are aligned to 4 bytes from the start of `data`. With `rest_when_zero`, a WRITE_DATA of length 0
+    extends to the end of `data`, which is how a client sends more than 65,535 bytes in fragments. A CREATE_CLIENT of 16
+    bytes with properties extends to the end as well: the public client (2.4, 3.0) does not count them. Trailing bytes
+    too few for a header are padding. Raises MalformedError if a payload exceeds the message, or if there are more than
+    `MOST_REQUESTS` submessages other than samples.
     """
     found: list[Span] = []
     size = len(data)
@@ -79,9 +79,9 @@ def split(data: bytes, at: int, rest_when_zero: bool = False) -> list[Span]:
 
 
 def is_cut(data: bytes, at: int) -> bool:
-    """Return whether `data`, whose header ends at `at`, ends before its submessages do, or has none.
+    """Return whether the submessages of `data`, whose header ends at `at`, are truncated or missing.
 
-    So a message looks of which a network has lost the end: on a reliable stream it has not come, and is sent again.
+    A network may have lost the end of such a message; a reliable stream treats it as lost and gets it again.
     """
     size = len(data)
     if at + SUBMESSAGE_HEADER > size:
@@ -106,7 +106,7 @@ def submessage_bytes(identifier: int, payload: bytes, flags: int = FLAG_LITTLE) 
 
 
 def join(header: Header, submessages: Iterable[bytes]) -> bytes:
-    """Return one message of complete submessages, each padded with zeros to begin at a multiple of 4."""
+    """Return one message of complete submessages, each aligned to 4 bytes; padding bytes are 0."""
     out = bytearray(header.encode())
     for submessage in submessages:
         out += bytes(-len(out) & 3)

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The five layouts of data in WRITE_DATA and DATA (DDS-XRCE 1.0, clauses 7.7.1 and 7.7.2, annex A).
 
-The standard leaves open what an XCDRSerializedBuffer is in bytes. A single sample (FORMAT_DATA, FORMAT_SAMPLE) is
-the rest of the submessage, as in examples B.3.1, B.3.3 and B.3.4. In a sequence each has its length in front
-(u32), as in the types of the public client and agent; so it can be cut without knowing the type. Sequences without
-lengths, as in example B.3.2, are understood where all samples are of one size. Alignment counts from the end of the
-ids; the body of a sample is aligned for itself.
+The standard does not define the bytes of an XCDRSerializedBuffer. Here, a single sample (FORMAT_DATA, FORMAT_SAMPLE) is
+the rest of the submessage, as in examples B.3.1, B.3.3 and B.3.4. In a sequence, a length (u32) precedes each sample,
+as in the types of the public client and agent, so that samples can be separated without knowing their type. Sequences
+without lengths, as in example B.3.2, are accepted if all samples have the same size. Alignment is relative to the end
+of the ids, and within a sample's body to its own start.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from microros_gen.records import dataclass
 UNREGISTERED, DISPOSED, VIEW_NEW, READ = 1, 2, 4, 8
 """Bits of SampleInfoFlags."""
 LIFE_CYCLE = UNREGISTERED | DISPOSED
-"""Either says that the sample ends an instance instead of being a value of it."""
+"""Each of these bits marks a sample that ends an instance and carries no value."""
 _SEQUENCE, _TIME = 1, 2
-"""SampleInfoFormat: the optional fields after the state."""
+"""SampleInfoFormat: which optional fields follow the state."""
 MILLISECONDS_A_DECISECOND = 100
 _OVERHEAD = MappingProxyType(
     {  # a SampleInfo has 12 bytes, a count or a length 4, a SampleInfoDelta 4; up to 3 align a length
@@ -40,7 +40,7 @@ SEQUENCES = frozenset((DataFormat.DATA_SEQ, DataFormat.SAMPLE_SEQ, DataFormat.PA
 
 @dataclass(frozen=True)
 class SampleInfo:
-    """What goes with a sample: its state, its number, its time in ms since the session began; None: not said."""
+    """A sample's state, sequence number, and time in ms since the session began; None if absent (clause 7.7.2)."""
 
     state: int = 0
     sequence: int | None = None
@@ -49,19 +49,19 @@ class SampleInfo:
 
 @dataclass(frozen=True)
 class Sample:
-    """The CDR body of a sample, without encapsulation header, and what is known of it."""
+    """The CDR body of a sample, without encapsulation header, and its SampleInfo."""
 
     body: bytes
     info: SampleInfo = SampleInfo()
 
 
 def read_samples(reader: Reader, form: int) -> tuple[Sample, ...]:
-    """Return the samples that follow the ids in layout `form`; MalformedError when they cannot be cut."""
+    """Return the samples that follow the ids in layout `form`. Raises MalformedError if they are invalid."""
     return tuple(cut_samples(reader, form))
 
 
 def cut_samples(reader: Reader, form: int) -> Iterator[Sample]:
-    """Give the same one by one: who stops in between loses no time with the others."""
+    """Yield the samples one by one, so that a caller that stops early does not decode the others."""
     if form == DataFormat.DATA:
         yield Sample(reader.rest())
     elif form == DataFormat.SAMPLE:
@@ -81,7 +81,7 @@ def cut_samples(reader: Reader, form: int) -> Iterator[Sample]:
 
 
 def write_samples(writer: Writer, form: int, samples: Sequence[Sample]) -> None:
-    """Append samples in layout `form`, one for DATA and SAMPLE; those of PACKED_SAMPLES must suit `packs`."""
+    """Append samples in layout `form`: DATA and SAMPLE take exactly one, PACKED_SAMPLES those that fit (`packs`)."""
     if form == DataFormat.DATA:
         writer.raw(samples[0].body)
     elif form == DataFormat.SAMPLE:
@@ -98,14 +98,14 @@ def write_samples(writer: Writer, form: int, samples: Sequence[Sample]) -> None:
 
 
 def packs(base: SampleInfo, info: SampleInfo) -> bool:
-    """Return whether a sample can stand in PACKED_SAMPLES that begin with `base`: 8 bits of number, 16 of 1/10 s."""
+    """Return whether a sample fits PACKED_SAMPLES with `base`: 0 to 255 numbers and 0 to 65,535 tenths of s later."""
     steps = (info.sequence or 0) - (base.sequence or 0)
     later = (info.offset_ms or 0) - (base.offset_ms or 0)
     return 0 <= steps <= 0xFF and 0 <= later // MILLISECONDS_A_DECISECOND <= 0xFFFF
 
 
 def overhead(form: int) -> tuple[int, int]:
-    """Return what samples in layout `form` take at most besides their bodies, in bytes: all together, and each."""
+    """Return the maximum bytes that layout `form` adds to the bodies: for all samples together, and for each."""
     return _OVERHEAD[DataFormat(form)]
 
 
@@ -163,7 +163,7 @@ def _read_data_sequence(reader: Reader) -> list[bytes]:
 
 
 def _with_lengths(whole: bytes, little: bool) -> list[bytes] | None:
-    """Return the bodies of a sequence in which each has its length in front; None: perhaps they have none."""
+    """Return the bodies of a sequence whose elements begin with their lengths; None if they do not seem to."""
     number = struct.Struct("<I" if little else ">I").unpack_from
     bodies: list[bytes] = []
     at, size = 4, len(whole)

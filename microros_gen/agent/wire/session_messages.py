@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Submessages about clients, agents and time: CREATE_CLIENT, STATUS_AGENT, GET_INFO, INFO, TIMESTAMP*."""
+"""Submessages about sessions and time: CREATE_CLIENT, STATUS_AGENT, GET_INFO, INFO, TIMESTAMP, TIMESTAMP_REPLY."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def _write_properties(writer: Writer, properties: Properties | None) -> None:
 
 @dataclass(frozen=True)
 class CreateClient:
-    """CREATE_CLIENT: the client introduces itself; `mtu` is the largest message in bytes that it takes."""
+    """CREATE_CLIENT: open a session. `mtu` is the largest message in bytes that the client accepts."""
 
     ID: ClassVar = SubmessageId.CREATE_CLIENT
     key: bytes
@@ -57,7 +57,7 @@ class CreateClient:
 
 @dataclass(frozen=True)
 class AgentConfig:
-    """AGENT_Representation: who the agent is."""
+    """AGENT_Representation: version, vendor and properties of the agent."""
 
     cookie: bytes = COOKIE
     version: bytes = VERSION
@@ -66,11 +66,11 @@ class AgentConfig:
 
     @staticmethod
     def read(reader: Reader) -> AgentConfig:
-        """Read it at the reader's place."""
+        """Read an AGENT_Representation."""
         return AgentConfig(reader.raw(4), reader.raw(2), reader.raw(2), _read_properties(reader))
 
     def write(self, writer: Writer) -> None:
-        """Append it."""
+        """Append the AGENT_Representation."""
         writer.raw(self.cookie).raw(self.version).raw(self.vendor)
         _write_properties(writer, self.properties)
 
@@ -97,7 +97,7 @@ class StatusAgent:
 
 @dataclass(frozen=True)
 class GetInfo:
-    """GET_INFO: ask for INFO on an object; bit 0 of `mask` is configuration, bit 1 activity."""
+    """GET_INFO: request INFO on an object; bit 0 of `mask` requests its configuration, bit 1 its activity."""
 
     ID: ClassVar = SubmessageId.GET_INFO
     request: int
@@ -122,7 +122,7 @@ _LOCATOR_STRING = 3
 
 @dataclass(frozen=True)
 class Locator:
-    """TransportLocator: where an agent listens; `kind` 0 small, 1 IPv4, 2 IPv6, 3 text (UTF-8)."""
+    """TransportLocator: an address of the agent. `kind`: 0 small (2 bytes), 1 IPv4, 2 IPv6, 3 text in UTF-8."""
 
     kind: int
     address: bytes
@@ -130,7 +130,7 @@ class Locator:
 
     @staticmethod
     def read(reader: Reader) -> Locator:
-        """Read it at the reader's place."""
+        """Read a TransportLocator. Raises MalformedError if its kind is unknown."""
         kind = reader.u8()
         if kind == _LOCATOR_STRING:
             return Locator(kind, reader.string().encode("utf-8"))
@@ -140,7 +140,7 @@ class Locator:
         return Locator(kind, address, (reader.u8, reader.u16, reader.u32)[kind]())
 
     def write(self, writer: Writer) -> None:
-        """Append it."""
+        """Append the TransportLocator."""
         writer.u8(self.kind)
         if self.kind == _LOCATOR_STRING:
             writer.string(self.address.decode("utf-8"))
@@ -151,7 +151,7 @@ class Locator:
 
 @dataclass(frozen=True)
 class AgentActivity:
-    """AGENT_ActivityInfo: whether the agent takes clients (1), and where."""
+    """AGENT_ActivityInfo: whether the agent accepts clients (1), and its addresses."""
 
     availability: int = 1
     locators: tuple[Locator, ...] = ()
@@ -159,7 +159,7 @@ class AgentActivity:
 
 @dataclass(frozen=True)
 class WriterActivity:
-    """DATAWRITER_ActivityInfo: samples written so far, and the last number of the stream that they came on."""
+    """DATAWRITER_ActivityInfo: samples written so far, and the last sequence number of the stream that carried them."""
 
     samples: int = 0
     stream_sequence: int = 0
@@ -167,7 +167,7 @@ class WriterActivity:
 
 @dataclass(frozen=True)
 class ReaderActivity:
-    """DATAREADER_ActivityInfo: the highest number that the client acknowledged on the stream of its samples."""
+    """DATAREADER_ActivityInfo: the last sequence number acknowledged by the client on the stream of its samples."""
 
     acknowledged: int = 0
 
@@ -178,9 +178,9 @@ Activity = AgentActivity | WriterActivity | ReaderActivity
 
 @dataclass(frozen=True)
 class Info:
-    """INFO about the agent or an object: answer to GET_INFO. `implementation_status`: 1 in session, else 0.
+    """INFO: answer to GET_INFO about the agent or an object. `implementation_status`: 1 in a session, else 0.
 
-    The order of its parts is that of the public agent (configuration first), not that of annex A.
+    As the public agent sends it, the configuration comes before the activity; annex A has the opposite order.
     """
 
     ID: ClassVar = SubmessageId.INFO
@@ -240,9 +240,12 @@ class Info:
 
 
 Time = tuple[int, int]
-"""Seconds and nanoseconds since the epoch. On the wire seconds have 32 bits and a sign (Time_t, DDS-XRCE 1.0, annex A):
-from 2038-01-19 03:14:08 UTC on they go on modulo 2^32, so differences stay right, and moments for who reads them
-without the sign, until 2106."""
+"""Seconds and nanoseconds since the epoch.
+
+Seconds have 32 bits and a sign on the wire (Time_t of annex A). From
+2038-01-19 03:14:08 UTC they continue modulo 2^32: differences stay correct, and so do absolute times, until 2106, for a
+reader that takes them as unsigned.
+"""
 
 
 def _read_time(reader: Reader) -> Time:
@@ -255,7 +258,7 @@ def _write_time(writer: Writer, time: Time) -> None:
 
 @dataclass(frozen=True)
 class Timestamp:
-    """TIMESTAMP: the client asks for the agent's time."""
+    """TIMESTAMP: request the agent's time; `transmit` is the client's time when it was sent."""
 
     ID: ClassVar = SubmessageId.TIMESTAMP
     transmit: Time
@@ -273,7 +276,7 @@ class Timestamp:
 
 @dataclass(frozen=True)
 class TimestampReply:
-    """TIMESTAMP_REPLY: when the agent sent this and got the question, and the question's own time."""
+    """TIMESTAMP_REPLY: when the agent sent it, when it received the request, and the request's `transmit`."""
 
     ID: ClassVar = SubmessageId.TIMESTAMP_REPLY
     transmit: Time

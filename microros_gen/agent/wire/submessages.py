@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""All sixteen submessages by their id: decode any, encode any."""
+"""Decoding and encoding of all sixteen submessages, by id."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from microros_gen.agent.wire.session_messages import (
 
 
 class Submessage(Protocol):
-    """What every submessage can: say its id and write its payload."""
+    """The interface of all submessages."""
 
     @property
     def ID(self) -> SubmessageId:  # noqa: N802
@@ -72,7 +72,7 @@ _DECODERS: Mapping[int, _Decoder] = MappingProxyType(
 
 
 def decode(identifier: int, flags: int, data: bytes, start: int, end: int) -> Submessage:
-    """Decode the submessage whose payload is `data[start:end]`; MalformedError when that is not possible."""
+    """Return the submessage whose payload is `data[start:end]`. Raises MalformedError if it is invalid."""
     decoder = _DECODERS.get(identifier)
     if decoder is None:
         raise MalformedError("submessage_id", f"id {identifier:#04x}")
@@ -80,7 +80,7 @@ def decode(identifier: int, flags: int, data: bytes, start: int, end: int) -> Su
 
 
 def encode(submessage: Submessage, little: bool = True) -> bytes:
-    """Return a submessage with its header, in either byte order."""
+    """Return a submessage with its header, in little or big endian."""
     writer = Writer(little)
     flags = submessage.encode(writer)
     return submessage_bytes(submessage.ID, writer.content(), flags | (FLAG_LITTLE if little else 0))
