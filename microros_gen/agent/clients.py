@@ -24,11 +24,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Job:
-    """Something that is done for a client step by step."""
+    """Work for a client that is done in steps."""
 
     steps: Steps[None]
     adds: bool
-    """It adds to the ROS graph: it waits while that may not be changed."""
+    """It adds to the ROS graph, so it waits while changes of the graph are not allowed."""
 
 
 @dataclass(eq=False)
@@ -44,64 +44,64 @@ class Client:
     calls: Calls
     rate: Rate
     account: Account
-    """What it cost."""
+    """The account that its work is charged to."""
     claimed: bool = False
-    """Its transport knows that it is in session at its address."""
+    """Whether its transport has registered the session at its address."""
     opened: float = 0.0
-    """When its session began; times of samples count from there."""
+    """When its session began; times of samples are relative to this."""
     probed: float = 0.0
-    """When it was last asked for a sign of life."""
+    """When it was last probed."""
     probes: int = 0
-    """How often, since it was known to answer."""
+    """Number of probes since its last answer."""
     loss: float = 0.0
-    """Part of such questions that stayed without an answer."""
+    """Fraction of probes without an answer, 0 to 1."""
     kept: bool = False
-    """It is asleep, and samples that it has not got are kept."""
+    """It sleeps, and undelivered samples are kept for it."""
     credit: int = 0
-    """Bytes of configurations that it may still be told."""
+    """Bytes of configurations that may still be sent to it."""
     shares: Shares = field(default_factory=Shares.unlimited)
-    """What it holds."""
+    """The memory that it uses."""
     asleep: bool = False
-    """Not heard for `timeout_s`: its entities are not in the ROS graph, and return when it is heard."""
+    """Silent for `timeout_s`: its entities have left the ROS graph and return with its next message."""
     adopted: bool = False
     """It did not open its session with this agent (see `preconfigured`)."""
     unacknowledged: set[int] = field(default_factory=set)
-    """Reliable input streams whose ACKNACK is still to be sent."""
+    """Reliable input streams with a pending ACKNACK."""
     ready: deque[Ready] = field(default_factory=deque)
-    """To be processed."""
+    """Messages that are ready to be processed."""
     work: deque[Job] = field(default_factory=deque)
-    """To be done before that."""
+    """Work to finish before those messages."""
     turn_at: float = 0.0
-    """Not before then."""
+    """Earliest time of that work."""
     inbox_bytes: int = 0
-    """Bytes of messages that came while it waited for its turn, at most."""
+    """Upper bound of the bytes of messages that arrived while it waited for its turn."""
     stream: int = 0
-    """Stream of the message that is processed now."""
+    """Stream of the message that is being processed."""
     more: bool = False
     """That message has further submessages."""
     samples: Cutting | None = None
-    """Those of a WRITE_DATA that it is not done with."""
+    """The samples of an unfinished WRITE_DATA."""
     whole: bytes | None = None
-    """What the FRAGMENT that was processed last completed."""
+    """The message that the last processed FRAGMENT completed."""
     retry_at: float = 0.0
-    """When a reliable stream that stopped is tried again, and how long that was put off."""
+    """When a stopped reliable stream is retried, and the delay before that."""
     retry_s: float = 0.0
     readings: dict[int, Reading] = field(default_factory=dict)
-    """What it reads, by object id."""
+    """Its readings, by object id."""
     waiting: deque[Reading] = field(default_factory=deque)
-    """Readings that wait for room on a reliable stream."""
+    """Readings that wait for space on a reliable stream."""
     second: float = 0.0
     """End of the second in which `messages` are counted."""
     messages: int = 0
 
     @property
     def name(self) -> str:
-        """Key as the log shows it."""
+        """Key, as in the log."""
         return self.session.link.key.hex().upper()
 
     @property
     def place(self) -> str:
-        """Address as the log shows it."""
+        """Address, as in the log."""
         return self.transport.name_of(self.address)
 
     def send(self, message: bytes) -> None:
@@ -112,7 +112,7 @@ class Client:
         """Send the due acknowledgements of processed messages; the others stay to be acknowledged."""
         undone = [
             ready[2] for ready in self.ready if not ready[3]
-        ]  # after what fragments made stands their rest
+        ]  # the rest of the message with the last fragment follows the reassembled one
         if self.more:
             undone.append(self.stream)
         for stream in self.unacknowledged:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The agent without sockets and without its own clock: takes messages, answers them, watches time-outs.
+"""The agent without sockets and clock: processes messages, answers them and checks time-outs.
 
-`receive` never raises, whatever the bytes: malformed input is counted, and reported once per kind.
+`receive` never raises, whatever the bytes: malformed input is counted, and reported once for each kind.
 """
 
 from __future__ import annotations
@@ -40,9 +40,9 @@ WORDS = {
     " perhaps of the agent before this one; a client with liveliness notices that, and opens a session here",
     "client_resources": "message from {peer} ignored: {detail}",
 }
-"""Log texts of messages that are well-formed."""
+"""Log texts for messages that are well-formed and not accepted."""
 TICK_S = 0.05
-"""Seconds between two looks at time-outs while there are clients."""
+"""Seconds between two checks of time-outs while a client is connected."""
 
 
 class Agent:
@@ -64,10 +64,10 @@ class Agent:
         memory: MemoryGuard | None = None,
         budgets: Budgets | None = None,
     ) -> None:
-        """`pool` is shared with the transports that hold input too; default: one for the clients alone.
+        """Use parts that may be shared with the transports; by default the agent has its own.
 
-        So are `fair` and `strangers`, who has not opened a session yet, with those that read one client before another.
-        `processor` is the processor time of this thread.
+        `pool` is the budget of input, `fair` the order of clients, and `strangers` the account of senders without a
+        session. `processor` returns the processor time of this thread in seconds.
         """
         self._bridge = bridge
         self._log = log
@@ -79,7 +79,7 @@ class Agent:
         fair, graph = fair or Fairness(clock), GraphWork(limits.graph_ms_per_second)
         self._graph = graph
         self._payer = self._strangers = strangers or Account()
-        """Who pays for what is done now, and for messages outside of any session."""
+        """The accounts of the current work and of messages outside of any session."""
         turn_s = limits.turn_ms / 1000
         self._turns = Turns(clock, turn_s, fair, graph, self._inner_fault, processor or time.thread_time)
         self._deliveries = Deliveries(log, self._inner_fault, fair, clock)
@@ -104,11 +104,11 @@ class Agent:
         return self._deliveries.delivered
 
     def fileno(self) -> int:
-        """Return the descriptor that is readable when ROS 2 has data: then `take` is due."""
+        """Return the descriptor that is readable when ROS 2 has data for `take`."""
         return self._bridge.fileno()
 
     def due(self) -> float | None:
-        """Return the time (of the clock) at which `tick` is due; None: not before the next message or data."""
+        """Return the time (of the agent's clock) at which `tick` is due; None: not before the next message or data."""
         moments = [self._deliveries.due(), self._turns.due(), self._processor.due()]
         if len(self.clients):
             moments.append(self._ticked + TICK_S)
@@ -122,7 +122,7 @@ class Agent:
             self._fault(error, b"")
 
     def receive(self, data: bytes, address: Hashable, transport: Transport) -> None:
-        """Take one message. Acknowledgements wait for `flush`."""
+        """Process one message; acknowledgements wait for `flush`. Never raises."""
         began = self._clock()
         self._payer = self._strangers
         try:
@@ -137,9 +137,9 @@ class Agent:
         self._processor.flush()
 
     def tick(self) -> None:
-        """Send what is due and look for time-outs; to be called when `due` says, or some ten times a second.
+        """Send due messages and check time-outs. Never raises.
 
-        Never raises.
+        To be called at the time that `due` returns, or some ten times a second.
         """
         now = self._clock()
         self._guarded(partial(self._deliveries.run, now))
@@ -179,18 +179,18 @@ class Agent:
             ask(client, now)
 
     def _patience_s(self) -> float:
-        """Return after how many seconds of silence a client is probed; earlier when few places are free."""
+        """Return the seconds of silence after which a client is probed: fewer if few places are free."""
         return self._limits.client_timeout_s if len(self.clients) >= self._limits.clients else float("inf")
 
     def close(self) -> None:
-        """Take all clients and their entities out of the ROS graph. Never raises."""
+        """Remove all clients and their entities from the ROS graph. Never raises."""
         for client in self.clients:
             self._guarded(partial(self._admission.dismiss, client, "dropped: the agent stops"))
         self._guarded(self._turns.finish)
         self._guarded(self._bridge.close)
 
     def _guarded(self, do: Callable[[], None]) -> None:
-        """Do something for one client, so that a fault in it does not affect the others."""
+        """Work for one client; a fault in it does not affect the others."""
         try:
             do()
         except Exception as error:
@@ -253,7 +253,7 @@ class Agent:
         self._fault(error, b"")
 
     def _fault(self, error: Exception, data: bytes) -> None:
-        """Report a defect of this program, which must not end the service of other clients."""
+        """Report a defect of this program without ending the service of other clients."""
         self._log.count(
             f"internal_{type(error).__name__}",
             "internal error: {error} at {place}; please report it with the message {data}",

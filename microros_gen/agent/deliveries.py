@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""All readings of all clients: which continue when ROS 2 has data, when there is room, or at a given time."""
+"""All readings of all clients. A reading continues when ROS 2 has data, when its stream has space, or at a set time."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from microros_gen.agent.ros.bridge import Source
 from microros_gen.agent.wire.data_messages import ReadData
 
 CROWDED = 256
-"""Moments that are noted before those of readings that are over are thrown out."""
+"""Number of scheduled times above which those of finished readings are removed."""
 
 
 class Deliveries:
-    """Starts, continues and ends readings; each object has at most one."""
+    """Scheduler of readings; each object has at most one."""
 
     def __init__(
         self,
@@ -28,18 +28,18 @@ class Deliveries:
         fair: Fairness,
         clock: Callable[[], float],
     ) -> None:
-        """Call `fault` for unexpected errors, which end the turn of one reading and of no other."""
+        """Call `fault` for unexpected errors, each of which ends the turn of one reading only."""
         self._fair = fair
         self._clock = clock
         self._log = log
         self._fault = fault
         self._by_source: dict[int, Reading] = {}
-        """By the identity of the source, which its reading keeps alive."""
+        """Readings by the identity of their source, which the reading keeps alive."""
         self._later: list[tuple[float, int, Reading]] = []
         self._order = 0
         self._crowded = CROWDED
         self.delivered = 0
-        """Samples, requests and replies that went to clients."""
+        """Number of samples, requests and replies sent to clients."""
 
     def start(self, client: Client, entity: Entity, wanted: ReadData, now: float) -> None:
         """Start what a READ_DATA requests; it replaces an earlier reading of the same object."""
@@ -55,7 +55,7 @@ class Deliveries:
         self._round([reading for reading in found if reading is not None], now)
 
     def room(self, client: Client, now: float) -> None:
-        """Continue, in turn, the readings that wait for room on a reliable stream of `client`."""
+        """Continue, in turn, the readings that wait for space on a reliable stream of `client`."""
         still = []
         for _ in range(len(client.waiting)):
             reading = client.waiting.popleft()
@@ -67,7 +67,7 @@ class Deliveries:
         client.waiting.extendleft(reversed(still))
 
     def refresh(self, client: Client, now: float) -> None:
-        """Follow the objects of `client`: end readings of removed objects, and use new sources."""
+        """Follow changes of the objects of `client`: end readings of removed objects, and use new sources."""
         for object_id, reading in list(client.readings.items()):
             entity = client.objects.find(object_id)
             if entity is not reading.entity:
@@ -98,7 +98,7 @@ class Deliveries:
         self._round(due, now)
 
     def _round(self, readings: list[Reading], now: float) -> None:
-        """Let readings go on, those of clients that cost least first; for whom the time is too short, comes again."""
+        """Continue readings, those of the clients with the lowest cost first; the rest wait for the next round."""
         self._fair.order(readings)
         at = now
         for reading in readings:

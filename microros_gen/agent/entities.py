@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One object of a client, and its side in ROS 2."""
+"""One object of a client and its ROS 2 entity."""
 
 from __future__ import annotations
 
@@ -28,27 +28,27 @@ Readable = Reader | Replier | Requester
 
 @dataclass(frozen=True)
 class Home:
-    """Where the objects of one client go in ROS 2.
+    """The ROS 2 context of one client's objects.
 
-    `fallback_name` is for participants without a name; `hash_of` returns what tells the hashes of its types, by the
-    name of its node (see Manifests).
+    `fallback_name` is for participants without a name; `hash_of` returns the source of type hashes for the name of a
+    node (see Manifests).
     """
 
     bridge: Bridge
     fallback_name: str
     hash_of: Callable[[str], HashOf | None] = lambda node: None
     shares: Shares = field(default_factory=Shares.unlimited)
-    """What the client may hold."""
+    """The memory budget of the client."""
 
     def node(self, participant: Participant) -> Node:
-        """Create the node of a participant; may raise BridgeError."""
+        """Create the node of a participant. Raises BridgeError if ROS 2 refuses it."""
         name = participant.name.strip("/") or self.fallback_name
         return self.bridge.create_node(name, participant.domain, self.hash_of(name))
 
 
 @dataclass(eq=False)
 class Entity:
-    """One object. `sources`: what it was made from, its container first; `node`, `writer`, `source`: its ROS side."""
+    """One object; `sources` are those it was created from, container first. `node`, `writer`, `source`: in ROS 2."""
 
     id: int
     description: Description
@@ -56,24 +56,25 @@ class Entity:
     node: Node | None = None
     writer: Writer | None = None
     source: Readable | None = None
-    """What ROS 2 gives data to: a reader, a replier or a requester."""
+    """The entity that receives data from ROS 2: a reader, a replier or a requester."""
     representation: Representation | None = None
-    """How the client described it; None for one that the agent's files gave it."""
+    """The client's description; None for a preconfigured object."""
     cost: int = 0
-    """Bytes that are counted for it, without samples."""
+    """Bytes charged for it, without samples."""
     history: WriterHistory | ReaderHistory | None = None
-    """What Fast DDS keeps for it."""
+    """Its history in Fast DDS."""
     written: int = 0
-    """Samples, requests or replies that a client sent through it."""
+    """Number of samples, requests or replies that the client sent through it."""
     kept: list[bytes] = field(default_factory=list)
-    """Samples that were taken from ROS and are still to go to the client, the next one last."""
+    """Samples that were taken from ROS 2 and are still to be sent to the client, the next one last."""
     delivered: int = 0
-    """Samples, requests or replies that went to the client."""
+    """Number of samples, requests or replies sent to the client."""
     calls_bytes: int = 0
-    """Bytes that are counted for what is outstanding."""
+    """Bytes charged for open requests."""
     outstanding: dict[bytes | int, bytes] = field(default_factory=dict)
-    """What waits for an answer, the oldest first: numbers of requests with the ids (request, object) that a client gave
-    them, or identities of requests that a client is to answer."""
+    """Open requests, the oldest first.
+
+    By the number of a request of the client: its ids (request, object). Or identities that the client has to answer."""
 
     @property
     def kind(self) -> int:
@@ -82,7 +83,7 @@ class Entity:
 
     @property
     def participant(self) -> Entity:
-        """The participant that contains it, or itself."""
+        """The participant that contains it, or itself if it is one."""
         found = self
         while found.kind != ObjectKind.PARTICIPANT and found.sources:
             found = found.sources[0]
@@ -94,23 +95,23 @@ class Entity:
 
     @property
     def label(self) -> str:
-        """Name for the log; empty for objects without a ROS name."""
+        """Name in the log; empty for objects without a ROS name."""
         side = self.node or self.writer or self.source
         return side.label if side else ""
 
     @property
     def separation_s(self) -> float:
-        """Minimum seconds between two delivered samples (time-based filter); 0: no minimum."""
+        """Minimum time between two delivered samples in s (time-based filter); 0: no minimum."""
         return self.description.separation_ms / 1000 if isinstance(self.description, Endpoint) else 0.0
 
     @property
     def keeps(self) -> bool:
-        """Whether its samples are kept for a client that is away, as for reliable readers."""
+        """Whether its samples are kept while its client sleeps: true for reliable readers."""
         about = self.description
         return self.kind == ObjectKind.DATAREADER and isinstance(about, Endpoint) and about.qos.reliable
 
     def keep(self, samples: Sequence[bytes], shares: Shares, after: bool = False) -> int:
-        """Keep samples in order, before or after those already kept; return how many did not fit."""
+        """Keep samples in order, before or after those already kept; return the number that did not fit."""
         taken = [sample for sample in samples if shares.history.take(len(sample))]
         lost = len(samples) - len(taken)
         taken.reverse()

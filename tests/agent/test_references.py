@@ -92,7 +92,8 @@ def test_several_files_join() -> None:
         ),
         (
             PROFILES.replace(">RELIABLE<", ">RELIABEL<"),
-            "refs0.xml:8:69: error: data_writer 'count__dw': 'qos/reliability/kind' is not one of RELIABLE, BEST_EFFORT",
+            "refs0.xml:8:69: error: data_writer 'count__dw': 'qos/reliability/kind' is not one of "
+            "RELIABLE, BEST_EFFORT",
         ),
         (
             PROFILES.replace(">10<", ">many<"),
