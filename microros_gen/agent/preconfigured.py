@@ -52,7 +52,7 @@ WRITTEN = (ObjectKind.DATAWRITER, ObjectKind.REQUESTER, ObjectKind.REPLIER)
 
 
 @dataclass(frozen=True)
-class Given:
+class PreconfiguredCreation:
     """An object that the agent creates: its id, its container, its description."""
 
     id: int
@@ -70,10 +70,10 @@ class Preconfigured:
             for item in client.objects:
                 _check_names(item, diagnostics)
         diagnostics.check()
-        self._by_key = {c.key: tuple(_given(item) for item in c.objects) for c in clients}
+        self._by_key = {c.key: tuple(_creation(item) for item in c.objects) for c in clients}
         self._adopted = {c.key for c in clients if c.adopt and c.key is not None}
 
-    def objects(self, key: bytes) -> tuple[Given, ...]:
+    def objects(self, key: bytes) -> tuple[PreconfiguredCreation, ...]:
         """Return the objects of the client `key`, parents first."""
         found = self._by_key.get(key)
         return self._by_key.get(None, ()) if found is None else found
@@ -92,8 +92,8 @@ class Preconfigured:
         return found if fits else None
 
 
-def _given(item: PreconfiguredObject) -> Given:
-    return Given(item.id, item.parent, _description(item))
+def _creation(item: PreconfiguredObject) -> PreconfiguredCreation:
+    return PreconfiguredCreation(item.id, item.parent, _description(item))
 
 
 def _description(item: PreconfiguredObject) -> Description:

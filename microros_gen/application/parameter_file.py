@@ -79,14 +79,14 @@ def _leaf(entry: Entry, name: str, diagnostics: Diagnostics) -> Iterator[Paramet
     node = entry.value
     _check_keys(node, diagnostics)
     kind_node, default = child(node, "type"), child(node, "default_value")
-    given = text_of(kind_node) or ""
-    fixed = _FIXED.fullmatch(given)
-    kind = _TYPES.get(fixed.group(1) if fixed else given)
-    if given == _ONLY_DOCUMENTED:
+    type_text = text_of(kind_node) or ""
+    fixed = _FIXED.fullmatch(type_text)
+    kind = _TYPES.get(fixed.group(1) if fixed else type_text)
+    if type_text == _ONLY_DOCUMENTED:
         return
     if kind is None:
         hint = f"Available: {', '.join(_TYPES)}, with _fixed_8 behind strings and arrays"
-        message = f"the type '{given}' of '{name}' is not supported"
+        message = f"the type '{type_text}' of '{name}' is not supported"
         diagnostics.error(message, span_of(kind_node), hint, id="MG-3067")
         return
     if default is None:
@@ -107,7 +107,7 @@ def _leaf(entry: Entry, name: str, diagnostics: Diagnostics) -> Iterator[Paramet
         parameter = _ruled(parameter, rule, diagnostics)
     if parameter.is_array and not parameter.size:
         message = f"the array '{name}' has no largest size"
-        hint = f"Write type: {given}_fixed_8, or validation: {{size_lt<>: [9]}}"
+        hint = f"Write type: {type_text}_fixed_8, or validation: {{size_lt<>: [9]}}"
         diagnostics.error(message, entry.key_span, hint, id="MG-3069")
         return
     bounds = span_of(validation) if parameter.minimum is not None else None

@@ -28,8 +28,8 @@ PLAN_FILE = "plan.py"
 
 
 @dataclass(frozen=True)
-class Given:
-    """What a component plans from; `runtime` is the plan without the slices of components."""
+class PlanContext:
+    """The input of a component's plan; `runtime` is the plan without the slices of components."""
 
     application: Application
     selection: Selection
@@ -41,7 +41,7 @@ class Given:
 class Feature(Protocol):
     """The functions of a component's plan.py; one that has no `limits` implies none."""
 
-    def plan(self, given: Given, diagnostics: Diagnostics) -> object:
+    def plan(self, context: PlanContext, diagnostics: Diagnostics) -> object:
         """Return the component's slice, a frozen data class; what is wrong goes to `diagnostics`."""
 
     def record(self, part: Any) -> object:
@@ -65,13 +65,13 @@ def with_limits(application: Application, selection: Selection) -> Application:
     return replace(application, limits=tuple(rules)) if len(rules) > len(application.limits) else application
 
 
-def plan_features(given: Given, diagnostics: Diagnostics) -> Features:
+def plan_features(context: PlanContext, diagnostics: Diagnostics) -> Features:
     """Return the slices of all selected components that plan something for themselves."""
     slices = []
-    for chosen in given.selection.components:
+    for chosen in context.selection.components:
         feature = feature_of(chosen.component)
         if feature is not None:
-            part = feature.plan(given, diagnostics)
+            part = feature.plan(context, diagnostics)
             record = json.dumps(feature.record(part), sort_keys=True, separators=(",", ":"))
             slices.append(FeatureSlice(chosen.component.name, part, record))
     return Features(tuple(slices)) if slices else NO_FEATURES
@@ -84,12 +84,12 @@ def feature_of(component: Component) -> Feature | None:
     return cast(Feature, import_module(f"microros_gen.components.{component.name}.plan"))
 
 
-def refuse_own_limits(given: Given, name: str, diagnostics: Diagnostics) -> None:
+def refuse_own_limits(context: PlanContext, name: str, diagnostics: Diagnostics) -> None:
     """Report limits of an endpoint that this component opens, where it is compiled for those of the type."""
     own = {
-        i.name for c in given.selection.components if c.component.name == name for i in c.component.implies
+        i.name for c in context.selection.components if c.component.name == name for i in c.component.implies
     }
-    for endpoint in (e for e in given.application.endpoints if e.limits and e.name in own):
+    for endpoint in (e for e in context.application.endpoints if e.limits and e.name in own):
         diagnostics.error(
             f"the limits of '{endpoint.name}' cannot differ from those of its type",
             endpoint.span,

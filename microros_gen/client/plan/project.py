@@ -12,7 +12,7 @@ from microros_gen.client.plan.board import BoardPlan, has_own_line, plan_board
 from microros_gen.client.plan.create_messages import DEFAULT_NAME_SIZE, largest_create, longest_type
 from microros_gen.client.plan.declared import implied, pool, timed_qos, type_name, without_handle
 from microros_gen.client.plan.entities import EntitiesPlan, Places
-from microros_gen.client.plan.features import Given, plan_features
+from microros_gen.client.plan.features import PlanContext, plan_features
 from microros_gen.client.plan.nodes import plan_nodes
 from microros_gen.client.plan.plan_id import plan_id
 from microros_gen.client.plan.provisions import plan_provisions
@@ -196,8 +196,8 @@ def plan_project(
     board = plan_board(application, target, runtime, diagnostics)
     own_line = runtime.transport.kind == "serial" and not target.hosted and not board.has_serial_driver
     runtime = replace(runtime, transport=replace(runtime.transport, own_line=own_line))
-    given = Given(application, selection, target, by_name, runtime)
-    runtime = replace(runtime, features=plan_features(given, diagnostics))
+    context = PlanContext(application, selection, target, by_name, runtime)
+    runtime = replace(runtime, features=plan_features(context, diagnostics))
     identities = (c.component.identity for c in selection.components)
     runtime = replace(runtime, plan_id=plan_id(runtime, identities, types))
     provisions = plan_provisions(application, selection, runtime, board, target, diagnostics)

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from microros_gen.application.model import Application, LimitRule
-from microros_gen.client.plan.features import Given, refuse_own_limits
+from microros_gen.client.plan.features import PlanContext, refuse_own_limits
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
@@ -31,12 +31,12 @@ class GraphPlan:
         return max(self.names * (1 + self.types), self.endpoints * 2)
 
 
-def plan(given: Given, diagnostics: Diagnostics) -> GraphPlan:
+def plan(context: PlanContext, diagnostics: Diagnostics) -> GraphPlan:
     """Return the sizes: what every name and every response has room for."""
-    refuse_own_limits(given, "graph", diagnostics)
-    name, endpoint = _bounds(given, "msg", "Name"), _bounds(given, "msg", "Endpoint")
-    names = _bounds(given, "srv", "ListNames_Response")["names"][1]
-    endpoints = _bounds(given, "srv", "ListEndpoints_Response")["endpoints"][1]
+    refuse_own_limits(context, "graph", diagnostics)
+    name, endpoint = _bounds(context, "msg", "Name"), _bounds(context, "msg", "Endpoint")
+    names = _bounds(context, "srv", "ListNames_Response")["names"][1]
+    endpoints = _bounds(context, "srv", "ListEndpoints_Response")["endpoints"][1]
     strings = (name["name"], name["types"], endpoint["node"], endpoint["type"])
     return GraphPlan(
         name_size=min(string for string, _ in strings) + 1,
@@ -53,8 +53,8 @@ def record(part: GraphPlan) -> object:
 
 def limits(application: Application) -> tuple[LimitRule, ...]:
     """Return the bounds of requests and responses; those of requests follow the application's bound of a name."""
-    given = {rule.path: rule for rule in application.limits}
-    own = given.get((f"{_PACKAGE}/msg/Name", "name"))
+    own_rules = {rule.path: rule for rule in application.limits}
+    own = own_rules.get((f"{_PACKAGE}/msg/Name", "name"))
     longest = own.string if own is not None and own.string is not None else LONGEST_NAME
     rules = (
         _rule("msg/Name", "name", longest),
@@ -68,16 +68,16 @@ def limits(application: Application) -> tuple[LimitRule, ...]:
         _rule("srv/ListEndpoints_Request", "matched_by", longest),
         _rule("srv/ListEndpoints_Response", "endpoints", None, ENDPOINTS),
     )
-    return tuple(rule for rule in rules if rule.path not in given)
+    return tuple(rule for rule in rules if rule.path not in own_rules)
 
 
 def _rule(name: str, member: str, string: int | None, sequence: int | None = None) -> LimitRule:
     return LimitRule((f"{_PACKAGE}/{name}", member), string, sequence)
 
 
-def _bounds(given: Given, kind: str, name: str) -> dict[str, tuple[int, int]]:
+def _bounds(context: PlanContext, kind: str, name: str) -> dict[str, tuple[int, int]]:
     """Return the bound of the string and of the sequence of each member that has one."""
-    planned = given.types[TypeName(_PACKAGE, kind, name)]
+    planned = context.types[TypeName(_PACKAGE, kind, name)]
     fields = planned.limits.fields if planned.limits is not None else ()
     return {
         member.name: (bound.string or 0, bound.sequence or 0)

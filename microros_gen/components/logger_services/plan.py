@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from microros_gen.application.model import Application, LimitRule
-from microros_gen.client.plan.features import Given, refuse_own_limits
+from microros_gen.client.plan.features import PlanContext, refuse_own_limits
 from microros_gen.components.logging.plan import LOGGERS, NAME_SIZE
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import TypeName
@@ -22,10 +22,10 @@ class LoggerServicesPlan:
     reason_size: int = REASON_SIZE
 
 
-def plan(given: Given, diagnostics: Diagnostics) -> LoggerServicesPlan:
+def plan(context: PlanContext, diagnostics: Diagnostics) -> LoggerServicesPlan:
     """Return the sizes: as many as can have a level, or what the application's limits say."""
-    refuse_own_limits(given, "logger_services", diagnostics)
-    lists = [given.types[TypeName(_PACKAGE, "srv", name)].limits for name in _REQUESTS]
+    refuse_own_limits(context, "logger_services", diagnostics)
+    lists = [context.types[TypeName(_PACKAGE, "srv", name)].limits for name in _REQUESTS]
     found = [
         field.sequence or 0
         for part in lists

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from microros_gen.application.model import LOG_LEVELS, Application, LogWriter
-from microros_gen.client.plan.features import Given
+from microros_gen.client.plan.features import PlanContext
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass
 
@@ -64,17 +64,17 @@ def level_number(writer: LogWriter) -> int:
     return _STEP * (1 + LOG_LEVELS.index(writer.level))
 
 
-def plan(given: Given, diagnostics: Diagnostics) -> LoggingPlan:
+def plan(context: PlanContext, diagnostics: Diagnostics) -> LoggingPlan:
     """Return what the application file says; without that the console where it is selected, else the callback."""
-    writers = given.application.logging
+    writers = context.application.logging
     for to in ("ring", "rosout", "console"):
-        if given.selection.has(f"logging_{to}") and writer_of(given.application, to) is None:
+        if context.selection.has(f"logging_{to}") and writer_of(context.application, to) is None:
             writers = (LogWriter(to), *writers)
     writers = writers or (LogWriter("callback"),)
     levels = {writer.to: level_number(writer) for writer in writers}
-    if "console" in levels and given.target.stdio is not None and given.target.stdio.to == "none":
+    if "console" in levels and context.target.stdio is not None and context.target.stdio.to == "none":
         diagnostics.warning(
-            f"the log writer 'console' writes nowhere: the target {given.target.name} has no standard output",
+            f"the log writer 'console' writes nowhere: the target {context.target.name} has no standard output",
             next((writer.span for writer in writers if writer.to == "console"), None),
             "Give the target file `stdio: {to: uart, …}` or `{to: semihosting}`, or write `logging: callback`",
             id="MG-7040",

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from microros_gen.application.model import LogWriter
-from microros_gen.client.plan.features import Given
+from microros_gen.client.plan.features import PlanContext
 from microros_gen.components.logging.plan import level_number, writer_of
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import TypeName
@@ -26,10 +26,10 @@ class RingPlan:
     size: int
 
 
-def plan(given: Given, diagnostics: Diagnostics) -> RingPlan:
+def plan(context: PlanContext, diagnostics: Diagnostics) -> RingPlan:
     """Return the size; at least one line has room."""
-    writer = writer_of(given.application, "ring") or LogWriter("ring")
-    least = _HEADER + given.types[TypeName("rcl_interfaces", "msg", "Log")].max_encoded_size
+    writer = writer_of(context.application, "ring") or LogWriter("ring")
+    least = _HEADER + context.types[TypeName("rcl_interfaces", "msg", "Log")].max_encoded_size
     size = writer.size or max(SIZE, least)
     if not least <= size <= LARGEST:
         diagnostics.error(
@@ -38,9 +38,10 @@ def plan(given: Given, diagnostics: Diagnostics) -> RingPlan:
             f"Write `size: {max(SIZE, least)}`, or lower the limits of rcl_interfaces/msg/Log",
             id="MG-7042",
         )
-    if given.target.ram is None:
+    if context.target.ram is None:
         diagnostics.warning(
-            f"lines of the log writer 'ring' are lost at a reset: {given.target.name} has no linker script of the tool",
+            f"lines of the log writer 'ring' are lost at a reset: {context.target.name} has no linker script"
+            " of the tool",
             writer.span,
             "Link .bss.microros_log_kept to memory that the start of the program does not clear, or leave `ring` out",
             id="MG-7043",

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from microros_gen.application.model import Application, LimitRule, LogWriter
-from microros_gen.client.plan.features import Given, refuse_own_limits
+from microros_gen.client.plan.features import PlanContext, refuse_own_limits
 from microros_gen.components.logging.plan import level_number, writer_of
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import TypeName
@@ -31,11 +31,11 @@ class RosoutPlan:
     function: int
 
 
-def plan(given: Given, diagnostics: Diagnostics) -> RosoutPlan:
+def plan(context: PlanContext, diagnostics: Diagnostics) -> RosoutPlan:
     """Return the sizes; at least one line has room."""
-    writer = writer_of(given.application, "rosout") or LogWriter("rosout")
-    refuse_own_limits(given, "logging_rosout", diagnostics)
-    planned = given.types[TYPE]
+    writer = writer_of(context.application, "rosout") or LogWriter("rosout")
+    refuse_own_limits(context, "logging_rosout", diagnostics)
+    planned = context.types[TYPE]
     fields = planned.limits.fields if planned.limits is not None else ()
     bounds = {
         member.name: bound.string or 0

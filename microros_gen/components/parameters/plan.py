@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from microros_gen.application.model import Application, LimitRule
 from microros_gen.client.plan.declared import pool
-from microros_gen.client.plan.features import Given, refuse_own_limits
+from microros_gen.client.plan.features import PlanContext, refuse_own_limits
 from microros_gen.components.parameters.calls import LONGEST_TEXT, calls, string_limit, tables, texts_of
 from microros_gen.components.parameters.values import Identifiers, copies, members
 from microros_gen.diagnostics import Diagnostics
@@ -92,12 +92,12 @@ class ParametersPlan:
         return 6 * len(self.servers)
 
 
-def plan(given: Given, diagnostics: Diagnostics) -> ParametersPlan:
+def plan(context: PlanContext, diagnostics: Diagnostics) -> ParametersPlan:
     """Return the sizes; those of requests follow from the limits of their types."""
-    application = given.application
-    refuse_own_limits(given, "parameters", diagnostics)
+    application = context.application
+    refuse_own_limits(context, "parameters", diagnostics)
     requests = [TypeName(_PACKAGE, "srv", f"{name}_Request") for name in (*_NAMES, *_SETS, "ListParameters")]
-    largest = max(given.types[name].max_encoded_size for name in requests)
+    largest = max(context.types[name].max_encoded_size for name in requests)
     return ParametersPlan(
         max=max(pool(application, "parameters", _count(application), diagnostics), _declared(application)),
         name_size=_longest(application, "name") + 1,
