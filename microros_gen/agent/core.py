@@ -21,7 +21,7 @@ from microros_gen.agent.graph_work import GraphWork
 from microros_gen.agent.input_pool import InputPool
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.liveliness import Verdict, ask, judge
-from microros_gen.agent.log import EventLog
+from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.memory import MemoryGuard, Relief
 from microros_gen.agent.operations import Operations
@@ -183,11 +183,29 @@ class Agent:
         return self._limits.client_timeout_s if len(self.clients) >= self._limits.clients else float("inf")
 
     def close(self) -> None:
-        """Remove all clients and their entities from the ROS graph. Never raises."""
+        """Remove all clients and their entities from the ROS graph. Never raises.
+
+        Before that, pending samples are published, and readers have at most `stop_s` seconds to acknowledge them: the
+        clients were told that they arrived, and DDS drops undelivered samples together with their writer.
+        """
+        self._guarded(partial(self._settle, self._clock() + self._limits.stop_s))
         for client in self.clients:
             self._guarded(partial(self._admission.dismiss, client, "dropped: the agent stops"))
         self._guarded(self._turns.finish)
         self._guarded(self._bridge.close)
+
+    def _settle(self, end: float) -> None:
+        self._turns.drain(end)
+        self.flush()
+        late = sum(
+            not writer.settled(max(0.0, end - self._clock()))
+            for client in self.clients
+            for entity in client.objects
+            if (writer := entity.writer) is not None
+        )
+        if late:
+            text = "{writers} publishers end before all of their readers have acknowledged the last samples"
+            self._log.emit(Level.WARNING, "stopped_early", text, writers=late)
 
     def _guarded(self, do: Callable[[], None]) -> None:
         """Work for one client; a fault in it does not affect the others."""

@@ -69,6 +69,8 @@ class Limits:
     session again; 0: nothing is. What may have arrived comes again."""
     sleep_timeout_s: float = 86_400.0
     """Seconds until a client that left the graph is forgotten; heard before that, its entities return."""
+    stop_s: float = 1.0
+    """Seconds for which a stopping agent waits for readers to acknowledge samples."""
     adopt_after_s: float = 5.0
     """Seconds that a sender without session and key is listened to before it is adopted: one with liveliness shows
     itself before (our clients ask after 1 s of silence and open a new session after 4 s at the latest)."""

@@ -97,6 +97,11 @@ class Turns:
         """Continue the work of clients in turn, for one round."""
         self.round([client for client in self._waiting if client.turn_at <= now], now, self._go_on)
 
+    def drain(self, end: float) -> None:
+        """Continue the work of clients as long as some of it can go on, until `end` at most."""
+        while (now := self.clock()) < end and any(client.turn_at <= now for client in self._waiting):
+            self.run(now)
+
     def round(self, clients: list[Client], now: float, go_on: Callable[[Client], None]) -> None:
         """Continue the work of some clients, in their order; those without enough time left stay as they are."""
         self._fair.order(clients)

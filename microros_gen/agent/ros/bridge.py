@@ -195,8 +195,8 @@ class Writer(Protocol):
         asking DDS. BridgeError when it never will be.
         """
 
-    def settled(self) -> bool:
-        """Return whether all readers have acknowledged everything."""
+    def settled(self, wait_s: float = 0.0) -> bool:
+        """Return whether all readers have acknowledged everything; wait for that, at most `wait_s` seconds."""
 
     def destroy(self) -> None:
         """Leave the ROS graph; nothing else is called afterwards."""

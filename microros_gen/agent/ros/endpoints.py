@@ -92,9 +92,9 @@ class RawWriter(Entity):
     def _busy(self) -> BusyError:
         return BusyError(f"{self.label}: a reader does not read its samples, and the history of DDS is full")
 
-    def settled(self) -> bool:
+    def settled(self, wait_s: float = 0.0) -> bool:
         """See Writer."""
-        if self._libraries.all_acknowledged(self._handle.pointer, 0) == OK:
+        if self._libraries.all_acknowledged(self._handle.pointer, round(wait_s * 1e9)) == OK:
             return True
         self._libraries.error()  # forget it: it only says that time is over
         return False

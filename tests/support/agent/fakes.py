@@ -40,7 +40,9 @@ class FakeWriter:
             self.bridge.room -= 1
         self.bridge.published.append((self.label, serialized))
 
-    def settled(self) -> bool:
+    def settled(self, wait_s: float = 0.0) -> bool:
+        if not self.bridge.settled:
+            self.bridge.waited.append(wait_s)
         return self.bridge.settled
 
     def destroy(self) -> None:
@@ -162,6 +164,8 @@ class FakeBridge:
     descriptor: int = -1
     settled: bool = True
     """Whether readers have everything that was published."""
+    waited: list[float] = field(default_factory=list)
+    """How many seconds each writer was waited for, in vain."""
     room: int | None = None
     """How many samples its writers take before they are full; None: any number."""
 
