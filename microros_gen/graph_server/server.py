@@ -62,11 +62,10 @@ class GraphServer:
         """Let `run` end within a second."""
         self._stop = True
 
-    def turn(self) -> None:
-        """Wait for requests and changes, at most half a second, and serve them."""
-        wait_s = _WAIT_S
+    def turn(self, wait_s: float = _WAIT_S) -> None:
+        """Wait for requests and changes, at most `wait_s` seconds, and serve them."""
         if self._announced != self._version:
-            wait_s = max(0.0, self._next_s - self._clock())
+            wait_s = min(wait_s, max(0.0, self._next_s - self._clock()))
         try:
             self._peer.spin_once(wait_s)
         except (CodecError, RosError) as error:  # one request; the others are answered

@@ -4,14 +4,22 @@
 from __future__ import annotations
 
 import ctypes
+import time
 from collections.abc import Callable, Mapping
 from ctypes import byref, c_char_p, c_int64, c_void_p
 from typing import Any
 
 from microros_gen.ros.errors import RosError
 from microros_gen.ros.known_types import KnownType
-from microros_gen.ros.layout import RawMessage, ServiceInfo
-from microros_gen.ros.libraries import CLIENT_TAKE_FAILED, FAILURES, OK, SERVICE_TAKE_FAILED, first_line
+from microros_gen.ros.layout import RawMessage, RequestId, ServiceInfo
+from microros_gen.ros.libraries import (
+    CLIENT_TAKE_FAILED,
+    FAILURES,
+    OK,
+    SERVICE_TAKE_FAILED,
+    TIMEOUT,
+    first_line,
+)
 from microros_gen.ros.names import ServiceName
 from microros_gen.ros.raw_types import RawTypes
 
@@ -21,6 +29,8 @@ Spin = Callable[[Callable[[], object], float], bool]
 SETTLE_S = 0.1
 """From the discovery of a service to the first request: what is sent before the service has found its client too is
 delivered only with the writer's next heartbeat, 3 s later."""
+UNDISCOVERED_S = 5.0
+"""How long a response waits for its client to be discovered: on a busy machine, a request may be faster."""
 
 
 class Publisher:
@@ -180,18 +190,42 @@ class Server(_ServiceEnd):
     ) -> None:
         super().__init__(handle, known, name, types)
         self._answer = answer
+        self._held: list[tuple[float, RequestId, bytes]] = []
+
+    @property
+    def holds(self) -> bool:
+        """Return whether a response waits for its client to be discovered."""
+        return bool(self._held)
 
     def look(self) -> None:
         """Take at most one request and send its response. Raises RosError if its client cannot be reached."""
         data = self._take(self._libraries.take_request)
         if data is None:
             return
-        request = self._info.request
+        request = RequestId.from_buffer_copy(self._info.request)
         response = self._answer(self._codec.decode(self.name.request, data))
-        sent = _raw(self._codec.encode(self.name.response, response))
-        self._check(
-            self._libraries.send_response(self.handle.pointer, byref(request), byref(sent)), "response"
-        )
+        encoded = self._codec.encode(self.name.response, response)
+        self._send(time.monotonic() + UNDISCOVERED_S, request, encoded)
+
+    def send_held(self) -> None:
+        """Try again to send the responses that wait. Raises RosError if a client was not discovered in time."""
+        held, self._held = self._held, []
+        while held:
+            try:
+                self._send(*held.pop(0))
+            except RosError:
+                self._held += held
+                raise
+
+    def _send(self, until: float, request: RequestId, encoded: bytes) -> None:
+        """Send a response, or hold it: after 0.1 s ROS 2 gives up a client that it has not discovered."""
+        sent = _raw(encoded)
+        result = self._libraries.send_response(self.handle.pointer, byref(request), byref(sent))
+        if result == TIMEOUT and time.monotonic() < until:
+            self._libraries.error()
+            self._held.append((until, request, encoded))
+        else:
+            self._check(result, "response")
 
 
 def _raw(data: bytes) -> RawMessage:

@@ -137,7 +137,10 @@ class Peer:
             raise RosError("a callback cannot spin: use `send` there")
         self._spinning = True
         try:
-            ready = self._ready(timeout_s)
+            holding = [waited for waited in self._waited if isinstance(waited, Server) and waited.holds]
+            for server in holding:
+                server.send_held()
+            ready = self._ready(min(timeout_s, _SLICE_S) if holding else timeout_s)
             for waited in ready:
                 waited.look()
             return bool(ready)

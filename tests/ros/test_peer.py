@@ -12,13 +12,15 @@ import pytest
 
 from microros_gen.interfaces.type_hashes import type_hashes
 from microros_gen.ros.errors import CodecError, RosError
+from microros_gen.ros.libraries import TIMEOUT
 from microros_gen.ros.peer import Peer
 from microros_gen.ros.qos import Qos
+from microros_gen.ros.raw_types import raw_types
 from tests.support.agent.process import environment, own_domain
 from tests.support.patience import seconds
 
 pytestmark = pytest.mark.ros
-PATIENCE_S = seconds(15)
+IDLE_S = 15.0
 GET_TYPES = "rcl_interfaces/srv/GetParameterTypes"
 
 
@@ -77,7 +79,7 @@ def spin_both(peer: Peer, beside: Node, done: Any) -> None:
         beside.spin()
         return done()
 
-    assert peer.spin(look, PATIENCE_S), "not seen"
+    assert peer.spin(look, seconds(IDLE_S)), "not seen"
 
 
 def test_topics_of_installed_types_both_ways(peer: Peer, installed_node: Node) -> None:
@@ -147,7 +149,7 @@ def test_a_type_that_is_not_installed(peer: Peer, other: Peer) -> None:
     lasting = Qos(transient_local=True, depth=1)
     peer.publisher("/state", "own_msgs/msg/Report", lasting).publish({"here": {"x": 2.0}, "wide": "ß"})
     other.subscribe("/state", "own_msgs/Report", heard.append, lasting)
-    assert other.spin(lambda: heard, PATIENCE_S)
+    assert other.spin(lambda: heard, seconds(IDLE_S))
     assert heard[0]["here"] == {"x": 2.0, "y": -7}
     assert (heard[0]["wide"], heard[0]["count"]) == ("ß", 9)
 
@@ -158,7 +160,7 @@ def test_a_service_that_is_not_installed(peer: Peer, other: Peer) -> None:
 
     other.serve("/add", "own_msgs/srv/Add", add)
     client = peer.client("/add", "own_msgs/srv/Add")
-    assert peer.spin(client.available, PATIENCE_S)
+    assert peer.spin(client.available, seconds(IDLE_S))
     answers: list[Any] = []
     client.send({"a": 40, "b": 2}, answers.append)
 
@@ -166,7 +168,7 @@ def test_a_service_that_is_not_installed(peer: Peer, other: Peer) -> None:
         other.spin_once(0.01)
         return answers
 
-    assert peer.spin(answered, PATIENCE_S)
+    assert peer.spin(answered, seconds(IDLE_S))
     assert answers == [{"sum": 42, "notes": ["done"]}]
     assert client.call({"a": 1}, timeout_s=0.3) is None  # nobody spins the server
 
@@ -175,8 +177,37 @@ def test_a_call_waits_for_its_response(peer: Peer) -> None:
     """Client and server of one peer: calling spins both."""
     peer.serve("/own", "own_msgs/srv/Add", lambda request: {"sum": -request["a"]})
     client = peer.client("/own", "own_msgs/srv/Add")
-    assert client.call({"a": 5}, PATIENCE_S) == {"sum": -5, "notes": []}
+    assert client.call({"a": 5}, seconds(IDLE_S)) == {"sum": -5, "notes": []}
     assert peer.client("/nobody", "own_msgs/srv/Add").call({}, timeout_s=0.2) is None
+
+
+def test_a_response_waits_until_its_client_is_discovered(
+    peer: Peer, other: Peer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On a busy machine the request can come before what tells of the client: rcl gives such a response up."""
+    libraries = raw_types().libraries
+    send, results = libraries.send_response, [TIMEOUT, TIMEOUT]
+    monkeypatch.setattr(libraries, "send_response", lambda *given: results.pop() if results else send(*given))
+    other.serve("/late", "own_msgs/srv/Add", lambda request: {"sum": request["a"]})
+    client = peer.client("/late", "own_msgs/srv/Add")
+    assert peer.spin(client.available, seconds(IDLE_S))
+    responses: list[Any] = []
+    client.send({"a": 3}, responses.append)
+    client.send({"a": 4}, responses.append)
+
+    def responded() -> bool:
+        other.spin_once(0.01)
+        return len(responses) == 2
+
+    assert peer.spin(responded, seconds(IDLE_S))
+    assert sorted(response["sum"] for response in responses) == [3, 4]
+    assert not results
+
+    monkeypatch.setattr("microros_gen.ros.endpoints.UNDISCOVERED_S", 0.0)
+    results.append(TIMEOUT)
+    client.send({"a": 5}, responses.append)
+    with pytest.raises(RosError, match="response on /late"):
+        other.spin(lambda: False, seconds(IDLE_S))
 
 
 def test_what_is_refused(peer: Peer) -> None:
@@ -191,6 +222,6 @@ def test_what_is_refused(peer: Peer) -> None:
         peer.subscribe("/no topic", "own_msgs/msg/Report", print)
     peer.serve("/spins", "own_msgs/srv/Add", lambda _: {"sum": int(peer.spin_once())})
     with pytest.raises(RosError, match="a callback cannot spin"):
-        peer.client("/spins", "own_msgs/srv/Add").call({}, PATIENCE_S)
+        peer.client("/spins", "own_msgs/srv/Add").call({}, seconds(IDLE_S))
     peer.close()
     peer.close()
