@@ -17,6 +17,7 @@ from tests.support.agent.observer import observing
 from tests.support.agent.process import own_domain, running_agent
 from tests.support.agent.ros_client import INT32
 from tests.support.agent.stream_messages import acknacks, values, write
+from tests.support.patience import seconds
 
 LAST = 10
 """Samples that the history of the writer keeps."""
@@ -88,7 +89,7 @@ def test_a_reader_that_is_late_gets_the_last_samples() -> None:
             time.sleep(0.5)  # time for an agent that does not wait to end
             assert agent.process.poll() is None
         assert [value["data"] for _, value in observer.got(LAST)] == list(range(LAST))
-        assert agent.process.wait(timeout=30) == 0
+        assert agent.process.wait(timeout=seconds(15)) == 0
 
 
 @pytest.mark.ros

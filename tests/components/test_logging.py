@@ -45,6 +45,27 @@ def test_formats_are_those_of_the_c_library(verbose: Path, tmp_path: Path) -> No
     assert int(unit(verbose, "unit_log_format.c", tmp_path).split()[0]) > 100_000
 
 
+def test_floating_point_where_it_is_selected(tmp_path: Path) -> None:
+    out = rendered(tmp_path, BARE + "logging: console\ncomponents: [+logging_float]\n")
+    assert int(unit(out, "unit_log_float.c", tmp_path, "-O1").split()[0]) > 90_000
+
+
+def test_an_image_has_floating_point_only_where_it_is_selected(verbose: Path, tmp_path: Path) -> None:
+    """Without it, not even a conversion of a double is linked (Arm, numbers in software)."""
+    chosen = rendered(tmp_path, BARE + "logging: console\ncomponents: [+logging_float]\n")
+    folder = Path("src/logging/rcutils_format.c")
+    needed = {}
+    for name, out in (("without", verbose), ("with", chosen)):
+        made = tmp_path / f"{name}.o"
+        run(
+            "arm-none-eabi-gcc", "-mcpu=cortex-m0plus", "-c", f"-I{out / 'include'}", out / folder, "-o", made
+        )
+        needed[name] = set(run("arm-none-eabi-nm", "-u", made).split()) - {"U"}
+    assert needed["with"] - needed["without"] == {"microros_format_floating"}
+    assert not [name for name in needed["without"] if re.match("__aeabi_[df]", name)]
+    assert not (verbose / "src/logging_float").exists()
+
+
 def test_macros_levels_and_the_console(verbose: Path, tmp_path: Path) -> None:
     unit(verbose, "unit_logging.c", tmp_path)
 

@@ -165,7 +165,7 @@ class FakeBridge:
     settled: bool = True
     """Whether readers have everything that was published."""
     waited: list[float] = field(default_factory=list)
-    """How many seconds each writer was waited for, in vain."""
+    """Seconds for which each writer was waited for without success."""
     room: int | None = None
     """How many samples its writers take before they are full; None: any number."""
 

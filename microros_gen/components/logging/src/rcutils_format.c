@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rcutils_format.h"
 
+#include "microros/rcutils_format_float.h"
+
 #include <string.h>
 
 enum { WIDTH_MOST = 4095, FALLBACK_TEXT = 6 };
@@ -198,15 +200,13 @@ static microros_conversion_t format_read(const char ** next, va_list * args)
   return how;
 }
 
-/* Takes a floating-point number and puts its conversion as it stands. */
-static void format_skip(
+/* Puts a floating-point number, or its conversion as it stands (see microros/rcutils_format_float.h). */
+static void format_floating(
   microros_format_t * out, const microros_conversion_t * how, const char * first, const char * end,
   va_list * args)
 {
-  if (how->length == 'L') {
-    (void)va_arg(*args, long double);
-  } else {
-    (void)va_arg(*args, double);
+  if (microros_format_floating(out, how, args)) {
+    return;
   }
   for (const char * shown = first; shown != end; ++shown) {
     microros_format_put(out, *shown);
@@ -259,7 +259,7 @@ static bool format_convert(
       if (how->kind == '\0' || strchr("fFeEgGaA", how->kind) == NULL) {
         return false;
       }
-      format_skip(out, how, first, end, args);
+      format_floating(out, how, first, end, args);
       return true;
   }
 }

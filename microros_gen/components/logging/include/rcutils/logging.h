@@ -5,8 +5,8 @@
  * Loggers form a tree: a name without a level has that of the name before its last dot, and at last the default level.
  * Nothing here takes memory from a heap; a text longer than MICROROS_LOG_TEXT_SIZE ends with `...`.
  *
- * Formats: %d %i %u %x %X %o %c %s %p %%, with flags, width, precision and the lengths hh h l ll z j t. Conversions of
- * floating point are put out as they stand (`%f`).
+ * Formats: %d %i %u %x %X %o %c %s %p %%, with flags, width, precision and the lengths hh h l ll z j t; with the component
+ * `logging_float` also %f %F %e %E %g %G. Other conversions of floating point are put out as they stand.
  *
  * Levels and the output handler are set before other tasks log. Not for interrupts.
  */
