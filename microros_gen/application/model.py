@@ -209,6 +209,11 @@ class ExecutorDecl:
     span: Span | None = None
 
 
+def logger_name(namespace: str, name: str) -> str:
+    """Return the name that ROS 2 gives to the logger of a node: `namespace.name`."""
+    return ".".join(part for part in (*namespace.split("/"), name) if part)
+
+
 @dataclass(frozen=True)
 class NodeDecl:
     """A node and what it owns. `given_name`, `given_namespace`: what the source has, where `remap:` changes them.

@@ -12,6 +12,7 @@ import pytest
 
 from microros_gen import compiler
 from microros_gen.components.logging.plan import LoggingPlan
+from microros_gen.components.logging_rosout.plan import RosoutPlan
 from microros_gen.diagnostics import UserError
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.toolchain.toolchain import WARNINGS
@@ -64,6 +65,17 @@ def test_an_image_has_floating_point_only_where_it_is_selected(verbose: Path, tm
     assert needed["with"] - needed["without"] == {"microros_format_floating"}
     assert not [name for name in needed["without"] if re.match("__aeabi_[df]", name)]
     assert not (verbose / "src/logging_float").exists()
+
+
+def test_names_of_loggers_have_room_for_those_of_nodes(tmp_path: Path) -> None:
+    nodes = "nodes: [{name: a_long_name_of_a_node, namespace: /in/a_namespace}, {name: b}]\n"
+    found = planned(tmp_path, f"version: 1\nprofiles: [pure_sender]\nlogging: rosout\n{nodes}")
+    size = len("in.a_namespace.a_long_name_of_a_node") + 1
+    assert slice_of(found).name_size == size
+    assert found.project.runtime.entities.logger_name_size == size
+    rosout = found.project.runtime.features.of("logging_rosout")
+    assert isinstance(rosout, RosoutPlan)
+    assert rosout.name == size - 1
 
 
 def test_macros_levels_and_the_console(verbose: Path, tmp_path: Path) -> None:

@@ -70,6 +70,13 @@ class EntitiesPlan:
         return "declared" if self.declared else "pool"
 
     @property
+    def logger_name_size(self) -> int:
+        """Bytes of the longest logger name of a node, namespace.name, with its NUL."""
+        if not self.declared:
+            return 2 * self.name_size
+        return 1 + max((len(node.logger_name) for node in self.nodes.declared), default=0)
+
+    @property
     def serves(self) -> bool:
         """Whether there are places of services or of clients."""
         return self.services.any or self.clients.any

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import field
 
+from microros_gen.application.model import logger_name
 from microros_gen.interfaces.dds_names import dds_type
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
@@ -24,6 +25,11 @@ class NodePlan:
     domain_id: int
     given_name: str = ""
     given_namespace: str = ""
+
+    @property
+    def logger_name(self) -> str:
+        """The name of its logger in ROS 2."""
+        return logger_name(self.namespace, self.name)
 
     @property
     def source_name(self) -> str:

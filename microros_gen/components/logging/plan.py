@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from microros_gen.application.model import LOG_LEVELS, Application, LogWriter
+from microros_gen.application.model import LOG_LEVELS, Application, LogWriter, logger_name
 from microros_gen.client.plan.features import PlanContext
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass
@@ -13,7 +13,7 @@ TEXT_SIZE = 192
 LOGGERS = 4
 """Loggers that can have a separate level."""
 NAME_SIZE = 32
-"""Bytes of the name of such a logger with its NUL."""
+"""Bytes of the name of such a logger with its NUL, where no declared node has a longer one."""
 _NO_WRITER = 60
 """Above all levels."""
 _STEP = 10
@@ -31,7 +31,7 @@ class LoggingPlan:
     text: str
     text_size: int = TEXT_SIZE
     loggers: int = LOGGERS
-    name_size: int = NAME_SIZE
+    name_size: int
 
     @property
     def min_severity(self) -> int:
@@ -59,6 +59,12 @@ def writer_of(application: Application, to: str) -> LogWriter | None:
     return next((writer for writer in application.logging if writer.to == to), None)
 
 
+def name_size(application: Application) -> int:
+    """Return the bytes of the name of a logger with its NUL."""
+    names = (logger_name(node.namespace, node.name) for node in application.nodes)
+    return max(NAME_SIZE, *(1 + len(name) for name in names), 0)
+
+
 def level_number(writer: LogWriter) -> int:
     """Return the lowest level of a writer as a number of ROS 2."""
     return _STEP * (1 + LOG_LEVELS.index(writer.level))
@@ -84,6 +90,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LoggingPlan:
         console_level=levels.get("console", _NO_WRITER),
         callback_level=levels.get("callback", _NO_WRITER),
         rosout="rosout" in levels,
+        name_size=name_size(context.application),
         text=", ".join(f"{writer.to} from {writer.level}" for writer in writers),
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from microros_gen.application.model import Application, LimitRule, LogWriter
 from microros_gen.client.plan.features import PlanContext, refuse_own_limits
-from microros_gen.components.logging.plan import level_number, writer_of
+from microros_gen.components.logging.plan import level_number, name_size, writer_of
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
@@ -71,5 +71,6 @@ def limits(application: Application) -> tuple[LimitRule, ...]:
     configured = {rule.path for rule in application.limits}
     if (str(TYPE),) in configured:
         return ()
-    rules = (LimitRule((str(TYPE), member), bound, None) for member, bound in _TEXTS.items())
+    texts = {**_TEXTS, "name": max(_TEXTS["name"], name_size(application) - 1)}
+    rules = (LimitRule((str(TYPE), member), bound, None) for member, bound in texts.items())
     return tuple(rule for rule in rules if rule.path not in configured)

@@ -33,7 +33,7 @@ int main(int argc, char ** argv)
   (void)printf("ready\n");
   (void)fflush(stdout);
   RCUTILS_LOG_DEBUG("%s is below the level", "debug");
-  RCUTILS_LOG_ERROR_NAMED("arm.device", "%d µm of \"%s\"", 42, "glass");
+  RCUTILS_LOG_ERROR_NAMED(rcl_node_get_logger_name(&node), "%d µm of \"%s\"", 42, "glass");
   for (int i = 0; i < count; ++i) {
     RCUTILS_LOG_WARN("line %d", i);
     check(rmw_uros_spin_once(rcl_context_get_rmw_context(&support.context)), "spin");

@@ -59,10 +59,12 @@ static void start(void)
   TELL(rcl_node_is_valid(&node));
   TELL(strcmp(rcl_node_get_name(&node), "n"));
   TELL(strcmp(rcl_node_get_namespace(&node), "/s"));
+  TELL(strcmp(rcl_node_get_logger_name(&node), "s.n"));
   TELL(rcl_node_get_domain_id(&node, &domain));
   TELL(rcl_node_get_domain_id(&node, NULL));
   TELL(rcl_node_init(&another, "m", "", &context, &choices));
   TELL(strcmp(rcl_node_get_namespace(&another), "/"));
+  TELL(strcmp(rcl_node_get_logger_name(&another), "m"));
   TELL(rcl_node_fini(&another));
   TELL(rcl_node_fini(&another));
   TELL(rcl_node_is_valid(&another));

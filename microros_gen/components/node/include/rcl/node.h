@@ -51,7 +51,9 @@ const char * rcl_node_get_name(const rcl_node_t * node);
 
 const char * rcl_node_get_namespace(const rcl_node_t * node);
 
-/* Returns the node's name, which is also the logger name in ROS 2 for nodes without a namespace. */
+/*
+ * Returns the name of the node's logger as rclcpp and rclpy have it: `name`, or `namespace.name`. It belongs to the node;
+ * NULL for an invalid node. */
 const char * rcl_node_get_logger_name(const rcl_node_t * node);
 
 rcl_ret_t rcl_node_get_domain_id(const rcl_node_t * node, size_t * domain_id);
