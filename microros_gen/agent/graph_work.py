@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How much of the agent's time goes into changes of the ROS graph: nodes and endpoints that come and go.
+"""Limit of the agent's time for changes of the ROS graph: nodes and endpoints that are created and destroyed.
 
-They cost much more than samples, here and at every other participant of the graph. All clients together have so many
-milliseconds of a second; what was not used may be used later, up to `BURST_S` seconds of it. A client may change the
-graph while more is left than it took itself in the last `MEMORY_S` seconds. So those who took most wait first, who
-begins is served at once while others flood, and one alone never gets more than half. What may come at once is spread:
-the other participants have to follow, and what they do for others waits meanwhile.
+Such changes cost much more than samples, here and at every other participant of the graph. All clients together get a
+share of each second in milliseconds; unused time can be used later, up to `BURST_S` seconds' worth. A client may change
+the graph while more time is left than it used itself in the last `MEMORY_S` seconds. Clients that used most therefore
+wait first, a new client is served at once while others flood the agent, and a single client never gets more than half.
+Bursts are spread over time, because the other participants have to process each change as well.
 """
 
 from __future__ import annotations
@@ -15,21 +15,24 @@ from math import exp
 from microros_gen.agent.fairness import Account
 
 BURST_S = 3.0
-"""Seconds whose work may come at once."""
+"""Seconds whose share may be used in one burst."""
 PEAK, PEAK_S, LIGHT_S = 1.5, 0.25, 0.05
-"""How fast it may come: so many times the share, after what the share has in `PEAK_S` seconds; who took less than what
-it has in `LIGHT_S` is not held up by that."""
+"""Maximum rate in a burst, as a multiple of the share, after the share of `PEAK_S` seconds.
+
+A client that used less than the share of `LIGHT_S` seconds is exempt."""
 MEMORY_S = 6.0
-"""Seconds after which about a third of what a client took still counts."""
+"""Seconds after which about a third of a client's use is left."""
 
 
 MOST_S = 0.5
-"""One change counts at most what the share has in so many seconds: on a slow machine, where a node alone may take more
-than the share of a second, who has few entities gets them within the second that clients wait."""
+"""Maximum cost of one change: the share of so many seconds.
+
+On a slow machine, where a node may take more than the share of a second, a client with few entities still gets them
+within the second that clients wait."""
 
 
 class GraphWork:
-    """Remaining time for changes."""
+    """The remaining time for changes, in seconds."""
 
     def __init__(self, ms_per_second: float) -> None:
         self._share = ms_per_second / 1000
@@ -40,8 +43,12 @@ class GraphWork:
     def allows(self, account: Account, now: float) -> bool:
         """Return whether a client may change the graph at `now`."""
         self._refill(now)
-        took = _fade(account, now)
-        return self._left > 0 and self._left >= took and (self._left_now > 0 or took < self._share * LIGHT_S)
+        recent_s = _fade(account, now)
+        return (
+            self._left > 0
+            and self._left >= recent_s
+            and (self._left_now > 0 or recent_s < self._share * LIGHT_S)
+        )
 
     def charge(self, account: Account, seconds: float, now: float) -> None:
         """Charge a change to a client, in seconds."""

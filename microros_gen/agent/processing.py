@@ -248,9 +248,9 @@ class Processor:
         if not known or not client.session.stopped:
             self._stopped.discard(client)
             return
-        took = self._clock() - began
+        elapsed = self._clock() - began
         client.retry_s = RETRY_S if self.samples > samples else min(2 * client.retry_s, LONGEST_RETRY_S)
-        client.retry_at = began + took + max(client.retry_s, 9 * took if self.samples == samples else 0)
+        client.retry_at = began + elapsed + max(client.retry_s, 9 * elapsed if self.samples == samples else 0)
 
 
 def _of_client(data: bytes, at: int, end: int) -> bool:

@@ -163,11 +163,11 @@ def submessages_of(data: bytes) -> list[Submessage]:
 
 @pytest.fixture
 def stage() -> Iterator[Stage]:
-    made = Stage()
-    yield made
-    made.unharmed()
-    made.bench.agent.close()
-    assert made.bench.bridge.graph == []
+    stage = Stage()
+    yield stage
+    stage.unharmed()
+    stage.bench.agent.close()
+    assert stage.bench.bridge.graph == []
 
 
 def statuses(answers: list[Submessage]) -> list[int]:
@@ -273,12 +273,12 @@ def test_a_sequence_of_very_many_samples(stage: Stage) -> None:
 
 
 @pytest.mark.parametrize(
-    "one",
+    "submessage",
     [Delete(1, 0x555), GetInfo(1, 0x15, 3), entities()[3], Timestamp((1, 2)), ReadData(1, 0x16, 0x80)],
-    ids=lambda one: one.ID.name,
+    ids=lambda submessage: submessage.ID.name,
 )
-def test_very_many_requests_in_one_message(stage: Stage, one: Submessage) -> None:
-    padded = encode(one) + bytes(-len(encode(one)) % 4)
+def test_very_many_requests_in_one_message(stage: Stage, submessage: Submessage) -> None:
+    padded = encode(submessage) + bytes(-len(encode(submessage)) % 4)
     assert statuses(stage.whole(padded * (MOST_REQUESTS + 1))) == []
     assert stage.bench.log.counters["too_many_requests"] == 1
     stage.whole(padded * MOST_REQUESTS)
@@ -548,10 +548,10 @@ def test_a_refusal_that_is_repeated_is_counted(stage: Stage) -> None:
 
 def test_lines_are_short_and_not_too_many_bytes() -> None:
     """S8: refused CREATEs with filters of 60 kB, all different, were 14.5 MB/s of log."""
-    out, moment = io.StringIO(), [0.0]
-    log = EventLog(out, clock=lambda: moment[0])
+    out, now = io.StringIO(), [0.0]
+    log = EventLog(out, clock=lambda: now[0])
     for number in range(20_000):
-        moment[0] += 0.001
+        now[0] += 0.001
         for event in ("create_refused", "read_refused"):
             log.emit(Level.WARNING, event, "refused: {reason}", reason=f"{number} " + "x" * 60_000)
     assert max(map(len, out.getvalue().splitlines())) < 500
@@ -562,21 +562,21 @@ def test_lines_are_short_and_not_too_many_bytes() -> None:
 
 
 def test_suppressed_reports_are_counted() -> None:
-    out, moment = io.StringIO(), [0.0]
-    log = EventLog(out, clock=lambda: moment[0])
+    out, now = io.StringIO(), [0.0]
+    log = EventLog(out, clock=lambda: now[0])
     for number in range(BURST + 7):
         log.emit(Level.INFO, "created", "{number}", number=number)
     log.emit(Level.INFO, "deleted", "other events are not meant")
     assert out.getvalue().splitlines()[BURST - 1 :] == [str(BURST - 1), "other events are not meant"]
-    moment[0] += 1.0
+    now[0] += 1.0
     log.emit(Level.INFO, "created", "again")
     reported = "warning: 7 events 'created' before this one were not written: too many at once"
     assert out.getvalue().splitlines()[-2:] == [reported, "again"]
 
 
-@pytest.mark.parametrize("moment", ["time-out", "end"])
+@pytest.mark.parametrize("when", ["time-out", "end"])
 def test_a_fault_with_one_client_is_not_the_concern_of_others(
-    monkeypatch: pytest.MonkeyPatch, moment: str
+    monkeypatch: pytest.MonkeyPatch, when: str
 ) -> None:
     """ROS 2 may refuse to let go of an entity: all others leave, and the agent goes on."""
     stage = Stage()
@@ -587,7 +587,7 @@ def test_a_fault_with_one_client_is_not_the_concern_of_others(
         raise RuntimeError("ROS 2 has lost its mind")
 
     monkeypatch.setattr(stage.source(), "destroy", broken)
-    if moment == "time-out":
+    if when == "time-out":
         stage.bench.wait(6)
         stage.bench.wait(20)
         assert len(stage.bench.agent.clients) == 0

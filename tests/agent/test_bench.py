@@ -45,17 +45,19 @@ def test_every_reliable_sample_of_dds_is_counted_in_a_client(programs: Programs,
 
 
 def test_losses_of_best_effort_are_counted(programs: Programs) -> None:
-    here, there = (socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(2))
-    with here, there:
-        here.bind(("127.0.0.1", 0))
-        there.connect(here.getsockname())
-        here.connect(there.getsockname())
+    receiver, sender = (socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(2))
+    with receiver, sender:
+        receiver.bind(("127.0.0.1", 0))
+        sender.connect(receiver.getsockname())
+        receiver.connect(sender.getsockname())
         for sequence, number in enumerate((0, 1, 3, 7)):
             body = b"\x0d\0\0\0%08d....\0" % number
-            here.send(bytes((0x81, 1, sequence, 0, 9, 1, 4 + len(body), 0, 0, 0x20, 0, 0x16)) + body)
-        numbers = (there.fileno(), 0x16, 17, 8, 512, BEST_EFFORT, 0, 0, 0, -1)
+            receiver.send(bytes((0x81, 1, sequence, 0, 9, 1, 4 + len(body), 0, 0, 0x20, 0, 0x16)) + body)
+        numbers = (sender.fileno(), 0x16, 17, 8, 512, BEST_EFFORT, 0, 0, 0, -1)
         command = [str(programs.load), "receive", *map(str, numbers)]
-        done = subprocess.run(command, pass_fds=(there.fileno(),), capture_output=True, text=True, check=True)
+        done = subprocess.run(
+            command, pass_fds=(sender.fileno(),), capture_output=True, text=True, check=True
+        )
     seen = json.loads(done.stdout)
     assert (seen["samples"], seen["lost"]) == (4, 4)
 

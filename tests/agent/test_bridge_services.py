@@ -34,16 +34,16 @@ def test_twenty_slow_requests_each_get_their_answer(bridged: Bridged, bridge_obs
     """All requests come before the first is answered, and they are answered backwards."""
     node = bridged.bridge.create_node("server", bridged.domain)
     replier = node.create_replier(get_types("many"))
-    asked = [["x" * i, "y" * (40 - i)] for i in range(20)]
-    bridge_observer.ask(do="call", service="/many", type=GET_TYPES, names=asked)
+    names = [["x" * i, "y" * (40 - i)] for i in range(20)]
+    bridge_observer.ask(do="call", service="/many", type=GET_TYPES, names=names)
     requests = bridged.take(replier, 20)
-    assert sorted(read_names(request) for _, request in requests) == sorted(asked)
+    assert sorted(read_names(request) for _, request in requests) == sorted(names)
     assert len({identity for identity, _ in requests}) == 20
     assert {len(identity) for identity, _ in requests} == {24}
     for identity, request in reversed(requests):
         replier.reply(identity, types_body([len(name) for name in read_names(request)]))
     bridged.wait(lambda: None not in bridge_observer.ask(do="replies"))
-    assert bridge_observer.ask(do="replies") == [[len(a), len(b)] for a, b in asked]
+    assert bridge_observer.ask(do="replies") == [[len(a), len(b)] for a, b in names]
     node.destroy()
 
 
@@ -72,18 +72,18 @@ def test_replies_to_others_do_not_hide_ones_own(bridged: Bridged, bridge_observe
     bridge_observer.ask(do="serve", service="/shared", type=GET_TYPES, hold=6)
     node = bridged.bridge.create_node("askers", bridged.domain)
     requesters = [node.create_requester(get_types("shared")) for _ in range(3)]
-    asked = {
+    requests = {
         (i, r.request(names_body(["n" * (i + 1)] * k))): k for k in (1, 2) for i, r in enumerate(requesters)
     }
-    got: dict[tuple[int, int], bytes] = {}
+    received: dict[tuple[int, int], bytes] = {}
 
     def sink(asker: int, reply: tuple[int, bytes]) -> None:
-        got[asker, reply[0]] = reply[1]
+        received[asker, reply[0]] = reply[1]
 
     sinks: dict[Any, Callable[[Any], object]] = {r: partial(sink, i) for i, r in enumerate(requesters)}
-    bridged.wait(lambda: len(got) == 6, sinks)
-    assert {key: read_types(value) for key, value in got.items()} == {
-        (i, number): [i + 1] * k for (i, number), k in asked.items()
+    bridged.wait(lambda: len(received) == 6, sinks)
+    assert {key: read_types(value) for key, value in received.items()} == {
+        (i, number): [i + 1] * k for (i, number), k in requests.items()
     }
     node.destroy()
 
@@ -122,13 +122,13 @@ def test_what_waits_of_all_services_together_is_bounded(
 ) -> None:
     monkeypatch.setattr(services, "HELD_BYTES_OF_ALL", 1000)
     node = bridged.bridge.create_node("many", bridged.domain)
-    one, two = (node.create_requester(get_types(name)) for name in ("nobody_1", "nobody_2"))
-    one.request(names_body(["n" * 600]))
+    first, second = (node.create_requester(get_types(name)) for name in ("nobody_1", "nobody_2"))
+    first.request(names_body(["n" * 600]))
     assert not lost(bridged, "/many")
-    two.request(names_body(["n" * 600]))
+    second.request(names_body(["n" * 600]))
     assert [reported.endpoint for reported in lost(bridged, "/many")] == [f"/nobody_2 [{GET_TYPES}]"]
-    one.destroy()
-    two.request(names_body(["n" * 600]))
+    first.destroy()
+    second.request(names_body(["n" * 600]))
     assert [reported.lost for reported in lost(bridged, "/many")] == [1, 1], (
         "the first one's was lost with it"
     )
@@ -228,8 +228,10 @@ def test_a_vanished_client_delays_no_other(bridged: Bridged, monkeypatch: pytest
     for identity in identities:
         replier.reply(identity, types_body([1]))
     assert time.monotonic() - start < 0.09
-    gone = [NoClient("/forsaken", f"/forsaken [{GET_TYPES}]", lost) for lost in range(1, 6)]
-    bridged.wait(lambda: [reported for reported in bridged.reports if isinstance(reported, NoClient)] == gone)
+    reports = [NoClient("/forsaken", f"/forsaken [{GET_TYPES}]", lost) for lost in range(1, 6)]
+    bridged.wait(
+        lambda: [reported for reported in bridged.reports if isinstance(reported, NoClient)] == reports
+    )
     # Who was only not discovered in time is answered as soon as the graph has it.
     asker = bridged.bridge.create_node("staying", bridged.domain)
     requester = asker.create_requester(get_types("forsaken"))

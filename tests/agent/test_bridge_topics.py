@@ -125,7 +125,9 @@ def test_a_type_without_a_python_package(bridged: Bridged, bridge_observer: Obse
     bridged.wait(is_seen(bridge_observer, "/things_in"))
     for topic in ("/things_out", "/things_in"):
         found = bridge_observer.ask(do="endpoints", topic=topic)
-        assert {(one["type"], one["hash"]) for one in found} == {("acme_msgs/msg/Thing", expected)}
+        assert {(endpoint["type"], endpoint["hash"]) for endpoint in found} == {
+            ("acme_msgs/msg/Thing", expected)
+        }
     sample = b"\0\1\0\0" + bytes(range(40))
     bridged.wait(lambda: _published(writer, sample, bridge_observer))
     node.destroy()
@@ -145,11 +147,11 @@ def test_quality_of_service_in_the_graph(bridged: Bridged, bridge_observer: Obse
 
     def found() -> object:
         seen = bridge_observer.ask(do="endpoints", topic="/qos")
-        return len(seen) == 2 and {one["node"] for one in seen} == {"/robot/arm/qos"}
+        return len(seen) == 2 and {endpoint["node"] for endpoint in seen} == {"/robot/arm/qos"}
 
     bridged.wait(found)
     writer, reader = sorted(
-        bridge_observer.ask(do="endpoints", topic="/qos"), key=lambda one: str(one["kind"])
+        bridge_observer.ask(do="endpoints", topic="/qos"), key=lambda endpoint: str(endpoint["kind"])
     )
     assert (writer["kind"], writer["reliability"], writer["durability"]) == (
         "PUBLISHER",
@@ -203,13 +205,16 @@ def _has_node(name: str, graph: dict[str, Any]) -> bool:
 
 def test_domains_are_apart(bridged: Bridged, bridge_observer: Observer) -> None:
     other = bridged.domain + 1
-    with observing(other) as there:
+    with observing(other) as other_observer:
         nodes = [bridged.bridge.create_node(f"in_{d}", d) for d in (bridged.domain, other)]
         for node in nodes:
             node.create_writer(Topic("rt/apart", DDS_INT32), Qos())
         here_seen, there_seen = (
             watching.see(partial(_has_node, name))["nodes"]
-            for watching, name in ((bridge_observer, f"/in_{bridged.domain}"), (there, f"/in_{other}"))
+            for watching, name in (
+                (bridge_observer, f"/in_{bridged.domain}"),
+                (other_observer, f"/in_{other}"),
+            )
         )
         assert f"/in_{other}" not in here_seen
         assert f"/in_{bridged.domain}" not in there_seen

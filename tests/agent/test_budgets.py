@@ -151,14 +151,14 @@ def test_objects_of_all_clients_are_bounded_by_their_bytes() -> None:
     """S2: 512 TYPE objects of 64 kB are 33 MB of one client; eight clients find no room for that."""
     limits = Limits(clients=8, object_bytes=8 << 20)
     bench = Bench(limits)
-    made = 0
+    created = 0
     for number in range(1, 9):
         address = connect(bench, number)
         for count, create in enumerate(types(64, 60_000)):
             bench.now += 0.1
             status = ask(bench, create, address)
             assert status in (OK, RESOURCES)
-            made += status == OK
+            created += status == OK
             if status == RESOURCES:
                 assert count > 0, "each has a share"
                 break
@@ -166,7 +166,7 @@ def test_objects_of_all_clients_are_bounded_by_their_bytes() -> None:
             pytest.fail("no bound")
     held = sum(client.shares.objects.held for client in bench.agent.clients)
     assert held <= 8 << 20
-    assert made * 60_000 <= held
+    assert created * 60_000 <= held
     for client in bench.agent.clients:
         bench.say(message(Delete(1, 0xFFFE), stream=0), client.address)
     address = connect(bench, 9)

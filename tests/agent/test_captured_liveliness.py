@@ -32,7 +32,7 @@ def test_its_answer_is_a_sign_of_life_and_no_fault() -> None:
     bench = Bench()
     bench.say(CREATE_CLIENT)
     for _ in range(6):
-        assert any(" 02 01 08 00 " in asked for asked in bench.wait(1.1)), "the agent asks"
+        assert any(" 02 01 08 00 " in answer for answer in bench.wait(1.1)), "the agent asks"
         assert bench.say(ANSWER) == []
     assert "not heard" not in bench.text.getvalue()
     assert "malformed" not in bench.text.getvalue()

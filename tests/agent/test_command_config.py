@@ -61,16 +61,16 @@ log: {format: json, verbose: 2}
 """
 
 
-def options(text: str, folder: Path, *transports: SocketChoice, **given: object) -> AgentOptions:
+def options(text: str, folder: Path, *transports: SocketChoice, **arguments: object) -> AgentOptions:
     path = folder / "agent.yaml"
     path.write_text(text)
-    return AgentOptions.of([{**NOTHING, "config": path, **given}], transports)
+    return AgentOptions.of([{**NOTHING, "config": path, **arguments}], transports)
 
 
 def test_everything_that_a_file_can_say(tmp_path: Path) -> None:
     """Paths are relative to the file."""
-    got = options(WHOLE, tmp_path)
-    assert got == AgentOptions(
+    options_read = options(WHOLE, tmp_path)
+    assert options_read == AgentOptions(
         transports=(
             SocketChoice("udp4"),
             SocketChoice("udp6", 7777, "::"),
@@ -92,7 +92,7 @@ def test_everything_that_a_file_can_say(tmp_path: Path) -> None:
 
 
 def test_the_command_line_wins(tmp_path: Path) -> None:
-    got = options(
+    options_read = options(
         WHOLE,
         tmp_path,
         SocketChoice("udp4", 1),
@@ -104,10 +104,15 @@ def test_the_command_line_wins(tmp_path: Path) -> None:
         verbose=1,
         discovery_port=9,
     )
-    assert got.transports == (SocketChoice("udp4", 1),)
-    assert (got.domain, got.log_format, got.verbose, got.discovery) == (0, "text", 1, 9)
-    assert got.limits == Limits(clients=4, client_timeout_s=9.0, message_bytes=1000, objects=5)
-    assert got.references == (tmp_path / "refs.xml", Path("more.xml"))
+    assert options_read.transports == (SocketChoice("udp4", 1),)
+    assert (options_read.domain, options_read.log_format, options_read.verbose, options_read.discovery) == (
+        0,
+        "text",
+        1,
+        9,
+    )
+    assert options_read.limits == Limits(clients=4, client_timeout_s=9.0, message_bytes=1000, objects=5)
+    assert options_read.references == (tmp_path / "refs.xml", Path("more.xml"))
 
 
 def test_a_graph_server_inside_the_agent(tmp_path: Path) -> None:
@@ -197,9 +202,9 @@ def test_options_of_several_places() -> None:
     """Lists are joined, -v counts, and what holds for the whole agent has one value."""
     first = {**NOTHING, "verbose": 1, "domain": 3, "references": (Path("a"),)}
     second = {**NOTHING, "verbose": 1, "domain": 3, "references": (Path("b"),), "discovery": True}
-    one = _one_each([NOTHING, first, second])
-    assert (one["verbose"], one["domain"], one["discovery"]) == (2, 3, True)
-    assert one["references"] == (Path("a"), Path("b"))
+    merged = _one_each([NOTHING, first, second])
+    assert (merged["verbose"], merged["domain"], merged["discovery"]) == (2, 3, True)
+    assert merged["references"] == (Path("a"), Path("b"))
     with pytest.raises(UserError, match="--domain has two values, 3 and 4"):
         _one_each([first, {**NOTHING, "domain": 4}])
     with pytest.raises(UserError, match="--domain has two values, 0 and 4"):
@@ -259,15 +264,15 @@ def test_a_manifest_is_of_its_nodes_or_of_a_key(tmp_path: Path) -> None:
     diagnostics.check()
     assert clients.common == {}
     found = Manifests(clients.by_client)
-    asked = found.hash_of(b"\1\2\3\4", "imu")
-    assert asked is not None
-    assert asked("p/msg/A") == ONE
-    asked = found.hash_of(b"\1\2\3\4", "ns/other")
-    assert asked is not None
-    assert asked("p/msg/A") == ONE
-    asked = found.hash_of(b"\xa1\xb2\xc3\xd4", "imu")
-    assert asked is not None
-    assert asked("p/msg/A") == TWO
+    hash_of_type = found.hash_of(b"\1\2\3\4", "imu")
+    assert hash_of_type is not None
+    assert hash_of_type("p/msg/A") == ONE
+    hash_of_type = found.hash_of(b"\1\2\3\4", "ns/other")
+    assert hash_of_type is not None
+    assert hash_of_type("p/msg/A") == ONE
+    hash_of_type = found.hash_of(b"\xa1\xb2\xc3\xd4", "imu")
+    assert hash_of_type is not None
+    assert hash_of_type("p/msg/A") == TWO
     assert found.hash_of(b"\1\2\3\4", "nobody") is None
     assert TypeHashes({"p/msg/A": ONE}.get, {}).differences(clients) == ["p/msg/A"]
 

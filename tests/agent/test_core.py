@@ -391,8 +391,8 @@ def test_timestamps_after_2038_go_on_modulo_2_32(monkeypatch: pytest.MonkeyPatch
     bench = connected()
     monkeypatch.setattr(time, "time_ns", lambda: year_2038 * 10**9 + 5)
     (answer,) = bench.say("81 00 00 00 0e 01 08 00 ff ff ff ff 05 06 07 08")
-    moment = (year_2038 & 0xFFFF_FFFF).to_bytes(4, "little") + bytes((5, 0, 0, 0))
-    assert bytes.fromhex(answer)[8:] == moment * 2 + bytes.fromhex("ff ff ff ff 05 06 07 08")
+    wire_time = (year_2038 & 0xFFFF_FFFF).to_bytes(4, "little") + bytes((5, 0, 0, 0))
+    assert bytes.fromhex(answer)[8:] == wire_time * 2 + bytes.fromhex("ff ff ff ff 05 06 07 08")
     assert not bench.log.counters
 
 

@@ -113,10 +113,10 @@ def test_max_bytes_per_second() -> None:
     listener = Listener(bench)
     listener.read(control=DeliveryControl(0xFFFF, max_bytes_per_second=120))  # a DATA has 12 bytes
     put(bench, *range(100))
-    got = len(values(listener.take())) + len(values(listener.pass_time(5.0)))
-    assert got in (50, 51)
-    got += len(values(listener.pass_time(5.0)))
-    assert got == 100
+    received = len(values(listener.take())) + len(values(listener.pass_time(5.0)))
+    assert received in (50, 51)
+    received += len(values(listener.pass_time(5.0)))
+    assert received == 100
 
 
 def test_min_pace_period() -> None:
@@ -298,12 +298,12 @@ def test_numbers_wrap() -> None:
     listener.read(stream=0x80)
     total = 0x10000 + 100
     source = bench.bridge.source(LABEL)
-    got = 0
+    received = 0
     for start in range(0, total, 16):
         source.put(*(sample(i) for i in range(start, min(start + 16, total))))
-        got += len(values(listener.take()))
-        listener.acknowledge(got & 0xFFFF)
-    assert got == total
+        received += len(values(listener.take()))
+        listener.acknowledge(received & 0xFFFF)
+    assert received == total
 
 
 # What ends a reading, or interrupts it

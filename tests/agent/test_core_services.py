@@ -118,10 +118,10 @@ def test_many_calls_at_once_each_get_their_reply(seed: int) -> None:
     bench, listener = serving(REQUESTER)
     for request in range(100, 300):
         listener.say(WriteData(request, REQUESTER, request.to_bytes(2, "big")))
-    asked = requester(bench).requests[:]
-    assert len(asked) == 200
-    chance.shuffle(asked)
-    requester(bench).put(*((number, LITTLE + serialized[4:]) for number, serialized in asked))
+    requests = requester(bench).requests[:]
+    assert len(requests) == 200
+    chance.shuffle(requests)
+    requester(bench).put(*((number, LITTLE + serialized[4:]) for number, serialized in requests))
     answers: list[Data] = []
     listener.take()
     while new := [a for a in listener.answers() if isinstance(a, Data)]:

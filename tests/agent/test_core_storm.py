@@ -112,7 +112,7 @@ class LossyClient:
         self.expected = 0
         self.held: dict[int, bytes] = {}
         self.chunks = b""
-        self.got: list[bytes] = []
+        self.received: list[bytes] = []
 
     def hear(self) -> None:
         arrived = [
@@ -137,7 +137,7 @@ class LossyClient:
                     whole, self.chunks = self.chunks, b""
                     self.take(whole, 0)
             elif isinstance(submessage, Data):
-                self.got.append(submessage.data)
+                self.received.append(submessage.data)
 
     def acknowledge(self) -> None:
         if self.chance.random() < 0.6:
@@ -163,7 +163,7 @@ def test_every_sample_arrives_once_and_in_order_over_a_bad_line(seed: int, keyed
     client = LossyClient(bench, chance, header)
     source = bench.bridge.sources[0]
     for _ in range(20_000):
-        if len(client.got) == len(wanted):
+        if len(client.received) == len(wanted):
             break
         bench.transport.sent.clear()
         if todo and chance.random() < 0.5:
@@ -173,5 +173,5 @@ def test_every_sample_arrives_once_and_in_order_over_a_bad_line(seed: int, keyed
         bench.now += 0.06
         bench.agent.tick()
         client.hear()
-    assert client.got == wanted
+    assert client.received == wanted
     assert not bench.log.counters

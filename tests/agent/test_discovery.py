@@ -37,11 +37,11 @@ def free_port() -> int:
 @pytest.fixture
 def asker() -> Iterator[socket.socket]:
     """A client that asks on the loopback interface."""
-    made = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-    made.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton("127.0.0.1"))
-    made.settimeout(seconds(3))
-    yield made
-    made.close()
+    client = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    client.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton("127.0.0.1"))
+    client.settimeout(seconds(3))
+    yield client
+    client.close()
 
 
 def test_the_answer_that_the_public_client_understands(asker: socket.socket) -> None:
@@ -51,14 +51,14 @@ def test_the_answer_that_the_public_client_understands(asker: socket.socket) -> 
     port = free_port()
     with Served(udp, Discovery([udp], bench.log, port), bench=bench) as served:
         asker.sendto(QUESTION, (GROUP, port))
-        got = asker.recv(1000)
+        reply = asker.recv(1000)
         assert f"discovery {GROUP}:{port}" in served.ready
     head = bytes.fromhex((ANSWER % "24").replace(" ", ""))
-    assert got[: len(head)] == head
+    assert reply[: len(head)] == head
     at = len(head) + (-len(head) & 3)
-    assert struct.unpack_from("<I", got, at) == (1,)
-    assert got[at + 4 : at + 9] == b"\x01\x7f\x00\x00\x01"  # MEDIUM, 127.0.0.1
-    assert struct.unpack_from("<H", got, at + 10) == (udp.port,)
+    assert struct.unpack_from("<I", reply, at) == (1,)
+    assert reply[at + 4 : at + 9] == b"\x01\x7f\x00\x00\x01"  # MEDIUM, 127.0.0.1
+    assert struct.unpack_from("<H", reply, at + 10) == (udp.port,)
     assert not bench.log.counters
 
 
@@ -77,9 +77,9 @@ def test_locators_of_all_transports(asker: socket.socket) -> None:
     asker.sendto(QUESTION, (GROUP, discovery._port))
     wait_readable(discovery)
     discovery.pump(lambda *_: None)
-    got = asker.recv(1000)
-    assert got[-4:] == struct.pack("<I", udp6.port)
-    assert bytes(15) + b"\x01" in got
+    reply = asker.recv(1000)
+    assert reply[-4:] == struct.pack("<I", udp6.port)
+    assert bytes(15) + b"\x01" in reply
     for each in (discovery, tcp, udp4, udp6):
         each.close()
 
@@ -172,9 +172,9 @@ def test_on_loopback_a_client_that_asks_through_the_network_is_answered(asker: s
     asker.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton(networked()))
     with Served(udp, Discovery([udp], bench.log, port), bench=bench):
         asker.sendto(QUESTION, (GROUP, port))
-        got, _ = asker.recvfrom(1000)
-    assert got[-8:-2] == b"\x01\x7f\0\0\x01\0"
-    assert struct.unpack("<H", got[-2:]) == (udp.port,)
+        reply, _ = asker.recvfrom(1000)
+    assert reply[-8:-2] == b"\x01\x7f\0\0\x01\0"
+    assert struct.unpack("<H", reply[-2:]) == (udp.port,)
 
 
 def test_on_loopback_other_machines_are_not_heard(asker: socket.socket) -> None:

@@ -125,10 +125,10 @@ class FullHandle:
     """A publisher whose readers take nothing."""
 
     def __init__(self) -> None:
-        self.asked = 0
+        self.calls = 0
 
     def publish_raw(self, serialized: bytes) -> None:
-        self.asked += 1
+        self.calls += 1
         raise RuntimeError("timeout")
 
 
@@ -146,19 +146,19 @@ def test_a_writer_that_is_full_is_not_asked_for_each_sample() -> None:
     for _ in range(3_750):
         with pytest.raises(BusyError):
             writer.publish(b"\0\1\0\0")
-    assert 1 <= handle.asked <= 2 + (time.monotonic() - began) / FULL_S
+    assert 1 <= handle.calls <= 2 + (time.monotonic() - began) / FULL_S
 
 
 class Graph:
     """What a bridge asks of ROS 2 about a topic."""
 
     def __init__(self) -> None:
-        self.asked: list[str] = []
+        self.calls: list[str] = []
         self.rclpy_get_publishers_info_by_topic = self._info
         self.rclpy_get_subscriptions_info_by_topic = self._info
 
     def _info(self, _node: object, topic: str, _mangled: bool) -> list[dict[str, Any]]:
-        self.asked.append(topic)
+        self.calls.append(topic)
         version = {"version": 0, "value": b""}
         other = {"node_name": "other", "node_namespace": "/", "topic_type": "y", "topic_type_hash": version}
         return [other]
@@ -173,15 +173,15 @@ def test_a_topic_is_asked_about_once_for_all_its_endpoints() -> None:
         topics.claim([endpoint])
         comparison.soon("node", topics, endpoint)
     comparison.look()
-    assert graph.asked == ["/t", "/t"]
+    assert graph.calls == ["/t", "/t"]
     assert len(reported) == 100
     comparison.look()
-    assert len(graph.asked) == 2, "nothing is left"
+    assert len(graph.calls) == 2, "nothing is left"
     for endpoint in endpoints:
         comparison.soon("node", topics, endpoint)
         comparison.forget(topics, endpoint)
     comparison.look()
-    assert len(graph.asked) == 2, "nor of those that are gone"
+    assert len(graph.calls) == 2, "nor of those that are gone"
     wakeups.close()
 
 
@@ -196,9 +196,9 @@ def udp() -> Iterator[Udp]:
 
 
 def peer(transport: Udp) -> socket.socket:
-    made = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-    made.connect(("127.0.0.1", transport.port))
-    return made
+    peer_socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    peer_socket.connect(("127.0.0.1", transport.port))
+    return peer_socket
 
 
 def test_a_client_that_sends_very_much_fills_only_its_queue(udp: Udp) -> None:
@@ -212,12 +212,12 @@ def test_a_client_that_sends_very_much_fills_only_its_queue(udp: Udp) -> None:
         flood.send(bytes(200))
     honest.send(b"honest")
     stranger.send(b"stranger")
-    got: list[tuple[bytes, Any]] = []
-    udp.pump(lambda data, address, _: got.append((data, address[1])))  # type: ignore[index]
-    by_peer = [data for data, place in got if place != flood.getsockname()]
+    received: list[tuple[bytes, Any]] = []
+    udp.pump(lambda data, address, _: received.append((data, address[1])))  # type: ignore[index]
+    by_peer = [data for data, place in received if place != flood.getsockname()]
     assert by_peer == [b"stranger", b"honest"], "who asks for little comes first, and neither is lost"
-    assert got[2][1] == flood.getsockname()
-    assert len(got) <= 2 + BATCH
+    assert received[2][1] == flood.getsockname()
+    assert len(received) <= 2 + BATCH
     udp.release((udp, flood.getsockname()))
     udp.send(b"answer", (udp, honest.getsockname()))
     assert honest.recv(100) == b"answer"
@@ -225,10 +225,10 @@ def test_a_client_that_sends_very_much_fills_only_its_queue(udp: Udp) -> None:
 
 def test_nothing_is_lost_or_mixed_up_while_clients_connect_and_leave(udp: Udp) -> None:
     clients = [peer(udp) for _ in range(20)]
-    got: dict[Any, list[int]] = {client.getsockname(): [] for client in clients}
+    received: dict[Any, list[int]] = {client.getsockname(): [] for client in clients}
 
     def take(data: bytes, address: Any, _: object) -> None:
-        got[address[1]].append(data[0])
+        received[address[1]].append(data[0])
 
     for number in range(100):
         for place, client in enumerate(clients):
@@ -240,17 +240,17 @@ def test_nothing_is_lost_or_mixed_up_while_clients_connect_and_leave(udp: Udp) -
         udp.pump(take)
     for _ in range(100):
         udp.pump(take)
-    assert {place: sorted(numbers) for place, numbers in got.items()} == {
-        place: list(range(100)) for place in got
+    assert {place: sorted(numbers) for place, numbers in received.items()} == {
+        place: list(range(100)) for place in received
     }
 
 
 def test_what_was_refused_before_does_not_take_the_next_datagram_along(udp: Udp) -> None:
     """A connected socket tells of an earlier datagram that nobody took when it is to send the next one."""
-    gone = peer(udp)
-    place = gone.getsockname()
+    closed = peer(udp)
+    place = closed.getsockname()
     udp.claim((udp, place), Account())
-    gone.close()
+    closed.close()
     udp.send(b"nobody", (udp, place))
     again = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     again.bind(place)
@@ -261,33 +261,33 @@ def test_what_was_refused_before_does_not_take_the_next_datagram_along(udp: Udp)
 
 def test_of_connections_the_one_that_cost_least_is_read_first() -> None:
     transport = Tcp(TCP4, "127.0.0.1", 0, EventLog(io.StringIO()))
-    made = [socket.create_connection(("127.0.0.1", transport.port)) for _ in range(3)]
-    got: list[tuple[int, Any]] = []
+    connections = [socket.create_connection(("127.0.0.1", transport.port)) for _ in range(3)]
+    received: list[tuple[int, Any]] = []
 
     def take(data: bytes, address: Any, _: object) -> None:
-        got.append((data[0], address))
+        received.append((data[0], address))
 
     def say(number: int, connection: socket.socket) -> None:
         connection.sendall(b"\1\0" + bytes((number,)))
 
-    for number, connection in enumerate(made):
+    for number, connection in enumerate(connections):
         say(number, connection)
     end = deadline(10)
-    while len(got) < 3 and time.monotonic() < end:
+    while len(received) < 3 and time.monotonic() < end:
         transport.pump(take)
-    by_number = dict(got)
+    by_number = dict(received)
     for number, used in ((0, 3.0), (1, 1.0), (2, 2.0)):
         transport.claim(by_number[number], Account(used, time.monotonic()))
-        say(number, made[number])
+        say(number, connections[number])
     by_number[1].account.busy = True
-    got.clear()
+    received.clear()
     time.sleep(0.05)
     transport.pump(take)
-    assert [number for number, _ in got] == [2, 0], "who is not done with what it said is not read"
+    assert [number for number, _ in received] == [2, 0], "who is not done with what it said is not read"
     by_number[1].account.busy = False
     transport.pump(take)
-    assert got[2][0] == 1
-    for connection in made:
+    assert received[2][0] == 1
+    for connection in connections:
         connection.close()
     transport.close()
 
@@ -297,17 +297,17 @@ def test_messages_before_a_client_had_a_queue_are_handled_first(udp: Udp) -> Non
     address = (udp, client.getsockname())
     for number in range(3):
         client.send(bytes((number,)))
-    got: list[int] = []
+    received: list[int] = []
 
     def take(data: bytes, _address: object, _transport: object) -> None:
-        got.append(data[0])
+        received.append(data[0])
         if data[0] == 0:
             udp.claim(address, Account(-1.0))
             client.send(b"\3")
 
     for _ in range(3):
         udp.pump(take)
-    assert got == [0, 1, 2, 3]
+    assert received == [0, 1, 2, 3]
 
 
 def test_what_a_client_said_where_it_was_does_not_make_it_move_back(udp: Udp) -> None:

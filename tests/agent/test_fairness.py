@@ -127,17 +127,17 @@ def statuses(sent: list[bytes]) -> list[int]:
 
 
 def test_one_client_alone_gets_half_of_the_time_for_changes() -> None:
-    graph, account, now, took = GraphWork(200), Account(), 0.0, 0.0
+    graph, account, now, elapsed = GraphWork(200), Account(), 0.0, 0.0
     for _ in range(60_000):
         now += 0.001
         if graph.allows(account, now):
             graph.charge(account, 0.002, now)
-            took += 0.002
-    assert took / now == pytest.approx(0.2 * BURST_S / MEMORY_S, rel=0.1)
+            elapsed += 0.002
+    assert elapsed / now == pytest.approx(0.2 * BURST_S / MEMORY_S, rel=0.1)
 
 
 def test_all_together_get_the_time_for_changes_and_a_new_one_is_served_at_once() -> None:
-    graph, clients, now, took = GraphWork(200), [Account() for _ in range(16)], 0.0, 0.0
+    graph, clients, now, elapsed = GraphWork(200), [Account() for _ in range(16)], 0.0, 0.0
     each, chance = dict.fromkeys(range(16), 0.0), random.Random(3)
     for _ in range(20_000):
         now += 0.001
@@ -145,8 +145,8 @@ def test_all_together_get_the_time_for_changes_and_a_new_one_is_served_at_once()
             if graph.allows(clients[place], now):
                 graph.charge(clients[place], 0.0005, now)
                 each[place] += 0.0005
-                took += 0.0005
-    assert took / now == pytest.approx(0.2, rel=0.2)
+                elapsed += 0.0005
+    assert elapsed / now == pytest.approx(0.2, rel=0.2)
     assert max(each.values()) < 1.2 * min(each.values())
     new = Account()
     for _ in range(20):
@@ -340,11 +340,11 @@ def test_a_slow_machine_refuses_no_entities(stream: int, change_s: float) -> Non
     bench.now += 10.0
     creates = (*entities(1, topic="slow"), *reader_entities(4, topic="slower"))
     for sequence, create in enumerate(creates):
-        asked = bench.now
+        requested_at = bench.now
         answers = bench.say(message(create, stream=stream, sequence=sequence))
         while not any(" 05 01 " in answer for answer in answers):
             answers = bench.wait(0.01, 0.01)
-            assert bench.now - asked < 1.0 + change_s
+            assert bench.now - requested_at < 1.0 + change_s
     assert bench.log.counters.keys() <= {"operations_wait"}
     assert len([label for label in bench.bridge.graph if "slow" in label]) == 2
 

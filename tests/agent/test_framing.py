@@ -74,8 +74,8 @@ def test_the_size_of_reads_makes_no_difference(found: list[bytes], data: st.Data
     cuts = sorted(data.draw(st.lists(st.integers(0, len(stream)), max_size=12)))
     ends = [0, *cuts, len(stream)]
     listener = Listener()
-    got = [f for a, b in pairwise(ends) for f in listener.decoder.feed(stream[a:b])]
-    assert got == list(enumerate(found))
+    decoded = [f for a, b in pairwise(ends) for f in listener.decoder.feed(stream[a:b])]
+    assert decoded == list(enumerate(found))
     assert not listener.faults
 
 
@@ -182,14 +182,14 @@ def noisy_line(frames: int, seed: int) -> None:
     faults = frames // 20
     stream = corrupt(b"".join(map(frame, sent)), chance, faults)
     listener = Listener()
-    got, at = [], 0
+    decoded, at = [], 0
     while at < len(stream):
         step = chance.randrange(1, 300)
-        got += listener.hear(stream[at : at + step])
+        decoded += listener.hear(stream[at : at + step])
         at += step
     known = set(sent)
-    assert sum(payload not in known for payload in got) <= 1, "a checksum of 16 bits may hold by chance"
-    assert len(got) >= frames - 2 * faults
+    assert sum(payload not in known for payload in decoded) <= 1, "a checksum of 16 bits may hold by chance"
+    assert len(decoded) >= frames - 2 * faults
     assert sum(listener.faults.values()) > 0
 
 

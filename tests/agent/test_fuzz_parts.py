@@ -286,10 +286,10 @@ def discovery_datagrams(seed: int, rounds: int) -> None:
         patch.setattr(discovery, "_open", lambda _port: askers)
         found = Discovery([transport], log, addresses=lambda: own)
     question = bytes.fromhex(captured.PING)
-    asked = 0
+    questions = 0
     for number in range(rounds):
         data = chance.choice((question, distorted(question, chance), chance.randbytes(chance.randrange(60))))
-        asked += data == question
+        questions += data == question
         askers.waiting += [data] * chance.choice((1, 1, 30))
         while askers.waiting:
             before = len(askers.waiting)
@@ -301,7 +301,7 @@ def discovery_datagrams(seed: int, rounds: int) -> None:
             askers.sent.clear()
             found.tick(float(number))
     transport.close()
-    assert asked
+    assert questions
     assert set(log.counters) <= {"discovery_input", "discovery_flood"}
     assert log.counters["discovery_input"]
     assert log.counters["discovery_flood"]

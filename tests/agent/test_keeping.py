@@ -73,11 +73,11 @@ def test_a_client_that_opens_its_session_again_gets_what_it_had_not(acknowledged
         listener.say(Acknack(acknowledged, 0, 0x80), stream=0)
     listener = session_again(bench, captured.CREATE_CLIENT)
     put(bench, 40)
-    got = values(listener.read(stream=0x80))
-    assert got == list(range(acknowledged, acknowledged + 16))
+    received = values(listener.read(stream=0x80))
+    assert received == list(range(acknowledged, acknowledged + 16))
     (client,) = bench.agent.clients
     rest = rest_of(bench, listener)
-    assert got + rest == list(range(acknowledged, 41))
+    assert received + rest == list(range(acknowledged, 41))
     assert client.shares.history.held < 1_000
 
 
@@ -156,8 +156,8 @@ def test_no_sample_is_delivered_twice_in_a_session(arrived: int) -> None:
     for data in sent:
         by_number.setdefault(int.from_bytes(data[2:4], "little"), set()).add(data)
     assert all(len(messages) == 1 for messages in by_number.values())
-    got = [int.from_bytes(by_number[number].pop()[-4:], "little") for number in sorted(by_number)]
-    assert got == list(range(41))
+    received = [int.from_bytes(by_number[number].pop()[-4:], "little") for number in sorted(by_number)]
+    assert received == list(range(41))
 
 
 def test_it_can_be_left_out() -> None:
@@ -192,9 +192,9 @@ def test_samples_in_sequences_are_kept_one_by_one(form: DataFormat) -> None:
     put(bench, *range(600))
     bench.take()
     listener = session_again(bench, captured.CREATE_CLIENT)
-    got = values(listener.read(stream=0x80))
-    got += rest_of(bench, listener)
-    assert got == list(range(600))
+    received = values(listener.read(stream=0x80))
+    received += rest_of(bench, listener)
+    assert received == list(range(600))
 
 
 # A bad line: five clients, in time that a test makes
@@ -232,23 +232,23 @@ class Board:
         self.address = f"board {number}"
         self.client = SoakClient(number, 0x81, 512, self._data)
         self.client.link = self  # type: ignore[assignment]
-        self.got: list[int] = []
+        self.received: list[int] = []
         self.sessions = 0
         self.doubled_since_session = 0
-        self.heard = self.asked = 0.0
+        self.received_at = self.asked_at = 0.0
         self.open()
 
     def open(self) -> None:
         self.sessions += 1
         self.doubled_since_session = 0
-        self.heard = self.bench.now
+        self.received_at = self.bench.now
         self.created = False
         self.client.introduce()
 
     def tick(self) -> None:
         now, client = self.bench.now, self.client
-        if not client.connected and now - self.asked > self.ASK_S:
-            self.asked = now
+        if not client.connected and now - self.asked_at > self.ASK_S:
+            self.asked_at = now
             client.introduce()
         if client.connected and not self.created:
             self.created = True
@@ -262,10 +262,10 @@ class Board:
                 client.ask(partial(_create, object_id, blob, parent))
             client.ask(lambda request: ReadData(request, reader, 0x80, delivery=FOREVER))
         client.tick(now)
-        if now - self.heard > self.ASK_S and now - self.asked > self.ASK_S:
-            self.asked = now
+        if now - self.received_at > self.ASK_S and now - self.asked_at > self.ASK_S:
+            self.asked_at = now
             self.send(join(Header(0x81, 0, 0), [encode(GetInfo(9, OBJECT_AGENT, INFO_ACTIVITY))]))
-        if client.connected and now - self.heard > self.GIVE_UP_S:
+        if client.connected and now - self.received_at > self.GIVE_UP_S:
             self.open()
 
     def send(self, data: bytes) -> None:
@@ -278,18 +278,18 @@ class Board:
         known = self.bench.agent.clients.at(self.address)
         if known is not None and sent < known.opened:
             return
-        self.heard = self.bench.now
+        self.received_at = self.bench.now
         self.client.hear(data)
 
     def _data(self, data: Data) -> None:
         value = int.from_bytes(data.data, "little")
-        if self.got and value <= self.got[-1]:
+        if self.received and value <= self.received[-1]:
             self.doubled_since_session += 1
-            assert value in self.got[-16:], "only what may have arrived comes again"
+            assert value in self.received[-16:], "only what may have arrived comes again"
             assert self.doubled_since_session <= 16, "and only after a new session"
             return
-        assert value == (self.got[-1] + 1 if self.got else 0), f"{value} after {self.got[-1:]}"
-        self.got.append(value)
+        assert value == (self.received[-1] + 1 if self.received else 0), f"{value} after {self.received[-1:]}"
+        self.received.append(value)
 
 
 def _create(object_id: int, blob: bytes, parent: int, request: int) -> Create:
@@ -303,8 +303,8 @@ def read_over_a_bad_line(samples: int, seed: int) -> int:
     boards = [Board(number, bench, line) for number in range(1, 6)]
     by_address = {board.address: board for board in boards}
     sent = [0] * 5
-    while any(len(board.got) < samples for board in boards):
-        assert bench.now < 1_000 + samples / 5, [len(board.got) for board in boards]
+    while any(len(board.received) < samples for board in boards):
+        assert bench.now < 1_000 + samples / 5, [len(board.received) for board in boards]
         bench.now += 0.005
         for place, board in enumerate(boards):
             label = f"/t{board.number} [std_msgs/msg/Int32]"
@@ -320,7 +320,7 @@ def read_over_a_bad_line(samples: int, seed: int) -> int:
         for address, data in bench.transport.sent:
             line.carry(bench.now, partial(by_address[str(address)].hear, data, bench.now))
         bench.transport.sent.clear()
-    assert all(board.got == list(range(samples)) for board in boards)
+    assert all(board.received == list(range(samples)) for board in boards)
     return sum(board.sessions for board in boards) - 5
 
 

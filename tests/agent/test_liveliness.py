@@ -34,11 +34,11 @@ def live(bench: Bench, seconds: float, loss: float, chance: random.Random) -> in
     dropped = 0
     for _ in range(round(seconds / STEP_S)):
         was_asleep = client.asleep
-        asked = bench.wait(STEP_S, STEP_S)
+        probes = bench.wait(STEP_S, STEP_S)
         dropped += client.asleep and not was_asleep
         if client.asleep:
             bench.say(SIGN_OF_LIFE)
-        for _ in asked:
+        for _ in probes:
             if chance.random() >= loss and chance.random() >= loss:
                 bench.say(SIGN_OF_LIFE)
     return dropped
@@ -57,10 +57,10 @@ def test_on_a_lossless_line_the_time_out_stays_as_set() -> None:
     bench = quiet(2_000)
     assert live(bench, 60, 0.0, random.Random(1)) == 0
     (client,) = bench.agent.clients
-    heard = client.last_received
+    received_at = client.last_received
     while not client.asleep:
         bench.wait(STEP_S, STEP_S)
-    assert bench.now - heard == pytest.approx(2.0, abs=0.11)
+    assert bench.now - received_at == pytest.approx(2.0, abs=0.11)
 
 
 @pytest.mark.parametrize("loss", [0.3, 0.6])
@@ -69,10 +69,10 @@ def test_one_that_has_gone_is_noticed_on_a_bad_line_too(loss: float) -> None:
     live(bench, 200, loss, random.Random(2))
     (client,) = bench.agent.clients
     bench.say(SIGN_OF_LIFE)
-    heard = client.last_received
+    received_at = client.last_received
     while not client.asleep:
         bench.wait(STEP_S, STEP_S)
-    assert 2.0 < bench.now - heard <= 4.2
+    assert 2.0 < bench.now - received_at <= 4.2
 
 
 def test_a_line_that_got_better_is_trusted_again() -> None:

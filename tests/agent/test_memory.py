@@ -201,19 +201,19 @@ def test_objects_stay_below_the_limit_and_recover() -> None:
             assert client.connect() == OK
             assert client.ping() == 1
         before = rss_mib(agent.process.pid)
-        made = 0
+        created = 0
         for client in clients:
             for number in range(64):
                 if client.create(number << 4 | 0x0A, Format.XML, text) == RESOURCES:
                     break
-                made += 1
+                created += 1
         most = rss_mib(agent.process.pid)
-        assert 100 < made < 400
-        assert made * 60_000 / MIB < most - before < Limits().object_bytes / MIB + 8
+        assert 100 < created < 400
+        assert created * 60_000 / MIB < most - before < Limits().object_bytes / MIB + 8
         for client in clients:
             assert client.leave() == OK
         end = deadline(20)
         while (left := rss_mib(agent.process.pid)) > before + 8 and time.monotonic() < end:
             time.sleep(0.1)
-        print(f"RSS {before:.0f} MiB before, {most:.0f} with {made} objects, {left:.0f} after they left")
+        print(f"RSS {before:.0f} MiB before, {most:.0f} with {created} objects, {left:.0f} after they left")
         assert left <= before + 8

@@ -65,8 +65,8 @@ def test_the_oldest_samples_are_dropped_and_others_stay(pipe: tuple[int, int]) -
         assert outbox.put(b"s%09d" % number, sample=True)
         assert outbox.put(b"r%09d" % number)
     assert outbox.write(pipe[1])
-    got = os.read(pipe[0], 10_000)
-    frames = [got[at : at + 10].decode() for at in range(0, len(got), 10)]
+    received = os.read(pipe[0], 10_000)
+    frames = [received[at : at + 10].decode() for at in range(0, len(received), 10)]
     room = LIMIT // SHARE // 10
     assert [f for f in frames if f[0] == "s"] == [f"s{n:09d}" for n in range(20 - room, 20)]
     assert [f for f in frames if f[0] == "r"] == [f"r{n:09d}" for n in range(20)]
@@ -97,27 +97,27 @@ def test_a_frame_that_is_half_sent_is_finished(pipe: tuple[int, int]) -> None:
     assert outbox.write(pipe[1])
     assert outbox.put(b"b" * size, sample=True)
     assert outbox.put(b"c" * size, sample=True)  # takes the place of b, not of the rest of a
-    got = bytearray()
+    received = bytearray()
     while outbox:
-        got += os.read(pipe[0], 65_536)
+        received += os.read(pipe[0], 65_536)
         outbox.write(pipe[1])
-    while len(got) < 2 * size:
-        got += os.read(pipe[0], 65_536)
-    assert got == b"a" * size + b"c" * size
+    while len(received) < 2 * size:
+        received += os.read(pipe[0], 65_536)
+    assert received == b"a" * size + b"c" * size
 
 
 def test_bytes_are_never_more_than_the_limit(pipe: tuple[int, int]) -> None:
     """Whatever is put in and taken out: what waits is counted right, and comes out whole."""
     chance = random.Random(5)
     outbox = Outbox(LIMIT, lambda: None)
-    got = b""
+    received = b""
     for number in range(3000):
         outbox.put(bytes([number % 255 + 1]) * chance.randrange(1, 300) + b"\0", chance.random() < 0.7)
         assert sum(map(len, outbox._frames)) == outbox._bytes <= LIMIT
         if chance.random() < 0.3:
             outbox.write(pipe[1])
-            got += os.read(pipe[0], 1 << 20)
-    for frame in got.split(b"\0")[:-1]:
+            received += os.read(pipe[0], 1 << 20)
+    for frame in received.split(b"\0")[:-1]:
         assert len(set(frame)) == 1
 
 
@@ -129,15 +129,15 @@ def test_a_slow_line_is_reported() -> None:
         line.send(sample(number), (line.label, 1))
     line.send(join(Header(0x81, 0x80, 7), [encode(StatusReply(1, 1, 0))]), (line.label, 1))
     decoder = FrameDecoder(lambda kind, found: pytest.fail(f"{kind}: {found}"), address=1)
-    got: list[bytes] = []
-    while not got or got[-1][1] != 0x80:
+    received: list[bytes] = []
+    while not received or received[-1][1] != 0x80:
         assert select.select([cable.end], [], [], 5)[0]
-        got += [payload for _, payload in decoder.feed(os.read(cable.end, 4096))]
+        received += [payload for _, payload in decoder.feed(os.read(cable.end, 4096))]
         line.pump(lambda *_: None)
     line.close()
     cable.pull()
     assert set(bench.log.counters) == {"line_slow"}
-    numbers = [message[2] | message[3] << 8 for message in got[:-1]]
+    numbers = [message[2] | message[3] << 8 for message in received[:-1]]
     assert numbers == sorted(set(numbers))
     assert numbers[-1] == 19_999
     assert len(numbers) == 20_000 - bench.log.counters["line_slow"]

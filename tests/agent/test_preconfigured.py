@@ -118,14 +118,14 @@ def service(number: int, kind: str, **more: Any) -> dict[str, Any]:
 
 def everything(**more: Any) -> dict[str, Any]:
     """Return a client that writes, reads, serves and calls."""
-    made = content(**more)
-    made["clients"][0]["objects"] += [
+    data = content(**more)
+    data["clients"][0]["objects"] += [
         {"id": "0x0014", "kind": "subscriber", "parent": "0x0001"},
         {"id": "0x0016", "kind": "data_reader", "parent": "0x0014", "topic": "0x0002", "depth": 5},
         service(18, "replier"),
         service(17, "requester", request_topic="rq/goRequest", reply_topic="rr/goReply"),
     ]
-    return made
+    return data
 
 
 def sources(bench: Bench) -> tuple[FakeSource, FakeReplier, FakeRequester]:
@@ -282,12 +282,12 @@ def faults(text: str) -> list[str]:
 
 
 def changed(place: int, **more: Any) -> str:
-    made = content()
-    item = made["clients"][0]["objects"][place]
+    data = content()
+    item = data["clients"][0]["objects"][place]
     item.update({key: value for key, value in more.items() if value is not None})
     for key in [key for key, value in more.items() if value is None]:
         del item[key]
-    return "{" + json.dumps(made)[1:].replace('{"id"', '\n{"id"')
+    return "{" + json.dumps(data)[1:].replace('{"id"', '\n{"id"')
 
 
 def one(client: str) -> str:
@@ -334,20 +334,20 @@ def test_faults(text: str, place: str, wanted: str) -> None:
 
 
 def test_every_fault_in_one_run() -> None:
-    made = content()
-    made["clients"][0]["key"] = "me"
-    made["clients"][0]["objects"][0]["domain"] = -1
-    made["clients"][0]["objects"][3]["depth"] = "x"
-    assert len(faults(json.dumps(made))) == 3
+    data = content()
+    data["clients"][0]["key"] = "me"
+    data["clients"][0]["objects"][0]["domain"] = -1
+    data["clients"][0]["objects"][3]["depth"] = "x"
+    assert len(faults(json.dumps(data))) == 3
 
 
 def test_adopting_a_client_that_reads_is_a_warning() -> None:
     """A new agent cannot reach it: it asked the one before, and says nothing more."""
-    made = content(adopt=True)
-    assert faults(json.dumps(made)) == []
-    made["clients"][0]["objects"].append(service(28, "replier"))
+    data = content(adopt=True)
+    assert faults(json.dumps(data)) == []
+    data["clients"][0]["objects"].append(service(28, "replier"))
     diagnostics = Diagnostics()
-    text = json.dumps(made)
+    text = json.dumps(data)
     assert parse_preconfigured([Source("e.json", text)], diagnostics)[0].adopt
     (warning,) = diagnostics
     assert not diagnostics.has_errors()
@@ -358,9 +358,9 @@ def test_adopting_a_client_that_reads_is_a_warning() -> None:
 
 
 def test_an_id_or_a_key_twice() -> None:
-    made = content()
-    made["clients"][0]["objects"].append(made["clients"][0]["objects"][0])
-    assert "duplicate id 0x0001" in faults(json.dumps(made))[0]
+    data = content()
+    data["clients"][0]["objects"].append(data["clients"][0]["objects"][0])
+    assert "duplicate id 0x0001" in faults(json.dumps(data))[0]
     with pytest.raises(
         UserError, match=r"e1.json:5:14: error: duplicate client 0xA1B2C3D4; first in e0.json"
     ):
@@ -368,10 +368,10 @@ def test_an_id_or_a_key_twice() -> None:
 
 
 def test_names_that_ros_does_not_have() -> None:
-    made = content()
-    made["clients"][0]["objects"][1]["name"] = "count"
+    data = content()
+    data["clients"][0]["objects"][1]["name"] = "count"
     with pytest.raises(UserError, match=r"e0.json:\d+:\d+: error: topic 'count' is not a ROS topic"):
-        load(made)
+        load(data)
 
 
 @pytest.mark.parametrize(
@@ -388,10 +388,10 @@ def test_names_that_ros_does_not_have() -> None:
     ],
 )
 def test_faults_of_services(change: dict[str, Any], wanted: str) -> None:
-    made = content()
-    made["clients"][0]["objects"].append(service(28, "replier", **change))
+    data = content()
+    data["clients"][0]["objects"].append(service(28, "replier", **change))
     with pytest.raises(UserError) as caught:
-        load(made)
+        load(data)
     (found,) = caught.value.diagnostics
     assert wanted in without_id(found.headline())
     assert found.span is not None

@@ -119,10 +119,10 @@ def test_topics_writers_and_readers() -> None:
         "<data_reader_qos><time_based_filter><minimum_separation><sec>10</sec></minimum_separation>"
         "</time_based_filter></data_reader_qos></data_reader>"
     )
-    made = objects.create(make(0x26, slow, SUBSCRIBER))
-    assert made.entity is not None
-    assert isinstance(made.entity.description, Endpoint)
-    assert made.entity.description.separation_ms == 10_000
+    outcome = objects.create(make(0x26, slow, SUBSCRIBER))
+    assert outcome.entity is not None
+    assert isinstance(outcome.entity.description, Endpoint)
+    assert outcome.entity.description.separation_ms == 10_000
 
 
 def test_a_participant() -> None:

@@ -37,10 +37,10 @@ def observer(domain: int) -> Iterator[Observer]:
 
 @pytest.fixture
 def client(agent: AgentProcess) -> Iterator[XrceClient]:
-    with XrceClient(agent.port) as made:
-        assert made.connect() == 0
-        yield made
-        made.leave()
+    with XrceClient(agent.port) as connected:
+        assert connected.connect() == 0
+        yield connected
+        connected.leave()
 
 
 @pytest.mark.parametrize("stream", [RELIABLE, BEST_EFFORT], ids=["reliable", "best_effort"])

@@ -74,7 +74,7 @@ def heap_bytes() -> int:
 
 
 def message(stream: int, sequence: int, *submessages: Submessage) -> bytes:
-    return join(Header(0x81, stream, sequence), [encode(one) for one in submessages])
+    return join(Header(0x81, stream, sequence), [encode(submessage) for submessage in submessages])
 
 
 def live(agent: Agent, domain: int, transport: FakeTransport) -> None:

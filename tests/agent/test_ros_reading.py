@@ -58,10 +58,10 @@ def observer(domain: int) -> Iterator[Observer]:
 
 @pytest.fixture
 def client(agent: AgentProcess) -> Iterator[XrceClient]:
-    with XrceClient(agent.port, timeout_s=15.0) as made:
-        assert made.connect() == 0
-        yield made
-        made.leave()
+    with XrceClient(agent.port, timeout_s=15.0) as connected:
+        assert connected.connect() == 0
+        yield connected
+        connected.leave()
 
 
 def samples(client: XrceClient, count: int) -> list[bytes]:
@@ -88,13 +88,13 @@ def test_twenty_requests_of_ros_are_answered_by_a_slow_client(
 ) -> None:
     """Every request is at the client before it answers the first; the last is answered first."""
     replier = service(client, 0x18, "slow_server", "/slow", domain)
-    asked = [["x" * i] for i in range(20)]
-    observer.ask(do="call", service="/slow", type=GET_TYPES, names=asked)
+    names = [["x" * i] for i in range(20)]
+    observer.ask(do="call", service="/slow", type=GET_TYPES, names=names)
     requests = samples(client, 20)
     assert len({request[:IDENTITY] for request in requests}) == 20
     for request in reversed(requests):
-        names = read_names(LITTLE + request[IDENTITY:])
-        client.write(replier, request[:IDENTITY] + types_body([len(name) for name in names])[4:])
+        prefixes = read_names(LITTLE + request[IDENTITY:])
+        client.write(replier, request[:IDENTITY] + types_body([len(name) for name in prefixes])[4:])
     client.drain()
     until(lambda: None not in observer.ask(do="replies"))
     assert observer.ask(do="replies") == [[i] for i in range(20)]
@@ -105,13 +105,13 @@ def test_twenty_requests_of_a_client_get_their_replies(
 ) -> None:
     observer.ask(do="serve", service="/held", type=GET_TYPES, hold=20)
     requester = service(client, 0x17, "asker", "/held", domain)
-    asked: dict[bytes, int] = {}
+    numbers: dict[bytes, int] = {}
     for i in range(20):
         client.write(requester, names_body(["y" * i])[4:])
-        asked[client._request.to_bytes(2, "big") + requester.to_bytes(2, "big")] = i
+        numbers[client._request.to_bytes(2, "big") + requester.to_bytes(2, "big")] = i
     replies = samples(client, 20)
-    got = {reply[:REQUEST_PREFIX]: read_types(LITTLE + reply[REQUEST_PREFIX:]) for reply in replies}
-    assert got == {head: [i] for head, i in asked.items()}
+    received = {reply[:REQUEST_PREFIX]: read_types(LITTLE + reply[REQUEST_PREFIX:]) for reply in replies}
+    assert received == {head: [i] for head, i in numbers.items()}
 
 
 def test_a_type_from_interface_files_alone(

@@ -77,7 +77,7 @@ class Sender:
 
 
 def message(stream: int, sequence: int, *submessages: Create | WriteData) -> bytes:
-    return join(Header(0x81, stream, sequence), [encode(one) for one in submessages])
+    return join(Header(0x81, stream, sequence), [encode(submessage) for submessage in submessages])
 
 
 def test_nothing_is_lost_to_a_reader_that_takes_nothing_for_long(

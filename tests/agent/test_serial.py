@@ -64,10 +64,10 @@ def wait_until(done, what: str) -> None:  # type: ignore[no-untyped-def]
 
 @pytest.fixture
 def cable() -> Iterator[Cable]:
-    made = Cable()
-    yield made
+    plugged = Cable()
+    yield plugged
     with contextlib.suppress(OSError):
-        made.pull()
+        plugged.pull()
 
 
 def publish(client: XrceClient, served: Served, values: range) -> None:
@@ -78,8 +78,8 @@ def publish(client: XrceClient, served: Served, values: range) -> None:
     for value in values:
         client.write(writer, int32_body(value))
     client.drain()
-    got = [data[4:] for _, data in served.bench.bridge.published[before:]]
-    assert got == [int32_body(v) for v in values]
+    received = [data[4:] for _, data in served.bench.bridge.published[before:]]
+    assert received == [int32_body(v) for v in values]
 
 
 def test_a_client_on_a_device(cable: Cable) -> None:

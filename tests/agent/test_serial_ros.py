@@ -97,12 +97,12 @@ def test_serial_with_references_unplugged_and_plugged_in_again(
 
 def test_preconfigured_entities(domain: int, observer: Observer, tmp_path: Path) -> None:
     observer.subscribe("/given_count", INT32)
-    given = content("*")
-    given["clients"][0]["objects"][0]["domain"] = 255  # the agent's own
-    given["clients"][0]["objects"][0]["name"] = "given"
-    given["clients"][0]["objects"][1]["name"] = "rt/given_count"
-    given["clients"][0]["objects"][3]["reliability"] = "reliable"
-    (tmp_path / "entities.json").write_text(json.dumps(given))
+    data = content("*")
+    data["clients"][0]["objects"][0]["domain"] = 255  # the agent's own
+    data["clients"][0]["objects"][0]["name"] = "given"
+    data["clients"][0]["objects"][1]["name"] = "rt/given_count"
+    data["clients"][0]["objects"][3]["reliability"] = "reliable"
+    (tmp_path / "entities.json").write_text(json.dumps(data))
     with (
         running_agent(domain, "--entities", str(tmp_path / "entities.json"), transport=("pty",)) as agent,
         XrceClient(SerialLink(agent.device)) as client,

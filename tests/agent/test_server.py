@@ -95,7 +95,7 @@ class Recorder:
         return bool(self.when(what))
 
     def when(self, what: str) -> list[float]:
-        return [moment for called, moment in self.calls if called == what]
+        return [at for called, at in self.calls if called == what]
 
 
 class Running:

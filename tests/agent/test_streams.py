@@ -241,7 +241,7 @@ def test_everything_arrives_once_and_in_order_over_a_bad_line(seed: int, link: L
     sender, receiver, joined = ReliableOut(link, 0x80, 1 << 20), ReliableIn(1 << 16), Reassembly(1 << 16)
     wanted = [b"\x07" + bytes([i]) * chance.choice((3, 19, 47, 199, 899)) for i in range(150)]
     line: list[tuple[float, bytes]] = []
-    got: list[bytes] = []
+    received: list[bytes] = []
     now = 0.0
 
     def put(messages: list[bytes]) -> None:
@@ -250,7 +250,7 @@ def test_everything_arrives_once_and_in_order_over_a_bad_line(seed: int, link: L
                 line.append((now + chance.uniform(0.0, 0.05), message))
 
     todo = list(wanted)
-    while len(got) < len(wanted) and now < 600:
+    while len(received) < len(wanted) and now < 600:
         now += 0.01
         if todo:
             put(sender.push(todo.pop(0), now) or [])
@@ -259,14 +259,14 @@ def test_everything_arrives_once_and_in_order_over_a_bad_line(seed: int, link: L
             for message in receiver.push(sequence_of(arrival[1]), arrival[1]):
                 body = message[header_size(message) :]
                 is_fragment = body[0] == 0x0D
-                got_now = joined.add(body[4:], bool(body[1] & 2)) if is_fragment else body
-                got += [got_now] if got_now is not None else []
+                fragment = joined.add(body[4:], bool(body[1] & 2)) if is_fragment else body
+                received += [fragment] if fragment is not None else []
         if sender.heartbeat(now) and chance.random() < 0.7:
             beat = sender.probe()
             receiver.announce(beat.first, beat.last)
         if chance.random() < 0.5:
             put(sender.acknowledge(*receiver.missing(), now))
-    assert got == wanted
+    assert received == wanted
 
 
 def fragments_of(body: bytes, mtu: int, first: int) -> list[bytes]:

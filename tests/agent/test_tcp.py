@@ -68,12 +68,12 @@ def test_segments_have_nothing_to_do_with_messages() -> None:
 @given(st.lists(st.binary(max_size=300), max_size=12), st.data())
 def test_messages_survive_any_cut(messages: list[bytes], data: st.DataObject) -> None:
     stream = b"".join(len(m).to_bytes(2, "little") + m for m in messages)
-    decoder, got, at = LengthDecoder(), [], 0
+    decoder, messages_read, at = LengthDecoder(), [], 0
     while at < len(stream):
         size = data.draw(st.integers(1, 40))
-        got += decoder.feed(stream[at : at + size])
+        messages_read += decoder.feed(stream[at : at + size])
         at += size
-    assert got == messages
+    assert messages_read == messages
     assert not decoder.unfinished
 
 
@@ -161,11 +161,11 @@ def test_output_is_bounded_and_whole() -> None:
     while True:
         transport.pump(lambda *_: None)
         try:
-            got = link.recv(0)
+            frame = link.recv(0)
         except TimeoutError:
             break
-        assert got[4:] == message
-        numbers.append(int.from_bytes(got[:4], "big"))
+        assert frame[4:] == message
+        numbers.append(int.from_bytes(frame[:4], "big"))
     assert numbers == sorted(set(numbers))
     assert len(numbers) == 1000 - bench.log.counters["tcp_output_full"]
     transport.close()

@@ -18,9 +18,9 @@ BOTH = pytest.mark.parametrize("protocol", [UDP4, UDP6], ids=lambda p: p.name)
 
 
 def peer_of(transport: Udp) -> socket.socket:
-    made = socket.socket(transport.protocol.family, socket.SOCK_DGRAM)
-    made.connect((transport.protocol.loopback, transport.port))
-    return made
+    sender = socket.socket(transport.protocol.family, socket.SOCK_DGRAM)
+    sender.connect((transport.protocol.loopback, transport.port))
+    return sender
 
 
 @BOTH
@@ -53,12 +53,12 @@ def test_a_batch_is_bounded_and_nothing_is_lost(protocol: Protocol) -> None:
     peer = peer_of(transport)
     for number in range(BATCH + 10):
         peer.send(bytes((number,)))
-    got: list[bytes] = []
-    while len(got) < BATCH + 10:  # a slow machine has shorter batches: they are bounded by time, too
-        before = len(got)
-        transport.pump(lambda data, _address, _transport: got.append(data))
-        assert 0 < len(got) - before <= BATCH
-    assert got == [bytes((number,)) for number in range(BATCH + 10)]
+    received: list[bytes] = []
+    while len(received) < BATCH + 10:  # a slow machine has shorter batches: they are bounded by time, too
+        before = len(received)
+        transport.pump(lambda data, _address, _transport: received.append(data))
+        assert 0 < len(received) - before <= BATCH
+    assert received == [bytes((number,)) for number in range(BATCH + 10)]
     transport.close()
 
 
@@ -77,9 +77,9 @@ def test_a_peer_that_is_gone_and_a_message_too_large(protocol: Protocol) -> None
         transport.pump(lambda *_: None)
     other = peer_of(transport)
     other.send(b"y")
-    got: list[bytes] = []
-    transport.pump(lambda data, _address, _transport: got.append(data))
-    assert got == [b"y"]
+    received: list[bytes] = []
+    transport.pump(lambda data, _address, _transport: received.append(data))
+    assert received == [b"y"]
     transport.close()
 
 

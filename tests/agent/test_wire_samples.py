@@ -160,12 +160,12 @@ def test_data_in_every_format(form: DataFormat, little: bool) -> None:
     assert len(answers) == (3 if form in (DataFormat.DATA, DataFormat.SAMPLE) else 1)
     assert {a.format for a in answers} == {form}
     assert {data[5] & 1 for data, _ in listener.messages()} == {little}
-    got = [item for a in answers for item in read(a.data, form, little)]
-    assert [item.body for item in got] == [sample(i, little)[4:] for i in range(3)]
+    received = [item for a in answers for item in read(a.data, form, little)]
+    assert [item.body for item in received] == [sample(i, little)[4:] for i in range(3)]
     if form not in (DataFormat.DATA, DataFormat.DATA_SEQ):
-        assert [item.info.sequence for item in got] == [0, 1, 2]
-        assert [item.info.state for item in got] == [4, 0, 0], "the first one is new"
-        assert [item.info.offset_ms for item in got] == [2000] * 3, "since the session began"
+        assert [item.info.sequence for item in received] == [0, 1, 2]
+        assert [item.info.state for item in received] == [4, 0, 0], "the first one is new"
+        assert [item.info.offset_ms for item in received] == [2000] * 3, "since the session began"
 
 
 def test_a_sequence_fills_a_message_and_keeps_to_the_limit() -> None:
@@ -179,8 +179,10 @@ def test_a_sequence_fills_a_message_and_keeps_to_the_limit() -> None:
     assert max(counts) > 2
     assert all(len(data) <= 64 for _, data in bench.transport.sent)
     rest = listener.read(format=8, control=FOREVER)
-    got = [item.body for a in [*answers, *rest] if isinstance(a, Data) for item in read(a.data, 8)]
-    assert got == [sample(i)[4:] for i in range(30)], "none was lost between two messages or two requests"
+    received = [item.body for a in [*answers, *rest] if isinstance(a, Data) for item in read(a.data, 8)]
+    assert received == [sample(i)[4:] for i in range(30)], (
+        "none was lost between two messages or two requests"
+    )
 
 
 def test_byte_orders_do_not_share_a_sequence() -> None:

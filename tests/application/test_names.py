@@ -48,11 +48,11 @@ def test_topics_are_what_ros_takes(ros: Any, name: str) -> None:
         full = ros.expand_topic_name.expand_topic_name(text, "node", "/ns")
         ros.validate_full_topic_name.validate_full_topic_name(full)
 
-    mine = topic_fault(name) is None and expanded_fault(expand_topic_name(name, "node", "/ns")) is None
+    ours = topic_fault(name) is None and expanded_fault(expand_topic_name(name, "node", "/ns")) is None
     if is_stricter_here(name):
-        assert not mine
+        assert not ours
     else:
-        assert mine == accepted(judge, name)
+        assert ours == accepted(judge, name)
 
 
 @given(name=NAMES, namespace=st.sampled_from(["/", "/ns", "/a/b"]))

@@ -90,9 +90,9 @@ class Attacker:
 
     def writer(self, number: int, topic: str, flags: int, depth: int = 0) -> None:
         """Create a topic and its writer."""
-        made = topic_blob(f"rt/{topic}", INT32)
+        blob = topic_blob(f"rt/{topic}", INT32)
         self.say_reliably(
-            self.make(TOPIC, number, made, 0x11),
+            self.make(TOPIC, number, blob, 0x11),
             self.make(WRITER, number, writer_blob(number << 4 | TOPIC, flags, depth), 0x13),
         )
 
@@ -118,23 +118,23 @@ def paced(seconds: float, per_second: float, do: Callable[[int], None]) -> None:
 
 def history(port: int, _tcp: int, domain: int, seconds: float) -> None:
     """S1: a transient-local writer of depth 60,000, and samples of 60 kB."""
-    one = Attacker(port, domain, 0xBAD00100)
-    one.node("s1")
-    one.writer(1, "s1", LATCHED, 60_000)
+    attacker = Attacker(port, domain, 0xBAD00100)
+    attacker.node("s1")
+    attacker.writer(1, "s1", LATCHED, 60_000)
     _begin()
     sample = encode(WriteData(1, 0x15, bytes(BIG)))
-    paced(seconds, 600, lambda _: one.throw(sample))
+    paced(seconds, 600, lambda _: attacker.throw(sample))
 
 
 def types(port: int, _tcp: int, domain: int, seconds: float) -> None:
     """S2: eight clients with 512 TYPE objects of 64 kB each."""
     clients = [Attacker(port, domain, 0xBAD00200 + n) for n in range(8)]
-    made = []
+    messages = []
     for number in range(1, 513):
         text = f'<types><struct name="T{number}">{" " * (BIG - 60)}</struct></types>'.encode()
-        made.append(encode(clients[0].make(TYPE, number, text, form=Format.XML)))
+        messages.append(encode(clients[0].make(TYPE, number, text, form=Format.XML)))
     _begin()
-    paced(seconds, 800, lambda place: clients[place % 8].throw(made[place // 8 % 512]))
+    paced(seconds, 800, lambda place: clients[place % 8].throw(messages[place // 8 % 512]))
 
 
 def creates(port: int, _tcp: int, domain: int, seconds: float) -> None:
@@ -143,11 +143,11 @@ def creates(port: int, _tcp: int, domain: int, seconds: float) -> None:
     for place, client in enumerate(clients):
         client.node(f"s3_{place}")
     _begin()
-    made = [
+    messages = [
         [_topic_with_ends(client, place, number) for number in range(2, 162)]
         for place, client in enumerate(clients)
     ]
-    paced(seconds, 3_000, lambda place: clients[place % 16].throw(made[place % 16][place // 16 % 160]))
+    paced(seconds, 3_000, lambda place: clients[place % 16].throw(messages[place % 16][place // 16 % 160]))
 
 
 def _topic_with_ends(client: Attacker, place: int, number: int) -> bytes:
@@ -162,26 +162,26 @@ def _topic_with_ends(client: Attacker, place: int, number: int) -> bytes:
 
 def leaves_and_returns(port: int, _tcp: int, domain: int, seconds: float) -> None:
     """S4: a time-out of 1 ms and 480 writers: each datagram creates all of them again."""
-    one = Attacker(port, domain, 0xBAD00400, [("uxr_hl", "1")])
-    one.node("s4")
-    one.say_reliably(one.make(TOPIC, 1, topic_blob("rt/s4", INT32), 0x11))
+    attacker = Attacker(port, domain, 0xBAD00400, [("uxr_hl", "1")])
+    attacker.node("s4")
+    attacker.say_reliably(attacker.make(TOPIC, 1, topic_blob("rt/s4", INT32), 0x11))
     for number in range(2, 482):
-        one.say(one.make(WRITER, number, writer_blob(0x12, LAST, 1), 0x13))
+        attacker.say(attacker.make(WRITER, number, writer_blob(0x12, LAST, 1), 0x13))
         time.sleep(0.001)
     _begin()
-    paced(seconds, 50, lambda _: one.say(GetInfo(1, 0x15, 3)))
+    paced(seconds, 50, lambda _: attacker.say(GetInfo(1, 0x15, 3)))
 
 
 def blocked(port: int, _tcp: int, domain: int, seconds: float) -> None:
     """S5: 3,750 samples of 0 bytes in one datagram to a KEEP_ALL writer whose reader takes nothing."""
-    one = Attacker(port, domain, 0xBAD00500)
-    one.node("s5")
-    one.writer(1, "s5", KEEP_ALL)
-    one.say_reliably(one.make(READER, 1, reader_blob(0x12, KEEP_ALL, 0), 0x14))
+    attacker = Attacker(port, domain, 0xBAD00500)
+    attacker.node("s5")
+    attacker.writer(1, "s5", KEEP_ALL)
+    attacker.say_reliably(attacker.make(READER, 1, reader_blob(0x12, KEEP_ALL, 0), 0x14))
     time.sleep(0.5)
     _begin()
     sequence = encode(WriteData(1, 0x15, struct.pack("<I", 3_750) + bytes(4 * 3_750), DataFormat.DATA_SEQ))
-    paced(seconds, 9, lambda _: one.throw(sequence))
+    paced(seconds, 9, lambda _: attacker.throw(sequence))
 
 
 def forged(port: int, _tcp: int, domain: int, seconds: float) -> None:
@@ -206,41 +206,41 @@ def half_open(_port: int, tcp: int, domain: int, seconds: float) -> None:
     def connect(_place: int) -> None:
         if len(held) >= 500:
             held.pop(0).close()
-        made = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
-        made.setblocking(False)
-        made.connect_ex(("127.0.0.1", tcp))
-        held.append(made)
+        opened = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+        opened.setblocking(False)
+        opened.connect_ex(("127.0.0.1", tcp))
+        held.append(opened)
 
     paced(seconds, 500, connect)
 
 
 def refused(port: int, _tcp: int, domain: int, seconds: float) -> None:
     """S8: CREATEs that are refused and have filters of 60 kB."""
-    one = Attacker(port, domain, 0xBAD00800)
-    one.node("s8")
-    one.say_reliably(one.make(TOPIC, 1, topic_blob("rt/s8", INT32), 0x11))
+    attacker = Attacker(port, domain, 0xBAD00800)
+    attacker.node("s8")
+    attacker.say_reliably(attacker.make(TOPIC, 1, topic_blob("rt/s8", INT32), 0x11))
     _begin()
-    body = encode(one.make(READER, 1, reader_blob(0x12, LAST, 10, 0, "x" * (BIG - 4)), 0x14))
-    paced(seconds, 250, lambda _: one.throw(body))
+    body = encode(attacker.make(READER, 1, reader_blob(0x12, LAST, 10, 0, "x" * (BIG - 4)), 0x14))
+    paced(seconds, 250, lambda _: attacker.throw(body))
 
 
 def amplified(port: int, _tcp: int, domain: int, seconds: float) -> None:
     """S9: 200 GET_INFO in one datagram, of a TYPE of 60 kB."""
-    one = Attacker(port, domain, 0xBAD00900)
+    attacker = Attacker(port, domain, 0xBAD00900)
     text = f'<types><struct name="T">{" " * (BIG - 60)}</struct></types>'.encode()
-    one.say(one.make(TYPE, 1, text, form=Format.XML))
+    attacker.say(attacker.make(TYPE, 1, text, form=Format.XML))
     _begin()
     many = encode(GetInfo(1, 0x1A, 3)) * 200
     assert len(many) % 4 == 0
-    paced(seconds, 20, lambda _: one.throw(many))
+    paced(seconds, 20, lambda _: attacker.throw(many))
 
 
 def application(port: int, _tcp: int, domain: int, seconds: float) -> None:
     """S10: an application of 500 writers of which the last cannot be."""
-    one = Attacker(port, domain, 0xBAD01000)
+    attacker = Attacker(port, domain, 0xBAD01000)
     # The last one has a name that cannot be, or the type of its topic is another one with another client.
     texts = [_application(domain, last) for last in ("rt/bad name", "rt/s10_other")]
-    bodies = [encode(one.make(APPLICATION, 1, text, form=Format.XML)) for text in texts]
+    bodies = [encode(attacker.make(APPLICATION, 1, text, form=Format.XML)) for text in texts]
     other = Attacker(port, domain, 0xBAD01001)
     other.node("s10_other")
     wrong = topic_blob("rt/s10_other", dds_type("std_msgs/msg/String"))
@@ -249,7 +249,7 @@ def application(port: int, _tcp: int, domain: int, seconds: float) -> None:
     )
     time.sleep(0.2)
     _begin()
-    paced(seconds, 5, lambda place: one.throw(bodies[place % 2]))
+    paced(seconds, 5, lambda place: attacker.throw(bodies[place % 2]))
 
 
 def _application(domain: int, last: str) -> bytes:
@@ -300,16 +300,16 @@ def lossy(port: int, _tcp: int, domain: int, seconds: float) -> None:
     _begin()
     began = time.monotonic()
     hello_at = dict.fromkeys(clients, 0.0)
-    made: set[SoakClient] = set()
+    created: set[SoakClient] = set()
     while (now := time.monotonic()) < began + seconds:
         for client in clients:
             if not client.connected and now >= hello_at[client]:
                 hello_at[client] = now + 0.3
                 client.introduce()
-            elif client.connected and client not in made:
-                made.add(client)
+            elif client.connected and client not in created:
+                created.add(client)
                 _publisher(client, domain)
-            elif client in made and client.acknowledged:
+            elif client in created and client.acknowledged:
                 client.ask(lambda request: WriteData(request, 0x15, int32_body(1)))
             client.tick(now)
         links = [client.link for client in clients if client.link is not None]
@@ -335,12 +335,12 @@ def _create(kind: int, body: bytes, parent: int, domain: int, request: int) -> C
 
 def small(port: int, _tcp: int, domain: int, seconds: float) -> None:
     """S12: 45,000 small messages a second."""
-    one = Attacker(port, domain, 0xBAD01200)
-    one.node("s12")
-    one.writer(1, "s12", LAST, 10)
+    attacker = Attacker(port, domain, 0xBAD01200)
+    attacker.node("s12")
+    attacker.writer(1, "s12", LAST, 10)
     _begin()
     body = encode(WriteData(1, 0x15, int32_body(1)))
-    head, put = bytes((SESSION, 1)), one.put
+    head, put = bytes((SESSION, 1)), attacker.put
     paced(seconds, 45_000, lambda place: put(head + (place & 0xFFFF).to_bytes(2, "little") + body))
 
 

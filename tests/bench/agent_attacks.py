@@ -81,7 +81,7 @@ class Line:
 
 
 HEAD = (
-    f"    {'attack':<6} {'sessions':>8} {'samples':>14} {'round trip, ms':>23} {'new one':>6}"
+    f"    {'attack':<6} {'sessions':>8} {'samples':>14} {'round trip, ms':>23} {'new entity':>6}"
     f" {'memory':>8} {'descr.':>6} {'CPU':>5} {'log':>9}\n"
     f"    {'':<6} {'lost':>8} {'lost':>14} {'median':>7} {'p99':>7} {'worst':>7} {'s':>6}"
     f" {'MB':>8} {'':>6} {'%':>5} {'bytes':>9}"
@@ -102,15 +102,15 @@ class Honest:
     def connect(self, node: str, timeout_s: float) -> float:
         """Open a session and create a node that writes and reads; return how long that took, or infinity."""
         began, hello_at = time.monotonic(), 0.0
-        asked: list[int] = []
+        requests: list[int] = []
         while (now := time.monotonic()) < began + timeout_s:
             if not self._client.connected and now >= hello_at:
                 hello_at = now + TRY_S
                 self._client.introduce()
-            if self._client.connected and not asked:
-                asked = [self._client.ask(partial(_create, *one)) for one in self._entities(node)]
+            if self._client.connected and not requests:
+                requests = [self._client.ask(partial(_create, *entity)) for entity in self._entities(node)]
             self.turn(0.01)
-            if asked and all(number in self._client.statuses for number in asked):
+            if requests and all(number in self._client.statuses for number in requests):
                 assert set(self._client.statuses.values()) <= {0, 1}, self._client.statuses
                 return time.monotonic() - began
         return math.inf
@@ -286,8 +286,8 @@ def measure(
         newcomer = Honest(agent.udp, domain, NEW)
         new_s = _meanwhile(honest, agent, newcomer)
         _run(honest, agent, max(0.0, began + seconds - time.monotonic()))
-        took = time.monotonic() - began
-        processor = (agent.cpu_s() - cpu_before) / took
+        elapsed_s = time.monotonic() - began
+        processor = (agent.cpu_s() - cpu_before) / elapsed_s
         end = time.monotonic() + GRACE_S
         while honest.waits and time.monotonic() < end:
             honest.turn(0.1)
@@ -330,19 +330,19 @@ def _run(honest: Honest, agent: AgentUnderTest, seconds: float) -> None:
 
 def _meanwhile(honest: Honest, agent: AgentUnderTest, newcomer: Honest) -> float:
     """Let a new client come while the honest one goes on; return how long it took."""
-    began, hello_at, asked = time.monotonic(), 0.0, False
+    began, hello_at, requested = time.monotonic(), 0.0, False
     client = newcomer._client
     numbers: list[int] = []
     while (now := time.monotonic()) < began + 10:
         if not client.connected and now >= hello_at:
             hello_at = now + TRY_S
             client.introduce()
-        if client.connected and not asked:
-            asked = True
-            numbers = [client.ask(partial(_create, *one)) for one in newcomer._entities("newcomer")]
+        if client.connected and not requested:
+            requested = True
+            numbers = [client.ask(partial(_create, *entity)) for entity in newcomer._entities("newcomer")]
         with contextlib.suppress(AssertionError):  # refused: it tries again
             newcomer.turn(0.002)
-        if asked and all(number in client.statuses for number in numbers):
+        if requested and all(number in client.statuses for number in numbers):
             newcomer.leave()
             return time.monotonic() - began
         _run(honest, agent, EVERY_S / 2)

@@ -68,7 +68,7 @@ def build_programs(work: Path) -> Programs | None:
     if not (include / "rcl").exists() or shutil.which("cc") is None:
         return None
     work.mkdir(parents=True, exist_ok=True)
-    made = Programs(work / "agent_load", work / "agent_peer.so")
+    programs = Programs(work / "agent_load", work / "agent_peer.so")
     folders = [word for f in sorted(include.iterdir()) if f.is_dir() for word in ("-isystem", str(f))]
     names = ("rcl", "rmw", "rcutils", "std_msgs__rosidl_typesupport_c")
     link = [
@@ -78,7 +78,7 @@ def build_programs(work: Path) -> Programs | None:
         *(f"-l{n}" for n in names),
     ]
     for command in (
-        ["cc", *FLAGS, str(HERE / "agent_load.c"), "-o", str(made.load)],
+        ["cc", *FLAGS, str(HERE / "agent_load.c"), "-o", str(programs.load)],
         [
             "cc",
             *FLAGS,
@@ -87,12 +87,12 @@ def build_programs(work: Path) -> Programs | None:
             *folders,
             str(HERE / "agent_peer.c"),
             "-o",
-            str(made.library),
+            str(programs.library),
             *link,
         ],
     ):
         subprocess.run(command, check=True)
-    return made
+    return programs
 
 
 @dataclass(frozen=True)

@@ -157,10 +157,10 @@ def first_line(program: Path, message: Message) -> str:
 
 def times(here: Path, peer: Path | None, message: Message, call: str) -> tuple[float, float, float, float]:
     """Return nanoseconds here, of the peer, of the peer's object made before, and of one memcpy."""
-    asked = [(here, call), (peer, call), (peer, f"{call}_again"), (here, "codec_copy")]
+    calls = [(here, call), (peer, call), (peer, f"{call}_again"), (here, "codec_copy")]
     seen: list[list[float]] = [[], [], [], []]
     for _ in range(ROUNDS):
-        for number, (program, what) in enumerate(asked):
+        for number, (program, what) in enumerate(calls):
             if program is not None:
                 printed = run([*pinned(), program, message.name, what, "time"])
                 seen[number].append(float(printed.split()[-2]))

@@ -41,12 +41,12 @@ class Package:
         """Turn each interface file into .idl; an .idl file without one is taken as it is."""
         source = SHARE / self.name
         for kind, convert in CONVERT.items():
-            made = set()
+            written = set()
             for path in sorted((source / kind).glob(f"*.{kind}")):
                 convert(source, self.name, path.relative_to(source), self.folder / kind)
-                made.add(f"{path.stem}.idl")
+                written.add(f"{path.stem}.idl")
             for path in sorted((source / kind).glob("*.idl")):
-                if path.name not in made:
+                if path.name not in written:
                     (self.folder / kind).mkdir(parents=True, exist_ok=True)
                     (self.folder / kind / path.name).write_bytes(path.read_bytes())
         self.idl = sorted(p.relative_to(self.folder) for p in self.folder.glob("*/*.idl"))

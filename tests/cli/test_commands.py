@@ -101,9 +101,9 @@ def test_interfaces(run: Runner) -> None:
     assert "sensor_msgs" in {entry["package"] for entry in packages}
     package = data_of(run, "interfaces", "sensor_msgs", "--interface-path", IDL)
     assert "sensor_msgs/msg/Imu" in [entry["type"] for entry in package["types"]]
-    one = data_of(run, "interfaces", "sensor_msgs/msg/Imu", "--interface-path", IDL)
-    assert one["fields"][0]["name"] == "header"
-    assert "std_msgs/msg/Header" in one["dependencies"]
+    described = data_of(run, "interfaces", "sensor_msgs/msg/Imu", "--interface-path", IDL)
+    assert described["fields"][0]["name"] == "header"
+    assert "std_msgs/msg/Header" in described["dependencies"]
     assert any("linear_acceleration" in line for line in table_of(run, "interfaces", "sensor_msgs/Imu"))
 
 
@@ -169,8 +169,8 @@ def test_interfaces_of_services_and_actions(run: Runner) -> None:
     assert [entry["type"] for entry in package["types"]] == [
         f"std_srvs/srv/{name}" for name in ("Empty", "SetBool", "Trigger")
     ]
-    one = data_of(run, "interfaces", "std_srvs/SetBool", "--interface-path", IDL)
-    assert one["type_description_msg"]["type_description"]["type_name"] == "std_srvs/srv/SetBool"
+    described = data_of(run, "interfaces", "std_srvs/SetBool", "--interface-path", IDL)
+    assert described["type_description_msg"]["type_description"]["type_name"] == "std_srvs/srv/SetBool"
     assert "  request" in table_of(run, "interfaces", "std_srvs/SetBool")
 
 

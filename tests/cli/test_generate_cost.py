@@ -110,8 +110,8 @@ def test_a_search_in_a_list_is_noticed() -> None:
             return isinstance(other, Name) and self.text == other.text
 
     def search(count: int) -> list[bool]:
-        there = [Name(str(i)) for i in range(count)]
-        return [Name(str(i)) in there for i in range(count)]
+        existing = [Name(str(i)) for i in range(count)]
+        return [Name(str(i)) in existing for i in range(count)]
 
     assert grown(calls(lambda: search(20)), calls(lambda: search(40)), 40) != {}
 

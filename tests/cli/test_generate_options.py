@@ -17,8 +17,8 @@ OUT = Path("build/pure_sender")
 def read_depfile(path: Path) -> tuple[str, list[str]]:
     """Return what was made and from what, as make reads it."""
     words = re.findall(r"(?:\\.|[^\s\\])+", path.read_text().replace("\\\n", " "))
-    made, *inputs = [re.sub(r"\\(.)", r"\1", word).replace("$$", "$") for word in words]
-    return made.removesuffix(":"), inputs
+    target, *inputs = [re.sub(r"\\(.)", r"\1", word).replace("$$", "$") for word in words]
+    return target.removesuffix(":"), inputs
 
 
 def test_the_depfile_names_what_was_read(run: Runner, folder: Path) -> None:
@@ -30,8 +30,8 @@ def test_the_depfile_names_what_was_read(run: Runner, folder: Path) -> None:
     (folder / "microros.yaml").write_text(
         "version: 1\nprofiles: [mine.yaml]\ninterfaces: [own_msgs]\ntarget: {name: board.yaml}\n"
     )
-    made = ("generate", "--interface-path", str(own), "-o", "out", "--depfile", "build dir/out.d")
-    assert run(*made).status == 0
+    arguments = ("generate", "--interface-path", str(own), "-o", "out", "--depfile", "build dir/out.d")
+    assert run(*arguments).status == 0
     target, inputs = read_depfile(folder / "build dir/out.d")
     assert target == str(folder / "out/manifest.json")
     wanted = [own / "msg/Count.msg", *(folder / f"{name}.yaml" for name in ("microros", "mine", "board"))]
@@ -45,15 +45,15 @@ def test_the_depfile_names_what_was_read(run: Runner, folder: Path) -> None:
 def test_a_depfile_that_is_gone_is_written_again_and_an_unchanged_one_is_not(
     run: Runner, folder: Path
 ) -> None:
-    made = ("generate", "--profile", "pure_sender", "--depfile", "out.d")
-    assert run(*made).status == 0
+    arguments = ("generate", "--profile", "pure_sender", "--depfile", "out.d")
+    assert run(*arguments).status == 0
     first = (folder / "out.d").stat()
     time.sleep(0.03)  # what is as young as the run is never trusted
-    assert run(*made).status == 0
-    assert run(*made).status == 0
+    assert run(*arguments).status == 0
+    assert run(*arguments).status == 0
     assert (folder / "out.d").stat().st_mtime_ns == first.st_mtime_ns
     (folder / "out.d").unlink()
-    output = run(*made)
+    output = run(*arguments)
     assert "0 written" in output.out
     assert read_depfile(folder / "out.d")[0] == str(folder / OUT / "manifest.json")
 

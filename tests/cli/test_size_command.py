@@ -166,10 +166,10 @@ def test_boxes_of_the_treemap_have_areas_in_proportion_and_do_not_overlap() -> N
         assert box.width * box.height == pytest.approx(WIDTH * HEIGHT * leaf[3] / total, rel=0.02)
         assert 0 <= box.x <= box.x + box.width <= WIDTH + 0.1
         assert 0 <= box.y <= box.y + box.height <= HEIGHT + 0.1
-    for i, one in enumerate(boxes):
+    for i, first in enumerate(boxes):
         for other in boxes[i + 1 :]:
-            wide = min(one.x + one.width, other.x + other.width) - max(one.x, other.x)
-            high = min(one.y + one.height, other.y + other.height) - max(one.y, other.y)
+            wide = min(first.x + first.width, other.x + other.width) - max(first.x, other.x)
+            high = min(first.y + first.height, other.y + other.height) - max(first.y, other.y)
             assert wide <= 0.1 or high <= 0.1
 
 

@@ -178,7 +178,7 @@ def test_their_limits_need_not_be_said(limited: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("more", "words", "heard"),
+    ("more", "words", "values"),
     [
         ("limits: {'*': {string: 99}}\n", 7, 5),
         ("limits: {std_msgs/msg/String: {data: 30}}\n", 30, 30),
@@ -186,17 +186,17 @@ def test_their_limits_need_not_be_said(limited: Path) -> None:
         ("limits: {std_msgs/msg/String: 30}\nendpoints: {/words: {limits: {string: 40}}}\n", 40, 30),
     ],
 )
-def test_the_application_changes_them(more: str, words: int, heard: int, limited: Path) -> None:
+def test_the_application_changes_them(more: str, words: int, values: int, limited: Path) -> None:
     found = sizes(limited, BARE + more.replace("String: 30", "String: {string: 30}"))
     assert found["std_msgs/msg/String"] == 5 + words
-    assert found.get("/heard", found["std_msgs/msg/String"]) == 5 + heard
+    assert found.get("/heard", found["std_msgs/msg/String"]) == 5 + values
 
 
 def test_one_of_every_node_is_changed_in_each(limited: Path) -> None:
     changes = 'endpoints: {"~/ask": {depth: 3, queue: 2}, /heard: {depth: 4}}\n'
     project = planned(limited, BARE + changes).project
-    asked = [e for node in project.application.nodes for e in node.endpoints if e.topic == "~/ask"]
-    assert [(e.qos.depth, e.queue) for e in asked] == [(3, 2), (3, 2)]
+    matching = [e for node in project.application.nodes for e in node.endpoints if e.topic == "~/ask"]
+    assert [(e.qos.depth, e.queue) for e in matching] == [(3, 2), (3, 2)]
     assert [queue.slots for queue in project.runtime.input.queues] == [4, 2, 2]
 
 

@@ -105,8 +105,8 @@ def test_the_representation_of_python_objects_has_no_part_in_it(monkeypatch: pyt
     classes = {
         type(part) for part in (EVERYTHING, *(getattr(EVERYTHING, f.name) for f in fields(EVERYTHING)))
     }
-    for one in classes - {str}:
-        monkeypatch.setattr(one, "__repr__", lambda self: "something else")
+    for changed_class in classes - {str}:
+        monkeypatch.setattr(changed_class, "__repr__", lambda self: "something else")
     assert identity(EVERYTHING) == before
 
 

@@ -38,14 +38,14 @@ def planned(folder: Path, text: str) -> compiler.Planned:
 
 def test_with_nodes_it_is_the_first_subscription_of_the_first_node(tmp_path: Path) -> None:
     runtime = planned(tmp_path, NODES).project.runtime
-    clock, heard = runtime.entities.subscriptions.declared
+    clock, subscription = runtime.entities.subscriptions.declared
     assert (clock.topic, clock.node, clock.reliable, clock.dds_type) == (
         "/clock",
         0,
         False,
         "rosgraph_msgs::msg::dds_::Clock_",
     )
-    assert (heard.topic, heard.node) == ("/heard", 1)
+    assert (subscription.topic, subscription.node) == ("/heard", 1)
     assert runtime.input.queues == (QueuePlan(1, 8), QueuePlan(3, 8))
     assert (runtime.entities.subscriptions.max, runtime.entities.subscriptions.application) == (2, 1)
     assert runtime.executor.handles_max == 2, "a timer and a subscription: nobody adds /clock to an executor"
@@ -98,8 +98,8 @@ def test_the_agent_holds_it(tmp_path: Path, entities: str) -> None:
 
 def test_one_reference_cannot_be_two(tmp_path: Path) -> None:
     """The application may have its own subscription of /clock, but not with another QoS by reference."""
-    heard = "topic: heard, type: std_msgs/msg/Int64, queue: 3"
-    own = NODES.replace(heard, "topic: /clock, type: rosgraph_msgs/msg/Clock")
+    declared = "topic: heard, type: std_msgs/msg/Int64, queue: 3"
+    own = NODES.replace(declared, "topic: /clock, type: rosgraph_msgs/msg/Clock")
     runtime = planned(tmp_path, own).project.runtime
     assert [(s.topic, s.node, s.reliable) for s in runtime.entities.subscriptions.declared] == [
         ("/clock", 0, False),

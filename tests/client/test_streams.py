@@ -72,8 +72,8 @@ def test_a_line_takes_large_reliable_messages_from_their_slots() -> None:
         "fragments are made where they are sent from"
     )
     assert kept(large(400), application=Application(on_full="drop_oldest")) == (False, copied)
-    asked = [Application(transport=Transport("serial", send_buffer=size)) for size in (400, 2000)]
-    assert [kept(large(400), application=a) for a in asked] == [(True, 400), (False, 2000)]
+    applications = [Application(transport=Transport("serial", send_buffer=size)) for size in (400, 2000)]
+    assert [kept(large(400), application=a) for a in applications] == [(True, 400), (False, 2000)]
 
 
 def test_a_serial_line_has_room_for_one_message_of_each_best_effort_writer() -> None:
@@ -82,13 +82,13 @@ def test_a_serial_line_has_room_for_one_message_of_each_best_effort_writer() -> 
 
 
 def test_a_send_buffer_is_what_the_application_says_if_the_longest_frame_fits() -> None:
-    def asked(size: int) -> tuple[StreamSizes, list[str]]:
+    def planned(size: int) -> tuple[StreamSizes, list[str]]:
         application = Application(transport=Transport("serial", send_buffer=size))
         return plan(large(100), application=application, transport="serial", create=0)
 
-    assert asked(238)[0].send_buffer == 240
-    assert asked(4000)[0].send_buffer == 4000
-    found_warnings = asked(200)[1]
+    assert planned(238)[0].send_buffer == 240
+    assert planned(4000)[0].send_buffer == 4000
+    found_warnings = planned(200)[1]
     assert len(found_warnings) == 1
     assert (
         "'transport.send_buffer' is 200 and the longest frame on the line may take 237 bytes"
@@ -176,27 +176,27 @@ def test_no_advice_to_take_an_mtu_that_a_datagram_cannot_have() -> None:
 def test_fewer_large_messages_are_kept(size: int, history: int) -> None:
     """Four, as long as they take 1 KiB, and two of any; what the application file says counts."""
     assert plan(large(size, reliable=True))[0].reliable_slots == history
-    asked = Application(pools={"history": 5})
-    assert plan(large(size, reliable=True), application=asked)[0].reliable_slots == 5
+    application = Application(pools={"history": 5})
+    assert plan(large(size, reliable=True), application=application)[0].reliable_slots == 5
 
 
 def test_the_settings_of_another_stack() -> None:
     """MTU 512, output history 4, input history 1, slots of the MTU."""
-    asked = Application(
+    application = Application(
         transport=Transport(mtu=512), pools={"history": 4, "input_history": 1, "slot_size": 512}
     )
-    streams, found_warnings = plan(INT32, application=asked, reliable_input=True)
+    streams, found_warnings = plan(INT32, application=application, reliable_input=True)
     assert streams == StreamSizes(512, 512, 4, 512, 512, reliable_input_slots=1)
     assert streams.ram == 6 * 512
     assert found_warnings == []
 
 
 def test_slots_above_the_mtu_are_for_reliable_streams_alone() -> None:
-    asked = Application(transport=Transport(mtu=512), pools={"slot_size": 2000, "input_history": 3})
-    streams, _ = plan(INT32, application=asked, reliable_input=True)
+    application = Application(transport=Transport(mtu=512), pools={"slot_size": 2000, "input_history": 3})
+    streams, _ = plan(INT32, application=application, reliable_input=True)
     assert (streams.best_effort_size, streams.input_size, streams.mtu) == (512, 512, 512)
     assert (streams.fragments, streams.reliable_slot_size, streams.reliable_input_slots) == (True, 2004, 3)
-    nothing, _ = plan(application=asked, create=0, reliable_input=True)
+    nothing, _ = plan(application=application, create=0, reliable_input=True)
     assert (nothing.best_effort_size, nothing.reliable_slots, nothing.reliable_slot_size) == (0, 0, 0)
 
 
@@ -208,10 +208,10 @@ def test_an_input_history_without_a_reliable_input_stream_has_no_effect() -> Non
 
 
 def test_drop_oldest_with_fragments_needs_two_slots() -> None:
-    one = Application(on_full="drop_oldest", pools={"history": 1})
-    (line,) = plan(large(5000), application=one)[1]
+    application = Application(on_full="drop_oldest", pools={"history": 1})
+    (line,) = plan(large(5000), application=application)[1]
     assert "needs a history of 2" in line
-    assert plan(INT32, application=one)[1] == []
+    assert plan(INT32, application=application)[1] == []
 
 
 def reception(

@@ -24,18 +24,18 @@ def copies() -> Copies:
     return make_copies()
 
 
-def difference(name: str, held: bytes | None, made: bytes | None) -> str:
+def difference(name: str, held: bytes | None, rendered: bytes | None) -> str:
     """Return a unified diff; empty: they are the same."""
     old, new = (
-        (content or b"").decode("utf-8", "replace").splitlines(keepends=True) for content in (held, made)
+        (content or b"").decode("utf-8", "replace").splitlines(keepends=True) for content in (held, rendered)
     )
     return "".join(difflib.unified_diff(old, new, f"golden/{name}", f"generated/{name}"))
 
 
 @pytest.mark.parametrize("application", applications())
 def test_what_is_rendered_is_what_the_golden_copy_holds(application: str, copies: Copies) -> None:
-    held, mine = held_files(), f"{application}/"
-    names = sorted(name for name in held.keys() | copies.files if name.startswith(mine))
+    held, prefix = held_files(), f"{application}/"
+    names = sorted(name for name in held.keys() | copies.files if name.startswith(prefix))
     assert names, "nothing is rendered for this application alone: it shows nothing"
     assert "".join(difference(name, held.get(name), copies.files.get(name)) for name in names) == ""
 

@@ -67,9 +67,9 @@ def test_the_page_has_all_of_them() -> None:
     assert "Strings or sequences without a bound need a limit" in text
 
 
-@pytest.mark.parametrize("given", ["MG-5013", "mg-5013", "[MG-5013]"])
-def test_explain_prints_it(run: Runner, given: str) -> None:
-    result = run("explain", given)
+@pytest.mark.parametrize("argument", ["MG-5013", "mg-5013", "[MG-5013]"])
+def test_explain_prints_it(run: Runner, argument: str) -> None:
+    result = run("explain", argument)
     assert (result.status, result.out) == (0, f"MG-5013: {TEXTS['MG-5013']}\n")
 
 

@@ -147,8 +147,8 @@ x: 1
 int x;
 ```
 """
-    one, file, three, code = blocks(page)
-    assert one.commands == [("one", ["out"]), ("two &", [])]
+    first, file, three, code = blocks(page)
+    assert first.commands == [("one", ["out"]), ("two &", [])]
     assert (file.title, file.text) == ("a/b.yaml", "x: 1\n")
     assert (three.not_run, three.commands) == ("Not run here: because", [("three", [])])
     assert (code.language, code.not_run) == ("c", "")

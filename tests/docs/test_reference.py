@@ -72,7 +72,7 @@ def test_every_key_is_there_with_its_meaning(name: str) -> None:
 
 def test_what_the_suite_knows_of_the_api_is_there() -> None:
     """tests/runtime/surface.yaml has the functions as facts of ROS 2 and micro-ROS, not of these headers."""
-    there = {
+    documented = {
         (header.name, name)
         for header in c_api.headers()
         for section in header.sections
@@ -87,9 +87,9 @@ def test_what_the_suite_knows_of_the_api_is_there() -> None:
     }
     assert len(wanted) > 200
     generated_by_macro = {pair for pair in wanted if "__Sequence__" in pair[1]}
-    assert sorted(wanted - there - generated_by_macro) == []
+    assert sorted(wanted - documented - generated_by_macro) == []
     for header, types in SURFACE["members"].items():
-        assert all((header, name) in there for name in types if "__Sequence" not in name), header
+        assert all((header, name) in documented for name in types if "__Sequence" not in name), header
     constants = {re.findall(r"\w+", line)[0] for line in SURFACE["constants"]}
     text = "\n".join(c_api.pages().values())
     assert not [name for name in constants if not re.search(rf"\b{name}\b", text)]

@@ -34,12 +34,12 @@ class Document(HTMLParser):
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         self.tags.add(tag)
-        given = {name: value or "" for name, value in attrs}
-        self.anchors |= {given[name] for name in ("id", "name") if name in given}
-        if tag == "a" and "href" in given:
-            self.links.append(given["href"])
-        if _LOADS.get(tag, "") in given and given.get("rel") != "canonical":
-            self.loaded.append(given[_LOADS[tag]])
+        attributes = {name: value or "" for name, value in attrs}
+        self.anchors |= {attributes[name] for name in ("id", "name") if name in attributes}
+        if tag == "a" and "href" in attributes:
+            self.links.append(attributes["href"])
+        if _LOADS.get(tag, "") in attributes and attributes.get("rel") != "canonical":
+            self.loaded.append(attributes[_LOADS[tag]])
 
 
 @pytest.fixture(scope="module")

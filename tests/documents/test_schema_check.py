@@ -44,13 +44,13 @@ def keywords(schema: Any) -> Iterator[str]:
     for key, value in schema.items():
         yield key
         if key in ("properties", "patternProperties", "$defs"):
-            for one in value.values():
-                yield from keywords(one)
+            for element in value.values():
+                yield from keywords(element)
         elif key in ("items", "additionalProperties", "not"):
             yield from keywords(value)
         elif key == "anyOf":
-            for one in value:
-                yield from keywords(one)
+            for element in value:
+                yield from keywords(element)
 
 
 def places(data: Any) -> Iterator[tuple[Any, Any]]:
@@ -63,10 +63,10 @@ def places(data: Any) -> Iterator[tuple[Any, Any]]:
 
 def mutated(data: Any, choice: random.Random) -> Any:
     data = copy.deepcopy(data)
-    there = list(places(data))
-    if not there:
+    found = list(places(data))
+    if not found:
         return choice.choice(REPLACEMENTS)
-    container, key = choice.choice(there)
+    container, key = choice.choice(found)
     if isinstance(container, dict) and choice.random() < 0.2:
         container[choice.choice(["other", "domain_id", "name"])] = container.pop(key)
     else:

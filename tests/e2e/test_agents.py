@@ -305,13 +305,13 @@ def test_two_images_at_once_and_a_restart_with_the_same_key(
     program = images.live(pool_image)
     with ExitStack() as stack:
         first, second = (stack.enter_context(Live(program)) for _ in range(2))
-        for number, one in enumerate((first, second)):
-            one.ok(f"open {0x600 + number} {agent.port}")
-            one.ok(f"node 0 pair_{number} -")
-            one.ok(f"publisher 0 0 Int32 pair_{number} reliable")
+        for number, peer in enumerate((first, second)):
+            peer.ok(f"open {0x600 + number} {agent.port}")
+            peer.ok(f"node 0 pair_{number} -")
+            peer.ok(f"publisher 0 0 Int32 pair_{number} reliable")
             observer.subscribe(f"/pair_{number}", "std_msgs/msg/Int32")
-        for number, one in enumerate((first, second)):
-            live_until_heard(one, observer, f"/pair_{number}")
+        for number, peer in enumerate((first, second)):
+            live_until_heard(peer, observer, f"/pair_{number}")
         first.begin("burst 0 0 50 5")
         sent = {"/pair_1": accepted(second.burst(1000, 50, 5)), "/pair_0": accepted(first.samples())}
         values: dict[str, list[int]] = {"/pair_0": [], "/pair_1": []}
@@ -326,8 +326,8 @@ def test_two_images_at_once_and_a_restart_with_the_same_key(
         graph = observer.see(lambda g: "/pair_again" in g["nodes"] and "/pair_0" not in g["nodes"])
         assert time.monotonic() - start < 2.5, "the new session ends the old one, not its time-out"
         assert "/pair_1" in graph["nodes"]
-        for one in (again, second):
-            one.ok("close")
+        for peer in (again, second):
+            peer.ok("close")
 
 
 # An agent that is killed and started again

@@ -69,11 +69,11 @@ def _publishes(node: str, topic: str, graph: dict[str, Any]) -> bool:
     return any(name == node for name, *_ in graph["publishers"].get(topic, []))
 
 
-def meet(observer: Observer, heard: Mapping[str, int], node: str, *topics: str) -> None:
-    """Wait until as many subscriptions as in `heard` are there, and the publishers of `node` on `topics`."""
+def meet(observer: Observer, matched: Mapping[str, int], node: str, *topics: str) -> None:
+    """Wait until as many subscriptions as in `matched` exist, and the publishers of `node` on `topics`."""
     end = deadline(30)
-    while any(observer.ask(do="matched", topic=topic) < count for topic, count in heard.items()):
-        assert time.monotonic() < end, f"nobody subscribes to one of {list(heard)}"
+    while any(observer.ask(do="matched", topic=topic) < count for topic, count in matched.items()):
+        assert time.monotonic() < end, f"nobody subscribes to one of {list(matched)}"
         time.sleep(0.05)
     for topic in topics:
         observer.see(partial(_publishes, node, topic), 30)

@@ -92,8 +92,8 @@ def test_what_every_compiler_makes(
         check_measurements(found[f"/{name}/imu/data"])
         assert {value["data"] for value in found[f"/{name}/imu_node/state"]} == {"imu_node"}
     ours = {"/pure_sender", *(f"/{name}/imu_node" for name in built)}
-    gone = observer.see(lambda g: not ours & set(g["nodes"]))
-    assert not any(gone["publishers"].get(f"/{name}/count") for name in built)
+    seen = observer.see(lambda g: not ours & set(g["nodes"]))
+    assert not any(seen["publishers"].get(f"/{name}/count") for name in built)
 
 
 def check_counter(values: list[int], errors: list[str], status: int) -> None:

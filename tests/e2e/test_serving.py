@@ -51,7 +51,7 @@ def call(program: Path, observer: Observer) -> None:
         await_line(process, "ready /arm/lengths")
         names = [["a" * (i + 1), "b"][: 1 + i % 2] for i in range(6)]
         observer.ask(do="call", service="/arm/lengths", type=TYPE, names=names)
-        assert await_replies(observer) == [[len(name) for name in asked] for asked in names]
+        assert await_replies(observer) == [[len(name) for name in requested] for requested in names]
         observer.ask(do="call", service="/arm/lengths", type=TYPE, names=[["much too long"]])
         refused = await_line(process, "refused")
         assert "names[]: 13, capacity for 8" in refused
@@ -139,14 +139,14 @@ def test_the_example_asks_itself(images: Images, image_port: Relay, agent: Agent
     image = images.build(image_port.port, EXAMPLE, "gcc", QUICK)
     with started(image.program) as process:
         assert process.stdout is not None
-        heard: set[str] = set()
+        lines: set[str] = set()
         wanted = {"request of grip: 0", "request of grip: 1", "reply"}
         for _ in range(100):
             line = process.stdout.readline().rstrip()
-            heard.add("reply" if line.startswith("reply of grip: ") else line)
-            if heard == wanted:
+            lines.add("reply" if line.startswith("reply of grip: ") else line)
+            if lines == wanted:
                 break
-    assert heard == wanted
+    assert lines == wanted
     found = tool("size", image.out, "--format", "json")
     entities = {(e["kind"], e["name"]): e for e in json.loads(found)["entities"]}
     queues = {

@@ -126,8 +126,8 @@ def test_the_usual_loops_outlive_an_outage_of_the_agent(builds: Builds, loop: st
             agent.silent = False
         before = len(agent.values())
         running.wait_for(lambda: len(agent.values()) > before + 5)
-        begun = running.words("loop_report", 4)[3]
-    assert (begun == 1) == keeps
+        started = running.words("loop_report", 4)[3]
+    assert (started == 1) == keeps
 
 
 def test_bytes_not_read_in_time_are_counted_and_the_line_recovers(builds: Builds) -> None:

@@ -75,7 +75,7 @@ def test_everything_under_one_executor(builds: Builds, observer: Observer, domai
     assert [value - HEARD for value in seen if value < ANSWERED] == VALUES
     answered = [value - ANSWERED for value in seen if value >= ANSWERED]
     assert set(answered) == {3, 7}
-    assert all(one != other for one, other in pairwise(answered)), "a reply was lost or came twice"
+    assert all(sample != other for sample, other in pairwise(answered)), "a reply was lost or came twice"
     assert refused == 0
 
 

@@ -62,18 +62,18 @@ def test_an_image_after_a_bootloader_has_its_vectors_hooks_and_memories(tmp_path
     places = (f"-DBOOT_SPOILED={DMA:#x}", f"-DBOOT_IMAGE={OFFSET:#x}")
     check([*compiler, *places, str(C_FILES / "boot.S"), "-o", str(tmp_path / "boot.elf")])
     check(["arm-none-eabi-objcopy", "-O", "binary", str(tmp_path / "boot.elf"), str(boot)])
-    made = built(tmp_path, BOOTED.replace("BOOT", str(boot)))
-    made = replace(made, target=replace(made.target, name="qemu-mps2-an386"))
-    image = made.link(C_FILES / "booted.c", tmp_path / "booted.elf")
+    firmware = built(tmp_path, BOOTED.replace("BOOT", str(boot)))
+    firmware = replace(firmware, target=replace(firmware.target, name="qemu-mps2-an386"))
+    image = firmware.link(C_FILES / "booted.c", tmp_path / "booted.elf")
     agent = FakeAgent()
-    with board(made, image) as running, scripted_agent(running.device, agent):
+    with board(firmware, image) as running, scripted_agent(running.device, agent):
         running.go_on()
         running.wait_for(lambda: len(agent.values()) >= 5)
         vectors, clocks, watchdog, cleared = running.words("booted_report", 4)
     assert agent.values()[:5] == [0, 1, 2, 3, 4], "its own interrupts come"
     assert (vectors, clocks, cleared) == (OFFSET, 0x434C4B, 1)
     assert watchdog >= 4 * 20, "each millisecond of a wait"
-    symbols = made.symbols(image)
+    symbols = firmware.symbols(image)
     assert symbols["port_cortex_m_vectors"] == OFFSET
     assert symbols["port_stack_low"] == FAST
     assert {
@@ -83,10 +83,10 @@ def test_an_image_after_a_bootloader_has_its_vectors_hooks_and_memories(tmp_path
 
 def test_a_hook_missing_in_the_application_is_named(tmp_path: Path) -> None:
     need("cortex-m3")
-    made = built(tmp_path, "target: mine\nextends: qemu-mps2-an385\nhooks: {watchdog: feed_the_dog}\n")
-    assert "feed_the_dog" in (made.out / "README.md").read_text()
+    firmware = built(tmp_path, "target: mine\nextends: qemu-mps2-an385\nhooks: {watchdog: feed_the_dog}\n")
+    assert "feed_the_dog" in (firmware.out / "README.md").read_text()
     with pytest.raises(AssertionError) as error:
-        made.link(C_FILES / "prints.c", tmp_path / "prints.elf")
+        firmware.link(C_FILES / "prints.c", tmp_path / "prints.elf")
     assert "feed_the_dog" in str(error.value)
 
 
@@ -94,14 +94,14 @@ def test_a_hook_missing_in_the_application_is_named(tmp_path: Path) -> None:
 def test_printf_goes_where_the_target_file_says(tmp_path: Path, way: str) -> None:
     name, stdio = PRINTING[way]
     need(name, emulator=True)
-    made = built(tmp_path, f"target: mine\nextends: {name}\nstdio: {stdio}\n")
-    assert {s for s in made.symbols() if NOT_NEEDED.fullmatch(s) or s.startswith("port_stdio")} == set(), (
-        "the example does not print, so nothing of it is there"
-    )
+    firmware = built(tmp_path, f"target: mine\nextends: {name}\nstdio: {stdio}\n")
+    assert {
+        s for s in firmware.symbols() if NOT_NEEDED.fullmatch(s) or s.startswith("port_stdio")
+    } == set(), "the example does not print, so nothing of it is there"
     floats = ("-DPRINTS_FLOATS",) if way.endswith("float") else ()
-    image = made.link(C_FILES / "prints.c", tmp_path / "prints.elf", *floats)
+    image = firmware.link(C_FILES / "prints.c", tmp_path / "prints.elf", *floats)
     expected = "" if way == "none" else PRINTED + FLOATS * len(floats)
-    emulator = made.target.emulator
+    emulator = firmware.target.emulator
     assert emulator is not None
     uart = tmp_path / "uart.txt"
     debugger = ("-semihosting-config", "enable=on,target=native")

@@ -112,12 +112,12 @@ def test_a_queue_of_bytes_takes_what_it_is_given(builds: Builds) -> None:
     assert after["totals"]["flash"] - before["totals"]["flash"] < 600
 
 
-@pytest.mark.parametrize(("line", "lent"), [("udp, best effort", True), ("udp, reliable", False)])
-def test_size_counts_a_slot_in_the_input_buffer_once(builds: Builds, line: str, lent: bool) -> None:
+@pytest.mark.parametrize(("line", "loaned"), [("udp, best effort", True), ("udp, reliable", False)])
+def test_size_counts_a_slot_in_the_input_buffer_once(builds: Builds, line: str, loaned: bool) -> None:
     """Samples that wait there take no memory of the subscription."""
     need(CORTEX_M4)
     built = _built(builds, line, 360)
     report, scan = _size(built)
     buffer = sum(part["bytes"] for part in report["ram"] if part["use"] == "input buffer")
-    assert (buffer > _largest(built)) == lent == (scan["ram"] < 200)
-    assert scan["shared"] == ([{"what": "input buffer", "bytes": buffer, "users": 1}] if lent else [])
+    assert (buffer > _largest(built)) == loaned == (scan["ram"] < 200)
+    assert scan["shared"] == ([{"what": "input buffer", "bytes": buffer, "users": 1}] if loaned else [])

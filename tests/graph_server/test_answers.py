@@ -126,8 +126,8 @@ def test_names_that_do_not_fit_take_no_room_of_the_page() -> None:
 
 def test_types_beyond_the_room_are_reported_unless_none_are_wanted() -> None:
     graph = Fixed((("/s", ("a/msg/A", "a/msg/B")),))
-    one, none = names(graph, types_max=1), names(graph, types_max=0)
-    assert (one["names"][0]["types"], one["truncated"]) == (["a/msg/A"], True)
+    limited, none = names(graph, types_max=1), names(graph, types_max=0)
+    assert (limited["names"][0]["types"], limited["truncated"]) == (["a/msg/A"], True)
     assert (none["names"][0]["types"], none["truncated"]) == ([], False)
 
 

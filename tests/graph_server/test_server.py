@@ -47,8 +47,8 @@ def server() -> Iterator[subprocess.Popen[str]]:
 
 @pytest.fixture
 def peer(server: subprocess.Popen[str]) -> Iterator[Peer]:
-    with Peer("asking") as made:
-        yield made
+    with Peer("asking") as asking:
+        yield asking
 
 
 class Asked:
@@ -81,14 +81,14 @@ class Asked:
         return [endpoint["node"] for endpoint in self.endpoints(what, topic)["endpoints"]]
 
 
-def agree(peer: Peer, here: Callable[[], Any], there: Callable[[], Any]) -> Any:
+def agree(peer: Peer, expected: Callable[[], Any], answered: Callable[[], Any]) -> Any:
     """Wait until both sides have discovered the same; return it."""
-    assert peer.spin(lambda: here() == there(), seconds(IDLE_S)), (here(), there())
-    return here()
+    assert peer.spin(lambda: expected() == answered(), seconds(IDLE_S)), (expected(), answered())
+    return expected()
 
 
 def test_names_are_those_that_rclpy_sees(peer: Peer) -> None:
-    asked, graph = Asked(peer), peer.graph()
+    querying, graph = Asked(peer), peer.graph()
     with Peer("arm", "/left") as arm:
         arm.publisher("state", INT32)
         arm.subscribe("/goal", "std_msgs/msg/String", print)
@@ -96,16 +96,19 @@ def test_names_are_those_that_rclpy_sees(peer: Peer) -> None:
         arm.client("/left/home", "std_srvs/srv/Trigger")
         node = arm.name
         sides: list[tuple[Callable[[], Any], Callable[[], Any]]] = [
-            (lambda: tuple((n, ()) for n in graph.nodes()), lambda: asked.listed(answers.NODES)),
-            (graph.topics, lambda: asked.listed(answers.TOPICS)),
-            (graph.services, lambda: asked.listed(answers.SERVICES)),
-            (lambda: graph.publishers_of(node), lambda: asked.listed(answers.PUBLISHERS_OF, node=node)),
-            (lambda: graph.subscriptions_of(node), lambda: asked.listed(answers.SUBSCRIPTIONS_OF, node=node)),
-            (lambda: graph.services_of(node), lambda: asked.listed(answers.SERVICES_OF, node=node)),
-            (lambda: graph.clients_of(node), lambda: asked.listed(answers.CLIENTS_OF, node=node)),
+            (lambda: tuple((n, ()) for n in graph.nodes()), lambda: querying.listed(answers.NODES)),
+            (graph.topics, lambda: querying.listed(answers.TOPICS)),
+            (graph.services, lambda: querying.listed(answers.SERVICES)),
+            (lambda: graph.publishers_of(node), lambda: querying.listed(answers.PUBLISHERS_OF, node=node)),
+            (
+                lambda: graph.subscriptions_of(node),
+                lambda: querying.listed(answers.SUBSCRIPTIONS_OF, node=node),
+            ),
+            (lambda: graph.services_of(node), lambda: querying.listed(answers.SERVICES_OF, node=node)),
+            (lambda: graph.clients_of(node), lambda: querying.listed(answers.CLIENTS_OF, node=node)),
         ]
         assert peer.spin(lambda: graph.clients_of(node), seconds(IDLE_S))
-        found = [agree(peer, here, there) for here, there in sides]
+        found = [agree(peer, expected, answered) for expected, answered in sides]
         assert {("/left/arm", ()), ("/microros_graph", ()), ("/asking", ())} <= set(found[0])
         assert found[3:] == [
             (("/left/state", (INT32,)),),
@@ -113,14 +116,15 @@ def test_names_are_those_that_rclpy_sees(peer: Peer) -> None:
             (("/left/enable", ("std_srvs/srv/SetBool",)),),
             (("/left/home", ("std_srvs/srv/Trigger",)),),
         ]
-    agree(peer, graph.topics, lambda: asked.listed(answers.TOPICS))
+    agree(peer, graph.topics, lambda: querying.listed(answers.TOPICS))
     assert peer.spin(
-        lambda: asked.names(answers.CLIENTS_OF, node=node)["status"] == answers.UNKNOWN_NODE, seconds(IDLE_S)
+        lambda: querying.names(answers.CLIENTS_OF, node=node)["status"] == answers.UNKNOWN_NODE,
+        seconds(IDLE_S),
     )
 
 
 def test_endpoints_and_counts_are_those_that_rclpy_sees(peer: Peer) -> None:
-    asked, graph = Asked(peer), peer.graph()
+    querying, graph = Asked(peer), peer.graph()
     with Peer("pair", "/right") as pair:
         pair.publisher("/data", INT32, Qos(reliable=False, deadline_ms=20))
         pair.publisher("/data", INT32, Qos(transient_local=True, lifespan_ms=1500))
@@ -132,27 +136,27 @@ def test_endpoints_and_counts_are_those_that_rclpy_sees(peer: Peer) -> None:
             return [endpoint.node for endpoint in found] == [pair.name] * 3
 
         assert peer.spin(complete, seconds(IDLE_S))
-        for what, here in (
+        for what, endpoints_of in (
             (answers.PUBLISHERS, graph.publishers),
             (answers.SUBSCRIPTIONS, graph.subscriptions),
         ):
-            expected = here("/data")
-            total = partial(asked.endpoints, what, "/data")
-            agree(peer, lambda: len(here("/data")), lambda: total()["total"])  # noqa: B023
+            expected = endpoints_of("/data")
+            total = partial(querying.endpoints, what, "/data")
+            agree(peer, lambda: len(endpoints_of("/data")), lambda: total()["total"])  # noqa: B023
             # Endpoints are discovered before the names of their nodes.
             known = lambda: {e["node"] for e in total()["endpoints"]}  # noqa: B023, E731
             agree(peer, lambda: {pair.name}, known)
-            response = asked.endpoints(what, "/data")
+            response = querying.endpoints(what, "/data")
             assert not response["truncated"]
             for item, endpoint in zip(response["endpoints"], expected, strict=True):
                 for name in type(endpoint).__dataclass_fields__:
                     value = getattr(endpoint, name)
                     same = bytes(item[name]) if isinstance(value, bytes) else item[name]
                     assert same == value, name
-        servers = lambda: asked.endpoints(answers.SERVERS, "/enable")["total"]  # noqa: E731
+        servers = lambda: querying.endpoints(answers.SERVERS, "/enable")["total"]  # noqa: E731
         assert agree(peer, lambda: graph.count_servers("/enable"), servers) == 1
-        assert asked.endpoints(answers.CLIENTS, "/enable")["total"] == 0
-    assert asked.endpoints(answers.PUBLISHERS, "no name")["status"] == answers.INVALID
+        assert querying.endpoints(answers.CLIENTS, "/enable")["total"] == 0
+    assert querying.endpoints(answers.PUBLISHERS, "no name")["status"] == answers.INVALID
 
 
 KINDS = [
@@ -192,7 +196,7 @@ def test_matched_counts_are_those_of_dds(peer: Peer) -> None:
 
     Each number is waited for by itself: a slow machine has time for every one of them.
     """
-    asked = Asked(peer)
+    querying = Asked(peer)
     with Peer("writing") as writing, Peer("reading") as reading:
         pairs = list(product(KINDS, KINDS))
         topics = [f"/pair_{i}" for i in range(len(pairs))]
@@ -207,32 +211,32 @@ def test_matched_counts_are_those_of_dds(peer: Peer) -> None:
         for pair, writer, reader, topic in zip(pairs, writers, readers, topics, strict=True):
             expected = int(connects(*pair))
             for what, own, _ in both:
-                agree(peer, lambda: [own], partial(asked.nodes, what, topic))  # noqa: B023
+                agree(peer, lambda: [own], partial(querying.nodes, what, topic))  # noqa: B023
             found = lambda: (writer.subscriptions(), reader.publishers())  # noqa: B023, E731
             agree(peer, lambda: (expected, expected), found)  # noqa: B023
             for what, _, other in both:
-                assert asked.endpoints(what, topic, matched_by=other)["total"] == expected, (topic, what)
-        nobody = asked.endpoints(answers.SUBSCRIPTIONS, "/pair_0", matched_by="/reading")
+                assert querying.endpoints(what, topic, matched_by=other)["total"] == expected, (topic, what)
+        nobody = querying.endpoints(answers.SUBSCRIPTIONS, "/pair_0", matched_by="/reading")
         assert nobody["status"] == answers.UNKNOWN_NODE, "it has no publisher there"
     assert 0 < sum(connects(offered, requested) for offered, requested in pairs) < len(pairs)
 
 
 def test_a_change_is_announced_and_makes_another_version(peer: Peer) -> None:
     versions: list[int] = []
-    asked = Asked(peer)
+    querying = Asked(peer)
     peer.subscribe(
         CHANGE_TOPIC, "microros_graph_msgs/msg/Change", lambda m: versions.append(m["version"]), CHANGE_QOS
     )
     assert peer.spin(lambda: versions, seconds(IDLE_S)), "the last notice is kept for those that come later"
-    settled = lambda: asked.names(answers.NODES, names_max=0)["version"] == versions[-1]  # noqa: E731
+    settled = lambda: querying.names(answers.NODES, names_max=0)["version"] == versions[-1]  # noqa: E731
     assert peer.spin(settled, seconds(IDLE_S))
     with Peer("passing"):
-        seen = lambda: ("/passing", ()) in asked.listed(answers.NODES)  # noqa: E731
+        seen = lambda: ("/passing", ()) in querying.listed(answers.NODES)  # noqa: E731
         assert peer.spin(seen, seconds(IDLE_S))
         assert peer.spin(settled, seconds(IDLE_S))
         with_it = versions[-1]
-    gone = lambda: ("/passing", ()) not in asked.listed(answers.NODES)  # noqa: E731
-    assert peer.spin(gone, seconds(IDLE_S))
+    is_removed = lambda: ("/passing", ()) not in querying.listed(answers.NODES)  # noqa: E731
+    assert peer.spin(is_removed, seconds(IDLE_S))
     assert peer.spin(settled, seconds(IDLE_S))
     assert versions[-1] > with_it
     assert versions == sorted(set(versions)), "each notice has a new version"
@@ -240,12 +244,12 @@ def test_a_change_is_announced_and_makes_another_version(peer: Peer) -> None:
 
 def test_many_changes_are_few_notices_and_the_last_is_announced(server: object) -> None:
     """With the test's clock: what happens until the pause is over is one notice more."""
-    now, heard = [100.0], list[int]()
+    now, versions = [100.0], list[int]()
     domain = own_domain() + 100
     with Peer("storm", domain=domain) as peer, Peer("listening", domain=domain) as listening:
         serving = GraphServer(peer, print, clock=lambda: now[0])
         change = "microros_graph_msgs/msg/Change"
-        listening.subscribe(CHANGE_TOPIC, change, lambda m: heard.append(m["version"]), CHANGE_QOS)
+        listening.subscribe(CHANGE_TOPIC, change, lambda m: versions.append(m["version"]), CHANGE_QOS)
 
         def until(done: Callable[[], object]) -> None:
             """Let both sides work until it is so, and on until what they know by then has been served."""
@@ -259,24 +263,24 @@ def test_many_changes_are_few_notices_and_the_last_is_announced(server: object) 
                 serving.turn(0.01)
                 listening.spin_once(0.01)
 
-        until(lambda: heard)
+        until(lambda: versions)
         for _ in range(2):
             now[0] += 0.25
             until(lambda: {"/storm", "/listening"} <= set(peer.graph().nodes()))
-        before = len(heard)
+        before = len(versions)
         listening.publisher("/burst_0", INT32)
-        until(lambda: len(heard) > before)
+        until(lambda: len(versions) > before)
         for index in range(1, 10):
             listening.publisher(f"/burst_{index}", INT32)
         burst = {f"/burst_{index}" for index in range(10)}
         until(lambda: burst <= {name for name, _ in peer.graph().topics()})
-        assert len(heard) == before + 1, "one at once, the others wait"
+        assert len(versions) == before + 1, "one at once, the others wait"
         now[0] += 0.25
-        until(lambda: len(heard) > before + 1)
-        assert len(heard) == before + 2
+        until(lambda: len(versions) > before + 1)
+        assert len(versions) == before + 2
         now[0] += 0.25
         until(lambda: True)
-        assert len(heard) == before + 2, "nothing has changed"
+        assert len(versions) == before + 2, "nothing has changed"
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

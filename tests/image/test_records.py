@@ -21,10 +21,10 @@ class BuildFolder:
         (path / RECORDS).mkdir(parents=True)
 
     def file(self, name: str) -> Path:
-        made = self.path / name
-        made.parent.mkdir(parents=True, exist_ok=True)
-        made.write_bytes(b"")
-        return made
+        path = self.path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(b"")
+        return path
 
     def record(self, name: str, config: str = "", **members: str) -> None:
         data = {"version": 1, "config": config, "name": name, "objects": "", **members}
@@ -60,9 +60,9 @@ class BuildFolder:
 
 @pytest.fixture
 def folder(tmp_path: Path) -> BuildFolder:
-    made = BuildFolder(tmp_path / "build")
-    made.library("robot")
-    return made
+    folder = BuildFolder(tmp_path / "build")
+    folder.library("robot")
+    return folder
 
 
 def refused(*arguments: Path) -> str:

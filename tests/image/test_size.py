@@ -73,8 +73,8 @@ def test_the_sums_are_those_of_size(measured: Measured, target: str) -> None:
     assert report.totals == expected
     assert sum(p.size for p in report.ram) == expected["data"] + expected["bss"]
     assert all(p.size > 0 for p in report.chunks)
-    for one, next_one in zip(report.chunks, report.chunks[1:], strict=False):
-        assert one.section != next_one.section or one.address + one.size == next_one.address
+    for chunk, following in zip(report.chunks, report.chunks[1:], strict=False):
+        assert chunk.section != following.section or chunk.address + chunk.size == following.address
 
 
 @pytest.mark.parametrize("target", BOARDS)
@@ -85,16 +85,16 @@ def test_every_symbol_of_nm_has_its_size(measured: Measured, target: str) -> Non
         parts = line.split()
         if len(parts) == 4 and parts[1] in "TtBbDdRr":
             expected[parts[0]] = expected.get(parts[0], 0) + int(parts[3], 16)
-    mine: dict[str, int] = {}
+    counted: dict[str, int] = {}
     ours = ("component", "type support", "application")
     for chunk in (p for p in report.chunks if p.owner.group in ours):
         for name in (chunk.symbol, *chunk.aliases):
             if name:
-                mine[name] = mine.get(name, 0) + chunk.size
-    mine = {name: size for name, size in mine.items() if not name.startswith('"')}
-    assert len(mine) > 100
-    assert mine == {name: size for name, size in expected.items() if name in mine}
-    assert not [n for n in expected if n.startswith(("rcl", "rmw_", "xrce_", "port_")) and n not in mine]
+                counted[name] = counted.get(name, 0) + chunk.size
+    counted = {name: size for name, size in counted.items() if not name.startswith('"')}
+    assert len(counted) > 100
+    assert counted == {name: size for name, size in expected.items() if name in counted}
+    assert not [n for n in expected if n.startswith(("rcl", "rmw_", "xrce_", "port_")) and n not in counted]
 
 
 @pytest.mark.parametrize("target", BOARDS)
@@ -177,8 +177,8 @@ def test_the_map_of_lld(measured: Measured, tmp_path: Path) -> None:
     chunks = attribute(folder, Elf(out / "bin/pure_sender"))
     kinds = {k: sum(p.size for p in chunks if p.kind == k) for k in ("text", "data", "bss")}
     assert kinds == berkeley("size", out / "bin/pure_sender")
-    mine = [p for p in chunks if p.symbol == "rcl_publish"]
-    assert [(p.owner.name, p.source) for p in mine] == [("publish", "src/publish/rcl_publisher.c")]
+    of_publish = [p for p in chunks if p.symbol == "rcl_publish"]
+    assert [(p.owner.name, p.source) for p in of_publish] == [("publish", "src/publish/rcl_publisher.c")]
 
 
 def test_string_constants_belong_to_who_wrote_them(measured: Measured) -> None:
@@ -221,9 +221,9 @@ def test_ram_is_split_as_the_compiler_lays_it_out(measured: Measured) -> None:
     assert len(slots) == pools["reliable_slots"]
     assert set(slots.values()) == {pools["reliable_slot_size"]}
     assert reliable >= sum(slots.values())
-    mine = [p for p in parts if ".endpoints[1]" in p.path]
-    assert 0 < sum(p.size for p in mine) <= writer
-    assert {p.use for p in mine} == {"publisher 1"}
+    of_endpoint = [p for p in parts if ".endpoints[1]" in p.path]
+    assert 0 < sum(p.size for p in of_endpoint) <= writer
+    assert {p.use for p in of_endpoint} == {"publisher 1"}
     entities = {e.name: e for e in report.entities}
     assert entities["/imu/data"].message == 2 * (message + storage), (
         "two publishers of one type, two messages"

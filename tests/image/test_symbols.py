@@ -140,10 +140,12 @@ def _conditional(path: Path) -> frozenset[str]:
 
 def unselected(tree: Tree) -> frozenset[str]:
     """Return the symbols that only files give that `tree` did not select; of a template what it became counts."""
-    there = catalogue()
-    mine = frozenset().union(*(there.get(source) or _functions(tree.out / source) for source in tree.sources))
-    others = frozenset().union(*(names for source, names in there.items() if source not in tree.sources))
-    return others - mine
+    names_of = catalogue()
+    own = frozenset().union(
+        *(names_of.get(source) or _functions(tree.out / source) for source in tree.sources)
+    )
+    others = frozenset().union(*(names for source, names in names_of.items() if source not in tree.sources))
+    return others - own
 
 
 @pytest.fixture(scope="module")
@@ -197,8 +199,8 @@ def _gives_what_its_sources_say(tree: Tree, found: Symbols) -> None:
 
 def _has_known_prefixes(tree: Tree, found: Symbols) -> None:
     packages = {source.split("/")[1] for source in tree.sources if re.search(r"__\w+\.c$", source)}
-    mine = (*PREFIXES, *(f"{package}__" for package in packages))
-    others = [n for n in found.all_defined if not n.startswith(mine)]
+    own_prefixes = (*PREFIXES, *(f"{package}__" for package in packages))
+    others = [n for n in found.all_defined if not n.startswith(own_prefixes)]
     assert not [n for n in others if not OF_A_NODE.fullmatch(n)]
 
 
@@ -246,9 +248,9 @@ def test_words_of_other_ways_to_create_are_not_in_an_image(tree_of: TreeOf, tmp_
         image = tmp_path / f"{name}.elf"
         objects = map(str, compiled.objects.values())
         check(["gcc", "-Wl,--gc-sections", *objects, "-o", str(image)], tmp_path)
-        there = {word for words in _WORDS_OF.values() for word in words if word in image.read_bytes()}
+        linked = {word for words in _WORDS_OF.values() for word in words if word in image.read_bytes()}
         wanted = next((words for way, words in _WORDS_OF.items() if f"entities: {way}" in application), set())
-        assert there == wanted, name
+        assert linked == wanted, name
 
 
 @pytest.mark.parametrize("name", VARIANTS)
@@ -259,11 +261,11 @@ def test_an_error_text_is_there_only_where_it_is_asked_for(tree_of: TreeOf, name
 
 
 def test_the_catalogue_knows_what_is_optional() -> None:
-    there = catalogue()
-    assert "xrce_ping_step" in there["src/ping/xrce_ping.c"]
-    assert "rcl_publish" in there["src/publish/rcl_publisher.c"]
+    names_of = catalogue()
+    assert "xrce_ping_step" in names_of["src/ping/xrce_ping.c"]
+    assert "rcl_publish" in names_of["src/publish/rcl_publisher.c"]
     assert any(
-        n.startswith("xrce_stream_reliable") for n in there["src/stream_reliable/xrce_stream_reliable.c"]
+        n.startswith("xrce_stream_reliable") for n in names_of["src/stream_reliable/xrce_stream_reliable.c"]
     )
 
 

@@ -81,8 +81,8 @@ def test_good_text_is_read_as_ros_reads_it(kind: str, text: str, tmp_path: Path)
     assert len(messages) == len(theirs.messages)
     # Unit and range stand with the comment here, and derived messages are documented, which they are not in ROS 2.
     documented = kind == "msg" and "@unit" not in text and "@range" not in text
-    for mine, other in zip(messages, theirs.messages, strict=True):
-        check_equal(mine, other, documented=documented)
+    for our_message, other in zip(messages, theirs.messages, strict=True):
+        check_equal(our_message, other, documented=documented)
 
 
 @pytest.mark.parametrize(("kind", "text"), [*(("msg", text) for text in BAD), *BAD_PARTS])

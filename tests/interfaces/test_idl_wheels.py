@@ -127,23 +127,28 @@ def test_an_idl_file_gives_the_model_of_the_file_it_came_from() -> None:
         first = first_forms()[name]
         assert type(declaration) is type(first)
         pairs = zip(messages_of(declaration), messages_of(first), strict=True)
-        for mine, other in pairs:
-            assert bare(mine) == bare(other), name
-            assert comments(mine) == comments(other), mine.name
+        for ours, other in pairs:
+            assert bare(ours) == bare(other), name
+            assert comments(ours) == comments(other), ours.name
 
 
 def test_comments_of_idl_files_keep_their_lines() -> None:
     pairs = ((installed()[n], first_forms()[n]) for n in installed())
     same = differing = 0
-    for mine, other in (
+    for ours, other in (
         (a, b) for d, f in pairs for a, b in zip(messages_of(d), messages_of(f), strict=True)
     ):
-        for one, two in zip(documented(mine), documented(other), strict=True):
-            if one.comment == two.comment:
+        for item, counterpart in zip(documented(ours), documented(other), strict=True):
+            if item.comment == counterpart.comment:
                 same += 1
             else:
                 # Only what rosidl_adapter takes out of a line as a unit, or what looks like one.
-                assert words(two.comment)[1], (mine.name, one.name, one.comment, two.comment)
+                assert words(counterpart.comment)[1], (
+                    ours.name,
+                    item.name,
+                    item.comment,
+                    counterpart.comment,
+                )
                 differing += 1
     assert same > 20 * differing > 0
 
@@ -172,9 +177,9 @@ def test_includes_name_every_package_that_is_needed() -> None:
 def test_printed_text_is_read_back() -> None:
     for name, declaration in first_forms().items():
         again = from_idl(Source("again.idl", idl_text(declaration)), name)
-        for mine, other in zip(messages_of(again), messages_of(declaration), strict=True):
-            assert bare(mine) == bare(other), name
-            assert comments(mine) == comments(other), mine.name
+        for ours, other in zip(messages_of(again), messages_of(declaration), strict=True):
+            assert bare(ours) == bare(other), name
+            assert comments(ours) == comments(other), ours.name
 
 
 @pytest.mark.parametrize("name", ["std_msgs/msg/Empty", "test_msgs/msg/Defaults", "test_msgs/msg/Arrays",

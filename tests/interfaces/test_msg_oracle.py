@@ -156,14 +156,14 @@ def test_every_installed_file_has_the_same_comments() -> None:
         ours = read(text, name)
         assert ours is not None, path
         theirs = adapter_message(text, name.package, name.name)
-        for mine, other in zip(_documented(ours)[1:], _documented(theirs)[1:], strict=True):
-            assert mine.name == other.name
+        for our_message, other in zip(_documented(ours)[1:], _documented(theirs)[1:], strict=True):
+            assert our_message.name == other.name
             unit = other.annotations.get("unit")
             expected = other.annotations.get("comment", [])
             if unit is None:
-                assert list(mine.comment) == expected, (path, mine.name)
+                assert list(our_message.comment) == expected, (path, our_message.name)
             else:
-                assert f"[{unit}]" in "\n".join(mine.comment), (path, mine.name)
+                assert f"[{unit}]" in "\n".join(our_message.comment), (path, our_message.name)
 
 
 BACKSLASHES = [f"int32 a # x\\{c}{rest}" for c in "abnrtuxNU01\\ '\"[" for rest in ("y", "")]

@@ -207,9 +207,9 @@ def declarations(draw: st.DrawFn) -> Service | Action:
     kind = draw(st.sampled_from(["srv", "action"]))
     name = TypeName("pkg_a", kind, "Foo")
     parts = ("Request", "Response") if kind == "srv" else ("Goal", "Result", "Feedback")
-    made = tuple(replace(draw(messages()), name=derived_name(name, part)) for part in parts)
-    assume(not alike(made))
-    return make_declaration(name, made, made[0].comment)
+    drawn = tuple(replace(draw(messages()), name=derived_name(name, part)) for part in parts)
+    assume(not alike(drawn))
+    return make_declaration(name, drawn, drawn[0].comment)
 
 
 @settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.too_slow])

@@ -108,8 +108,8 @@ def test_a_kind_can_be_given_for_short_names() -> None:
 
 def test_a_package_twice_in_one_path_is_ambiguous(tmp_path: Path) -> None:
     for folder in ("one", "two"):
-        made = package(tmp_path / "src", folder, A="int8 a")
-        (made / "package.xml").write_text("<package><name>twice</name></package>", encoding="utf-8")
+        folder_of_a = package(tmp_path / "src", folder, A="int8 a")
+        (folder_of_a / "package.xml").write_text("<package><name>twice</name></package>", encoding="utf-8")
     _, messages = resolve(InterfaceFinder((tmp_path / "src",)), "twice/A")
     assert len(messages) == 1
     assert f"found 2 packages named 'twice': '{tmp_path}/src/one' and '{tmp_path}/src/two'" in messages[0]

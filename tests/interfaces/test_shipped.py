@@ -73,10 +73,10 @@ def bare(entry: Constant | Field) -> Constant | Field:
 def test_constants_and_defaults_are_those_of_ros(shipped: InterfaceSet) -> None:
     diagnostics = Diagnostics()
     finder = InterfaceFinder(pip=(Path(sys.prefix),))
-    mine = [interface for interface in shipped if interface.name.package not in ELSEWHERE]
-    theirs = resolve_interfaces(tuple(Named(str(i.name)) for i in mine), finder, diagnostics)
+    own = [interface for interface in shipped if interface.name.package not in ELSEWHERE]
+    theirs = resolve_interfaces(tuple(Named(str(i.name)) for i in own), finder, diagnostics)
     diagnostics.check()
-    for message in (message for interface in mine for message in interface.messages):
+    for message in (message for interface in own for message in interface.messages):
         original = theirs.message(message.name)
         assert [bare(c) for c in message.constants] == [bare(c) for c in original.constants], message.name
         assert [bare(f) for f in message.fields] == [bare(f) for f in original.fields], message.name
@@ -153,17 +153,17 @@ def test_example_interfaces_repeat_std_msgs(shipped: InterfaceSet) -> None:
         if name.name == "WString":  # which std_msgs lacks
             assert message_text(shipped.message(name)) == "wstring data\n"
             continue
-        twin = shipped.type_description(TypeName("std_msgs", "msg", name.name))
+        other = shipped.type_description(TypeName("std_msgs", "msg", name.name))
         ours = shipped.type_description(name)
-        assert renamed(ours, "", "") == renamed(twin, "std_msgs", "example_interfaces")
+        assert renamed(ours, "", "") == renamed(other, "std_msgs", "example_interfaces")
 
 
 def test_services_of_example_interfaces(shipped: InterfaceSet) -> None:
     for service in ("SetBool", "Trigger"):
         name = TypeName("example_interfaces", "srv", service)
-        twin = shipped.type_description(TypeName("std_srvs", "srv", service))
+        other = shipped.type_description(TypeName("std_srvs", "srv", service))
         ours = shipped.type_description(name)
-        assert renamed(ours, "", "") == renamed(twin, "std_srvs", "example_interfaces")
+        assert renamed(ours, "", "") == renamed(other, "std_srvs", "example_interfaces")
     # The hash that the design document of rmw_zenoh shows for the service of ROS 2's tutorial.
     known = "RIHS01_e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a"
     assert shipped.type_hash(TypeName("example_interfaces", "srv", "AddTwoInts")) == known

@@ -92,9 +92,9 @@ def test_the_other_descriptions_are_those_of_the_generator_of_ros(
 
     theirs: dict[str, Any] = {}
     for path in sorted((SHARE / "test_interface_files" / "msg").glob("*.msg")):
-        made = ros_message(path.read_text(encoding="utf-8"), tmp_path, "test_interface_files", path.stem)
-        assert made is not None
-        theirs[made.description["type_name"]] = made.description
+        described = ros_message(path.read_text(encoding="utf-8"), tmp_path, "test_interface_files", path.stem)
+        assert described is not None
+        theirs[described.description["type_name"]] = described.description
     assert len(theirs) == 12
     for name in theirs:
         full = extract_full_type_description(name, theirs)
@@ -144,8 +144,8 @@ def test_the_hash_covers_names_and_types_and_nothing_else() -> None:
 
 
 def test_a_message_without_fields_has_the_member_that_idl_needs() -> None:
-    one = Field("structure_needs_at_least_one_member", Primitive.UINT8)
-    assert type_hash(message(), {}) == type_hash(message(one), {})
+    field = Field("structure_needs_at_least_one_member", Primitive.UINT8)
+    assert type_hash(message(), {}) == type_hash(message(field), {})
 
 
 def test_descriptions_write_defaults_as_ros_does() -> None:

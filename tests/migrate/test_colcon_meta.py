@@ -23,7 +23,8 @@ ALWAYS = 2  # remarks of every proposal without nodes: the types, and what it do
 
 def text_of(packages: Mapping[str, list[str]]) -> str:
     names = {
-        name: {"cmake-args": [f"-D{argument}" for argument in given]} for name, given in packages.items()
+        name: {"cmake-args": [f"-D{argument}" for argument in arguments]}
+        for name, arguments in packages.items()
     }
     return json.dumps({"names": names}, indent=4)
 
@@ -176,8 +177,8 @@ def test_several_files_the_last_one_wins_and_yaml_is_taken(init: Init, tmp_path:
 
 
 def test_a_duplicate_package_is_reported(init: Init, tmp_path: Path) -> None:
-    one = '"rcutils": {"cmake-args": []}'
-    (tmp_path / "a.meta").write_text(f'{{\n\t"names": {{\n\t\t{one},\n\t\t{one}\n\t}}\n}}\n')
+    entry = '"rcutils": {"cmake-args": []}'
+    (tmp_path / "a.meta").write_text(f'{{\n\t"names": {{\n\t\t{entry},\n\t\t{entry}\n\t}}\n}}\n')
     _, _, err = init("app", "--from-colcon-meta", "a.meta")
     assert "a.meta:4:3: warning: duplicate key 'rcutils'; first in line 3; the first one is used" in err
 

@@ -35,10 +35,10 @@ def called(component: Component) -> set[str]:
 @pytest.mark.parametrize("name", [n for n, c in CATALOGUE.items() if c.layer != "port"])
 def test_a_component_asks_for_what_it_calls_and_for_nothing_else(name: str) -> None:
     component = CATALOGUE[name]
-    asked = {ask.capability for ask in component.asks}
+    required = {ask.capability for ask in component.asks}
     used = {c.name for c in capabilities().values() if set(c.functions) & called(component)}
     others = {capability for owner, capability in _OF_OTHERS if owner == name}
-    assert used - others == asked
+    assert used - others == required
     for capability in others:
         other = CATALOGUE[_OF_OTHERS[name, capability]]
         assert capability in {ask.capability for ask in other.asks}, other.name
@@ -55,6 +55,8 @@ def test_every_function_of_a_capability_has_one_prototype() -> None:
 
 def test_what_parts_provide_and_ask_for_is_known() -> None:
     for component in CATALOGUE.values():
-        asks = [*component.asks, *(ask for one in component.provides for ask in one.asks)]
-        asked = {ask.capability for ask in asks}
-        assert asked | {one.capability for one in component.provides} <= set(capabilities()), component.name
+        asks = [*component.asks, *(ask for provided in component.provides for ask in provided.asks)]
+        required = {ask.capability for ask in asks}
+        assert required | {provided.capability for provided in component.provides} <= set(capabilities()), (
+            component.name
+        )

@@ -66,7 +66,9 @@ def test_each_driver_of_a_processor_has_its_files(name: str) -> None:
     described = SCHEMA["properties"]["uart"]["properties"]["driver"]["description"]
     assert all(driver in described for driver in drivers)
     registers = SCHEMA["properties"]["registers"]["description"]
-    assert all(f"`{one}`" in registers for one in (*part.cpu.registers, *part.cpu.optional_registers))
+    assert all(
+        f"`{register}`" in registers for register in (*part.cpu.registers, *part.cpu.optional_registers)
+    )
 
 
 def test_a_file_adds_a_board_to_a_cpu(tmp_path: Path) -> None:

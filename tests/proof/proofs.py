@@ -134,15 +134,17 @@ def runs(proof: Proof) -> Iterator[tuple[str, int]]:
             yield machdep, number
 
 
-def command(proof: Proof, made: Tree, machdep: str, variant: Mapping[str, str], place: Path) -> list[str]:
+def command(
+    proof: Proof, source_tree: Tree, machdep: str, variant: Mapping[str, str], place: Path
+) -> list[str]:
     """Return the command of a run; `place` is a folder for its files."""
     defines = [f"-D{key}={value}" for key, value in variant.items() if key.isupper()]
     includes = [f"-I{place}", f"-I{place}/drivers", "-Iinclude", "-I."]
-    files = sorted({file for pattern in proof.sources for file in _found(made, pattern, variant)})
+    files = sorted({file for pattern in proof.sources for file in _found(source_tree, pattern, variant)})
     before = [
         f"{file}:-include {place / 'drivers' / head}"
         for pattern, head in proof.before.items()
-        for file in _found(made, pattern, variant)
+        for file in _found(source_tree, pattern, variant)
     ]
     arguments = " ".join([*includes, *defines, *MACHDEPS[machdep]])
     parts = ["frama-c", "-machdep", machdep, f"-cpp-extra-args={arguments}", *COMMON, *proof.options]
@@ -151,33 +153,40 @@ def command(proof: Proof, made: Tree, machdep: str, variant: Mapping[str, str], 
     return [*parts, str(driver), *files, "-then", "-metrics", "-metrics-eva-cover"]
 
 
-def _found(made: Tree, pattern: str, variant: Mapping[str, str]) -> list[str]:
+def _found(source_tree: Tree, pattern: str, variant: Mapping[str, str]) -> list[str]:
     """Return files of the tree; TYPES in a pattern is replaced by the prefixes of the files of the variant's types."""
-    starts = stems(made.types, variant["type"]) if "TYPES" in pattern else [""]
+    starts = stems(source_tree.types, variant["type"]) if "TYPES" in pattern else [""]
     patterns = [pattern.replace("TYPES", start) for start in starts]
-    found = {p.relative_to(made.folder).as_posix() for each in patterns for p in made.folder.glob(each)}
+    found = {
+        p.relative_to(source_tree.folder).as_posix()
+        for each in patterns
+        for p in source_tree.folder.glob(each)
+    }
     assert found, f"no file {pattern}"
     return sorted(found)
 
 
-def run(proof: Proof, made: Tree, machdep: str, number: int, place: Path) -> Run:
+def run(proof: Proof, source_tree: Tree, machdep: str, number: int, place: Path) -> Run:
     """Analyze; `failure` is what frama-c says when it could not."""
     variant = proof.variants[number]
     here = place / f"{proof.name}-{machdep}-{number}"
     shutil.copytree(DRIVERS, here / "drivers", dirs_exist_ok=True)
     if "type" in variant:
-        (here / "types.h").write_text(header(made.types, variant["type"]), encoding="utf-8")
-    words = command(proof, made, machdep, variant, here)
-    kept = CACHE / f"{_key(made, here, [word.replace(str(here), '') for word in words])}.json"
+        (here / "types.h").write_text(header(source_tree.types, variant["type"]), encoding="utf-8")
+    words = command(proof, source_tree, machdep, variant, here)
+    kept = CACHE / f"{_key(source_tree, here, [word.replace(str(here), '') for word in words])}.json"
     if kept.is_file():
         text, seconds = json.loads(kept.read_text(encoding="utf-8"))
         return read(proof, machdep, variant, seconds, subprocess.CompletedProcess(words, 0, text, ""))
-    begun = time.monotonic()
-    environment = {**os.environ, "PWD": str(made.folder)}  # frama-c takes that for the folder that it is in
+    started = time.monotonic()
+    environment = {
+        **os.environ,
+        "PWD": str(source_tree.folder),
+    }  # frama-c takes that for the folder that it is in
     done = subprocess.run(
-        words, cwd=made.folder, env=environment, capture_output=True, text=True, check=False
+        words, cwd=source_tree.folder, env=environment, capture_output=True, text=True, check=False
     )
-    seconds = time.monotonic() - begun
+    seconds = time.monotonic() - started
     (here / "log.txt").write_text(" ".join(words) + "\n" + done.stdout + done.stderr, encoding="utf-8")
     found = read(proof, machdep, variant, seconds, done)
     if not found.failure:
@@ -186,12 +195,12 @@ def run(proof: Proof, made: Tree, machdep: str, number: int, place: Path) -> Run
     return found
 
 
-def _key(made: Tree, here: Path, words: Sequence[str]) -> str:
+def _key(source_tree: Tree, here: Path, words: Sequence[str]) -> str:
     """Return the key of a run: its command, and every C file that it may read."""
     digest = hashlib.sha256(repr(words).encode())
     for path in sorted(here.rglob("*.[ch]")):
         digest.update(path.relative_to(here).as_posix().encode() + path.read_bytes())
-    return hashlib.sha256((digest.hexdigest() + made.key()).encode()).hexdigest()
+    return hashlib.sha256((digest.hexdigest() + source_tree.key()).encode()).hexdigest()
 
 
 def read(

@@ -60,8 +60,8 @@ def problems(run: Run) -> list[str]:
 
 def gaps(proof: Proof, each: Sequence[Run]) -> dict[str, tuple[int, int]]:
     """Return functions of which no run of `proof` reaches every statement; those of drivers count."""
-    mine = [run for run in each if run.proof.name == proof.name]
-    return {f: pair for f, pair in reached_by(mine).items() if pair[0] < pair[1]}
+    own_runs = [run for run in each if run.proof.name == proof.name]
+    return {f: pair for f, pair in reached_by(own_runs).items() if pair[0] < pair[1]}
 
 
 def reason(proof: Proof, function: str) -> str:
@@ -91,11 +91,18 @@ def tables(each: Sequence[Run]) -> str:
         "|---|---|---|---|---|---|---|\n",
     ]
     for proof in load():
-        mine = [run for run in each if run.proof.name == proof.name]
-        most = reached_by(mine)
+        own_runs = [run for run in each if run.proof.name == proof.name]
+        most = reached_by(own_runs)
         some, every = (sum(pair[i] for pair in most.values()) for i in (0, 1))
-        cells = (proof.name, proof.what, _bounds(proof), str(len(mine)), str(len(most)), f"{some} of {every}")
-        lines.append(f"| {' | '.join(cells)} | {sum(len(run.alarms) for run in mine)} |\n")
+        cells = (
+            proof.name,
+            proof.what,
+            _bounds(proof),
+            str(len(own_runs)),
+            str(len(most)),
+            f"{some} of {every}",
+        )
+        lines.append(f"| {' | '.join(cells)} | {sum(len(run.alarms) for run in own_runs)} |\n")
     lines.append("\nStatements that no run reaches:\n\n")
     for proof in load():
         for function, (some, every) in sorted(gaps(proof, each).items()):

@@ -91,12 +91,12 @@ MUTATIONS = {
 def test_a_wrong_check_is_an_alarm(name: str, file: str, right: str, wrong: str, tmp_path: Path) -> None:
     """One check of a copy is off by one or two: the same run that finds nothing finds that."""
     proof = next(proof for proof in proofs.load() if proof.name == name)
-    made = proofs.tree(proof.application, tmp_path)
-    source = made.folder / file
+    source_tree = proofs.tree(proof.application, tmp_path)
+    source = source_tree.folder / file
     text = source.read_text(encoding="utf-8")
     assert right in text
     source.write_text(text.replace(right, wrong), encoding="utf-8")
-    run = proofs.run(proof, Tree(made.folder, made.types), HOST, 0, tmp_path)
+    run = proofs.run(proof, Tree(source_tree.folder, source_tree.types), HOST, 0, tmp_path)
     assert run.alarms
 
 

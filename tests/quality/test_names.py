@@ -21,8 +21,8 @@ REFUSED_IN_C: dict[str, str] = {
 REFUSED_VARIABLES: dict[str, str] = {
     entry["word"]: entry["write"] for entry in _ENTRIES if entry.get("in") == "variables"
 }
-REFUSED_IN_PACKAGE: dict[str, str] = {
-    entry["word"]: entry["write"] for entry in _ENTRIES if entry.get("in") == "package"
+REFUSED_NAMES: dict[str, str] = {
+    entry["word"]: entry["write"] for entry in _ENTRIES if entry.get("in") == "names"
 }
 C_NAMES_THAT_STAY = {
     "given_up": "a member of rmw_uros_client_statistics_t, which applications read",
@@ -91,18 +91,18 @@ def test_no_variable_has_a_refused_word(folder: str) -> None:
     assert found == []
 
 
-def refused_in_package(text: str) -> Iterator[str]:
-    """Yield each variable of a Python file whose whole name is a word refused in the package, with what to write."""
-    for name in sorted({name.lstrip("_") for name in variables(text)} & REFUSED_IN_PACKAGE.keys()):
-        yield f"{name}: write {REFUSED_IN_PACKAGE[name]}"
+def refused_whole(text: str) -> Iterator[str]:
+    """Yield each variable of a Python file whose whole name is a refused word, with what to write."""
+    for name in sorted({name.lstrip("_") for name in variables(text)} & REFUSED_NAMES.keys()):
+        yield f"{name}: write {REFUSED_NAMES[name]}"
 
 
-@pytest.mark.parametrize("folder", ["microros_gen", "docs", "cmake"])
-def test_no_variable_of_the_package_is_a_refused_word(folder: str) -> None:
+@pytest.mark.parametrize("folder", ["microros_gen", "tests", "docs", "cmake"])
+def test_no_variable_is_a_refused_word(folder: str) -> None:
     found = [
         f"{path.relative_to(ROOT)}: {hit}"
         for path in sorted((ROOT / folder).rglob("*.py"))
-        for hit in refused_in_package(path.read_text(encoding="utf-8"))
+        for hit in refused_whole(path.read_text(encoding="utf-8"))
     ]
     assert found == []
 
@@ -110,12 +110,12 @@ def test_no_variable_of_the_package_is_a_refused_word(folder: str) -> None:
 @pytest.mark.parametrize(
     "text", ["[one for one in x]", "def f(made): ...", "self._asked = 1", "there: int = 0"]
 )
-def test_a_word_refused_in_the_package_is_found(text: str) -> None:
-    assert len(list(refused_in_package(text))) == 1
+def test_a_variable_that_is_a_refused_word_is_found(text: str) -> None:
+    assert len(list(refused_whole(text))) == 1
 
 
-def test_a_part_of_a_variable_is_not_refused_in_the_package() -> None:
-    assert list(refused_in_package("one_of = made_from = 1\nx.one(y.made)")) == []
+def test_a_part_of_a_variable_is_no_whole_word() -> None:
+    assert list(refused_whole("one_of = made_from = 1\nx.one(y.made)")) == []
 
 
 @pytest.mark.parametrize("text", ["said = 1", "def f(piece): ...", "self._pieces = []", "f = lambda told: 0"])

@@ -80,9 +80,9 @@ def test_the_same_text_is_compiled_once_whatever_the_folder(
     assert "unused" in output.stderr
     assert repeated.stderr == output.stderr
     for ending in ("d", "ci"):
-        beside = [(folder / f"x.{ending}") for folder in (a, b)]
-        assert beside[0].exists() == beside[1].exists() == ("-MMD" in flags)
-        assert not beside[0].exists() or beside[0].read_text() == beside[1].read_text()
+        dependencies = [(folder / f"x.{ending}") for folder in (a, b)]
+        assert dependencies[0].exists() == dependencies[1].exists() == ("-MMD" in flags)
+        assert not dependencies[0].exists() or dependencies[0].read_text() == dependencies[1].read_text()
 
 
 def test_an_unused_macro_does_not_count(workshop: Workshop) -> None:

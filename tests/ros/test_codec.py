@@ -49,8 +49,8 @@ def full_bytes(order: Any) -> bytes:
     def number(value: int, size: int) -> bytes:
         return (value & (1 << 8 * size) - 1).to_bytes(size, order)
 
-    one, minus_two = number(0x3FF0000000000000, 8), number(0xC000000000000000, 8)
-    body = one + number(2, 2)  # here: 0 to 10
+    one_bytes, minus_two = number(0x3FF0000000000000, 8), number(0xC000000000000000, 8)
+    body = one_bytes + number(2, 2)  # here: 0 to 10
     body += bytes(2) + number(1, 4) + minus_two + number(3, 2)  # trace: 12, 16 to 26
     body += bytes(6) + bytes(8) + number(0, 2) + bytes(6) + bytes(8) + number(1, 2)  # corners: 32 to 58
     body += b"\1\0\1" + b"\5\6\7\x08"  # flags, key: to 65

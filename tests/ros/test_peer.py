@@ -34,14 +34,14 @@ def on_this_machine() -> Iterator[None]:
 
 @pytest.fixture
 def peer(on_this_machine: None, own_folder: Path) -> Iterator[Peer]:
-    with Peer("peer", "/bench", own_domain(), [own_folder]) as made:
-        yield made
+    with Peer("peer", "/bench", own_domain(), [own_folder]) as opened:
+        yield opened
 
 
 @pytest.fixture
 def other(on_this_machine: None, own_folder: Path) -> Iterator[Peer]:
-    with Peer("other", domain=own_domain(), interface_paths=[own_folder]) as made:
-        yield made
+    with Peer("other", domain=own_domain(), interface_paths=[own_folder]) as opened:
+        yield opened
 
 
 class Node:
@@ -69,14 +69,14 @@ class Node:
 
 @pytest.fixture
 def installed_node(on_this_machine: None) -> Iterator[Node]:
-    made = Node()
-    yield made
-    made.close()
+    node = Node()
+    yield node
+    node.close()
 
 
-def spin_both(peer: Peer, beside: Node, done: Any) -> None:
+def spin_both(peer: Peer, other: Node, done: Any) -> None:
     def look() -> Any:
-        beside.spin()
+        other.spin()
         return done()
 
     assert peer.spin(look, seconds(IDLE_S)), "not seen"
@@ -85,23 +85,27 @@ def spin_both(peer: Peer, beside: Node, done: Any) -> None:
 def test_topics_of_installed_types_both_ways(peer: Peer, installed_node: Node) -> None:
     from sensor_msgs.msg import JointState
 
-    heard: list[Any] = []
+    messages: list[Any] = []
     received: list[Any] = []
     node: Any = installed_node.node
-    node.create_subscription(JointState, "/bench/out", heard.append, 10)
-    there: Any = node.create_publisher(JointState, "/bench/in", 10)
+    node.create_subscription(JointState, "/bench/out", messages.append, 10)
+    sending: Any = node.create_publisher(JointState, "/bench/in", 10)
     publisher = peer.publisher("out", "sensor_msgs/msg/JointState")
     subscription = peer.subscribe("/bench/in", "sensor_msgs/JointState", received.append)
 
     def connected() -> bool:
-        ends = (publisher.subscriptions(), subscription.publishers(), there.get_subscription_count())
+        ends = (publisher.subscriptions(), subscription.publishers(), sending.get_subscription_count())
         return all(ends)
 
     spin_both(peer, installed_node, connected)
     publisher.publish({"header": {"frame_id": "base"}, "name": ["a", "b"], "position": [1.0, -2.5]})
-    there.publish(JointState(name=["é"], effort=[0.5]))
-    spin_both(peer, installed_node, lambda: heard and received)
-    assert (heard[0].header.frame_id, heard[0].name, list(heard[0].position)) == (
+    sending.publish(JointState(name=["é"], effort=[0.5]))
+    spin_both(peer, installed_node, lambda: messages and received)
+    assert (
+        messages[0].header.frame_id,
+        messages[0].name,
+        list(messages[0].position),
+    ) == (
         "base",
         ["a", "b"],
         [1.0, -2.5],
@@ -145,13 +149,13 @@ def test_services_of_installed_types_both_ways(peer: Peer, installed_node: Node)
 
 
 def test_a_type_that_is_not_installed(peer: Peer, other: Peer) -> None:
-    heard: list[Any] = []
+    messages: list[Any] = []
     lasting = Qos(transient_local=True, depth=1)
     peer.publisher("/state", "own_msgs/msg/Report", lasting).publish({"here": {"x": 2.0}, "wide": "ß"})
-    other.subscribe("/state", "own_msgs/Report", heard.append, lasting)
-    assert other.spin(lambda: heard, seconds(IDLE_S))
-    assert heard[0]["here"] == {"x": 2.0, "y": -7}
-    assert (heard[0]["wide"], heard[0]["count"]) == ("ß", 9)
+    other.subscribe("/state", "own_msgs/Report", messages.append, lasting)
+    assert other.spin(lambda: messages, seconds(IDLE_S))
+    assert messages[0]["here"] == {"x": 2.0, "y": -7}
+    assert (messages[0]["wide"], messages[0]["count"]) == ("ß", 9)
 
 
 def test_a_service_that_is_not_installed(peer: Peer, other: Peer) -> None:
@@ -187,7 +191,9 @@ def test_a_response_waits_until_its_client_is_discovered(
     """On a busy machine the request can come before what tells of the client: rcl gives such a response up."""
     libraries = raw_types().libraries
     send, results = libraries.send_response, [TIMEOUT, TIMEOUT]
-    monkeypatch.setattr(libraries, "send_response", lambda *given: results.pop() if results else send(*given))
+    monkeypatch.setattr(
+        libraries, "send_response", lambda *arguments: results.pop() if results else send(*arguments)
+    )
     other.serve("/late", "own_msgs/srv/Add", lambda request: {"sum": request["a"]})
     client = peer.client("/late", "own_msgs/srv/Add")
     assert peer.spin(client.available, seconds(IDLE_S))

@@ -47,8 +47,8 @@ class Agent(ServingAgent):
         if datagram[4] != TIMESTAMP or self.silent:
             return super().receive(datagram)
         self.seconds.append(EPOCH_S + self.step * STEP_MS // 1000)
-        moment = struct.pack("<II", self.seconds[-1], 0)
-        return [bytes.fromhex("81000000 0f011800") + moment + moment + datagram[8:16]]
+        wire_time = struct.pack("<II", self.seconds[-1], 0)
+        return [bytes.fromhex("81000000 0f011800") + wire_time + wire_time + datagram[8:16]]
 
 
 class Days:
@@ -170,7 +170,7 @@ def _services(days: Days) -> None:
     days.spin()
     (number,) = (int(line.split()[1]) for line in days.client.ok(f"serve_ask 0 {days.step}").lines)
     days.spin(2)
-    days.client.queued += days.agent.reply(len(days.agent.asked) - 1, 3 * days.step)
+    days.client.queued += days.agent.reply(len(days.agent.calls) - 1, 3 * days.step)
     days.spin(2)
     assert days.client.ok("serve_reply 0").lines == (f"reply {3 * days.step} {number}",)
     days.client.queued += days.agent.give(REPLIER, identity(days.step + 1) + struct.pack("<i", days.step))
@@ -189,9 +189,9 @@ def _refusals(days: Days) -> None:
     days.ok("read_init 0 0 Int32 go reliable")
     days.spin(3, 20)
     days.agent.read_status = 0
-    asked = len(days.agent.reads)
+    requests = len(days.agent.reads)
     days.spin(4, 100)
-    assert len(days.agent.reads) == asked + 1
+    assert len(days.agent.reads) == requests + 1
     days.agent.refuse = {"datawriter": 0x87}
     days.ok("publisher_fini 0 0")
     assert days.client.call("publisher 0 0 Int32 out reliable").code != 0
@@ -248,17 +248,17 @@ def _begin_large(days: Days) -> None:
 
 def _searches(days: Days) -> None:
     """The agent is away, and found again where it says that it is."""
-    asked: list[bytes] = []
+    questions: list[bytes] = []
     days.spin()
     days.agent.silent = True
 
     def keep_silent(question: bytes) -> bytes:
-        asked.append(question)
+        questions.append(question)
         return b""
 
     days.client.group = keep_silent
     days.spin(30, PERIOD_MS // 2)
-    assert len(asked) > 2, f"day {days.step * 5}: nobody was searched for"
+    assert len(questions) > 2, f"day {days.step * 5}: nobody was searched for"
     days.agent.silent = False
     days.client.group = lambda question: _found()
     days.spin(40, PERIOD_MS // 2)

@@ -39,7 +39,7 @@ class Group(threading.Thread):
 
     def __init__(self, answers: Answers) -> None:
         super().__init__(daemon=True)
-        self.asked: list[bytes] = []
+        self.questions: list[bytes] = []
         self._answers = answers
         self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self.port = bind(self.socket, DISCOVERY_GROUP)
@@ -55,7 +55,7 @@ class Group(threading.Thread):
                 return
             if not question:
                 return
-            self.asked.append(question)
+            self.questions.append(question)
             for answer in self._answers():
                 self.socket.sendto(answer, asker)
 
@@ -96,8 +96,8 @@ def test_an_agent_is_found_and_served(tmp_path: Path) -> None:
     agent.stop()
     assert (done.returncode, done.stderr) == (0, ""), done.stdout
     assert agent.agent.values() == list(range(100))
-    assert set(group.asked) == {QUESTION}
-    assert len(group.asked) <= 2, "nobody is asked while there is a session"
+    assert set(group.questions) == {QUESTION}
+    assert len(group.questions) <= 2, "nobody is asked while there is a session"
 
 
 def test_tcp(tmp_path: Path) -> None:
@@ -168,5 +168,5 @@ def test_no_agent(tmp_path: Path) -> None:
         done = run(group, tmp_path, times__connect_timeout_ms=400)
     assert done.returncode == 2
     assert done.stdout == f"no transport to {DISCOVERY_GROUP}:{group.port}\n"
-    assert len(set(group.asked)) == 1
-    assert 2 <= len(group.asked) <= 8, "at 0, 40, 120 and 280 ms, over one or two interfaces"
+    assert len(set(group.questions)) == 1
+    assert 2 <= len(group.questions) <= 8, "at 0, 40, 120 and 280 ms, over one or two interfaces"

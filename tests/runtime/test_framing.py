@@ -192,9 +192,9 @@ def test_one_bad_byte_costs_one_frame(
     framing.open(90)
     found = framing.feed(stream)
     assert found == events(stream, 90)
-    got = [event.message for event in found if event.message is not None]
+    messages_read = [event.message for event in found if event.message is not None]
     rest = messages[:victim] + messages[victim + 1 :]
-    assert got in (rest, messages)
+    assert messages_read in (rest, messages)
 
 
 @pytest.mark.parametrize(

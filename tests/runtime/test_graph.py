@@ -279,11 +279,11 @@ def test_waits_for_publishers(device: Device) -> None:
     graph, two = device.agent.graph, (endpoint("/root", 1), endpoint("/root", 2))
 
     def appear() -> None:
-        if device.client.now_ms > begun + 300 and "/late" not in graph.publishing:
+        if device.client.now_ms > started_ms + 300 and "/late" not in graph.publishing:
             graph.publishing["/late"] = two
             device.client.queued += device.agent.notice()
 
-    begun = device.client.now_ms
+    started_ms = device.client.now_ms
     device.client.on_sleep = appear
     assert 300 <= device.client.ok("wait publishers /late 2000").slept < 400
     assert device.client.ok("wait publishers /late 2000").slept < 10

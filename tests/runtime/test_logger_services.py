@@ -51,8 +51,8 @@ class Device:
         return self._codec.decode(f"rcl_interfaces/srv/{service}_Response", b"\0\1\0\0" + reply)
 
     def set(self, *levels: tuple[str, int]) -> list[tuple[bool, str]]:
-        asked = [{"name": name, "level": level} for name, level in levels]
-        results = self.ask("SetLoggerLevels", levels=asked)["results"]
+        requested = [{"name": name, "level": level} for name, level in levels]
+        results = self.ask("SetLoggerLevels", levels=requested)["results"]
         return [(result["successful"], result["reason"]) for result in results]
 
     def get(self, *names: str) -> list[tuple[str, int]]:

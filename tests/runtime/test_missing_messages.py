@@ -123,8 +123,8 @@ def test_a_forged_number_makes_no_storm(bench: Bench) -> None:
     assert line.sent < 25
 
 
-@pytest.mark.parametrize("behind", [False, True], ids=["old numbers ahead", "old numbers in use"])
-def test_what_is_left_of_a_session_does_not_touch_the_next(bench: Bench, behind: bool) -> None:
+@pytest.mark.parametrize("in_use", [False, True], ids=["old numbers ahead", "old numbers in use"])
+def test_what_is_left_of_a_session_does_not_touch_the_next(bench: Bench, in_use: bool) -> None:
     """On a line it comes before the answer to CREATE_CLIENT; with UDP the new session has its own socket."""
     agent = ReadingAgent()
     client = bench.start(READER, agent=agent)
@@ -140,7 +140,7 @@ def test_what_is_left_of_a_session_does_not_touch_the_next(bench: Bench, behind:
     agent.silent = True
     client.spin(READER.times.liveliness_attempts + 4, READER.times.liveliness_period_ms)
     assert client.call("connected").code == 0, "not now"
-    first, last = (1, 2) if behind else (100, 105)
+    first, last = (1, 2) if in_use else (100, 105)
     client.queued += [
         b"\x81\0\0\0\x0b\x01\x05\0" + struct.pack("<HH", first, last) + b"\x80",
         b"\x81\0\0\0\x0a\x01\x05\0" + struct.pack("<HH", first, 0) + b"\x80",

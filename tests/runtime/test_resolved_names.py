@@ -62,7 +62,7 @@ def test_a_remapped_node_resolves_as_ros(tmp_path: Path) -> None:
     tree = write_application(tmp_path / "ours", APPLICATION)
     sources = [s for s in tree.sources if not s.parent.name.startswith("port_posix")]
     objects = compile_merged(tree, sources, [FOLDER / "resolve.c", FIXTURES / "port_agent.c"], "gcc", FLAGS)
-    mine = results_of(tmp_path, link(objects, "gcc", (), tmp_path / "mine"), *NAMES)
+    ours = results_of(tmp_path, link(objects, "gcc", (), tmp_path / "mine"), *NAMES)
     with ros_node() as node:
         expected = [
             (resolve(name, only_expand=bool(only)), index)
@@ -75,4 +75,4 @@ def test_a_remapped_node_resolves_as_ros(tmp_path: Path) -> None:
 
         for name in ("data", "~/state", "imu2/free"):
             expected.append((node.create_publisher(Bool, name, 1).topic_name, 0))
-    assert mine == [*expected, ("none", 1), ("none", 1)]
+    assert ours == [*expected, ("none", 1), ("none", 1)]

@@ -77,22 +77,22 @@ def of_ours(source: Path, tree: Tree, folder: Path, more: Iterable[Path] = ()) -
     return results_of(folder, link(objects, "gcc", (), folder / "mine"))
 
 
-def differing(mine: list[tuple[str, int]], known: list[tuple[str, int]]) -> dict[str, tuple[int, int]]:
+def differing(ours: list[tuple[str, int]], known: list[tuple[str, int]]) -> dict[str, tuple[int, int]]:
     """Return what is not the same: librcl's, then ours."""
-    assert [name for name, _ in mine] == [name for name, _ in known]
+    assert [name for name, _ in ours] == [name for name, _ in known]
     return {
         f"{index} {name}": (other, own)
-        for index, ((name, own), (_, other)) in enumerate(zip(mine, known, strict=True))
+        for index, ((name, own), (_, other)) in enumerate(zip(ours, known, strict=True))
         if own != other
     }
 
 
 def test_every_call_returns_what_librcl_returns(tmp_path: Path) -> None:
     source = FOLDER / "returns.c"
-    mine = of_ours(source, generate(tmp_path / "ours", "custom"), tmp_path)
-    found = differing(mine, of_librcl(source, tmp_path))
+    ours = of_ours(source, generate(tmp_path / "ours", "custom"), tmp_path)
+    found = differing(ours, of_librcl(source, tmp_path))
     assert {key.split(" ", 1)[1]: pair for key, pair in found.items()} == DIFFERENT
-    assert len(mine) > 150
+    assert len(ours) > 150
 
 
 @pytest.fixture(scope="module")
@@ -104,17 +104,17 @@ def tree(tmp_path_factory: pytest.TempPathFactory) -> Tree:
 
 def test_every_state_returns_what_librcl_returns(tree: Tree, tmp_path: Path) -> None:
     source = FOLDER / "states.c"
-    mine = of_ours(source, tree, tmp_path, [FIXTURES / "port_agent.c"])
-    found = differing(mine, of_librcl(source, tmp_path, "std_msgs", "std_srvs"))
+    ours = of_ours(source, tree, tmp_path, [FIXTURES / "port_agent.c"])
+    found = differing(ours, of_librcl(source, tmp_path, "std_msgs", "std_srvs"))
     assert {key.split(" ", 1)[1]: pair for key, pair in found.items()} == DIFFERENT_STATES
     assert len(found) == 2 + 1 + 2 * len(SHUT_DOWN)
-    assert len(mine) > 500
+    assert len(ours) > 500
 
 
 def test_every_state_returns_what_rclc_returns(tree: Tree, tmp_path: Path) -> None:
     """The wheels have no rclc: states_rclc.txt says what its commit f401871 returned over their librcl."""
-    mine = of_ours(FOLDER / "states_rclc.c", tree, tmp_path, [FIXTURES / "port_agent.c"])
+    ours = of_ours(FOLDER / "states_rclc.c", tree, tmp_path, [FIXTURES / "port_agent.c"])
     lines = (FOLDER / "states_rclc.txt").read_text(encoding="utf-8").splitlines()
-    found = differing(mine, returned(lines))
+    found = differing(ours, returned(lines))
     assert {key.split(" ", 1)[1]: pair for key, pair in found.items()} == DIFFERENT_RCLC
     assert len(found) == 2 + len(DIFFERENT_RCLC)

@@ -145,8 +145,8 @@ def test_a_request_waits_until_its_reply_has_room(bench: Bench) -> None:
 def test_replies_arrive_in_the_order_of_the_server(bench: Bench) -> None:
     peer = Peer(bench)
     assert [peer.ask(value) for value in (7, 8, 9)] == [1, 2, 3]
-    assert [body for _, _, body in peer.agent.asked] == [struct.pack("<i", v) for v in (7, 8, 9)]
-    assert len({request for _, request, _ in peer.agent.asked}) == 3
+    assert [body for _, _, body in peer.agent.calls] == [struct.pack("<i", v) for v in (7, 8, 9)]
+    assert len({request for _, request, _ in peer.agent.calls}) == 3
     for number in (2, 0, 1):
         peer.send(peer.agent.reply(number, 100 + number))
     peer.client.spin()
@@ -163,7 +163,7 @@ def test_a_reply_without_a_request(bench: Bench) -> None:
     assert peer.reply() == (5, 1)
     assert peer.reply() is None
     peer.ask(2)
-    _, request, _ = peer.agent.asked[1]
+    _, request, _ = peer.agent.calls[1]
     peer.send(peer.agent.give(REQUESTER, request + REPLIER + bytes(4), request[:1]))
     peer.client.spin(2)
     assert peer.reply() is None
@@ -218,14 +218,14 @@ def test_no_call_is_lost_or_doubled_at_30_percent_loss(bench: Bench, plan: Runti
     peer.agent.drop_answer = lambda answer: chance.random() < 0.3
     served: list[int] = []
     replies: list[tuple[int, int]] = []
-    asked = given = answered = 0
+    called = requested = answered = 0
     for turn in range(4000):
-        if turn % 3 == 0 and given < 40:
-            given += 1
-            peer.request(given, given)
-        if asked < 40 and asked == len(replies):
-            asked += peer.client.call(f"serve_ask 0 {asked}").code == 0
-        if len(peer.agent.asked) > answered:
+        if turn % 3 == 0 and requested < 40:
+            requested += 1
+            peer.request(requested, requested)
+        if called < 40 and called == len(replies):
+            called += peer.client.call(f"serve_ask 0 {called}").code == 0
+        if len(peer.agent.calls) > answered:
             peer.send(peer.agent.reply(answered, 1000 + answered))
             answered += 1
         peer.send(peer.agent.tick())

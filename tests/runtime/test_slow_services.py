@@ -99,11 +99,11 @@ def test_each_request_is_answered_once(bench: Bench, link: Link) -> None:
 def test_each_call_gets_its_reply(bench: Bench, link: Link) -> None:
     client, agent = opened(bench, link)
     replies: list[tuple[int, int]] = []
-    asked = answered = 0
+    called = answered = 0
     for _ in range(CALLS * 400):
-        if asked < CALLS and asked - len(replies) < 3:
-            asked += client.call(f"serve_ask 0 {asked}").code == 0
-        while answered < len(agent.asked):
+        if called < CALLS and called - len(replies) < 3:
+            called += client.call(f"serve_ask 0 {called}").code == 0
+        while answered < len(agent.calls):
             client.bring(agent.reply(answered, 100 + answered), client.now_ms + client.round_trip_ms / 2)
             answered += 1
         client.spin(1, STEP_MS)

@@ -53,11 +53,11 @@ def declared(functions: dict[str, list[tuple[str, str]]]) -> str:
 
 def known(members: bool, headers: Iterable[str]) -> str:
     """Return C that compiles where members, names and constants are what the file says."""
-    there = set(headers)
-    lines = ["#include <stdint.h>", *(f"#include <{h}>" for h in sorted(there))]
+    generated = set(headers)
+    lines = ["#include <stdint.h>", *(f"#include <{h}>" for h in sorted(generated))]
     if members:
         for header, structs in SURFACE["members"].items():
-            for struct, declarations in structs.items() if header in there else ():
+            for struct, declarations in structs.items() if header in generated else ():
                 for index, declaration in enumerate(declarations):
                     name = re.search(r"\(\*(\w+)\)|(\w+)(?:\[\d+\])?$", declaration)
                     assert name, declaration
@@ -70,11 +70,11 @@ def known(members: bool, headers: Iterable[str]) -> str:
     texts = [
         c
         for c in SURFACE["constants"]
-        if not re.match(r"(RCLC_|ON_NEW|ALWAYS)", c) or "rclc/executor.h" in there
+        if not re.match(r"(RCLC_|ON_NEW|ALWAYS)", c) or "rclc/executor.h" in generated
     ]
     lines += [f"typedef char constant_{i}[({text}) ? 1 : -1];" for i, text in enumerate(texts)]
     lines += ["int main(void) {"]
-    lines += [f"  (void)({e});" for h, es in SURFACE["names"].items() if h in there for e in es] + [
+    lines += [f"  (void)({e});" for h, es in SURFACE["names"].items() if h in generated for e in es] + [
         "  return 0;",
         "}",
     ]

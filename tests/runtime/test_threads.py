@@ -64,8 +64,8 @@ def test_nothing_is_lost_and_nothing_races(tmp_path: Path, queue: QueuePlan) -> 
     assert (done.returncode, done.stderr) == (0, "")
     for task in range(TASKS):
         values = agent.values(task if task < PUBLISHERS else 0)
-        mine = [value - task * TASK_VALUES for value in values if value // TASK_VALUES == task]
-        assert mine == list(range(VALUES))
+        of_task = [value - task * TASK_VALUES for value in values if value // TASK_VALUES == task]
+        assert of_task == list(range(VALUES))
 
 
 def test_two_tasks_that_search_for_agents_do_not_share_answers(tmp_path: Path) -> None:

@@ -45,7 +45,7 @@ def test_before_a_context_there_is_no_time(bench: Bench) -> None:
 def test_before_it_was_asked_time_is_that_since_the_start(bench: Bench) -> None:
     client, agent = start(bench, lambda _: [])
     assert epoch(client) == (False, START_MS, START_MS * 10**6)
-    assert agent.asked == []
+    assert agent.requests == []
 
 
 @pytest.mark.parametrize("agent_ns", [EPOCH_NS, 1, MOST_S * 10**9 + 999_999_997, 2 * MOST_S * 10**9])
@@ -53,9 +53,9 @@ def test_the_offset_follows_from_four_moments(bench: Bench, agent_ns: int) -> No
     """The question takes no time, the agent 2 ns, the answer 1 ms: half of it is the error that nobody can know."""
     client, agent = start(bench, lambda o: [answer(moment(agent_ns + 2), moment(agent_ns), o)])
     client.ok("epoch_sync 1000")
-    assert len(agent.asked) == 1
-    assert agent.asked[0] == START_MS * 10**6
-    originated, ended = agent.asked[0], agent.asked[0] + 10**6
+    assert len(agent.requests) == 1
+    assert agent.requests[0] == START_MS * 10**6
+    originated, ended = agent.requests[0], agent.requests[0] + 10**6
     twice_the_offset = (agent_ns - originated) + (agent_ns + 2 - ended)
     synchronized, milliseconds, nanoseconds = epoch(client)
     assert synchronized
@@ -95,14 +95,14 @@ def test_of_several_answers_the_quickest_counts(bench: Bench) -> None:
     def deliver() -> None:
         if client.now_ms - began == 990:
             right = EPOCH_NS + 990 * 10**6
-            order = agent.asked[::-1] + agent.asked
-            client.queued += [answer(moment(right), moment(right), moment(asked)) for asked in order]
+            order = agent.requests[::-1] + agent.requests
+            client.queued += [answer(moment(right), moment(right), moment(requested)) for requested in order]
 
     began = client.now_ms
     client.on_sleep = deliver
     client.ok("epoch_sync 2000")
-    assert len(agent.asked) > 2
-    largest_error = START_MS * 10**6 + 990 * 10**6 - agent.asked[-1]
+    assert len(agent.requests) > 2
+    largest_error = START_MS * 10**6 + 990 * 10**6 - agent.requests[-1]
     assert abs(epoch(client)[2] - EPOCH_NS - 990 * 10**6) <= largest_error // 2 + 2 * 10**6
 
 
@@ -119,8 +119,8 @@ def test_a_late_answer_to_a_call_that_has_ended_changes_nothing(bench: Bench) ->
 def test_a_big_endian_answer(bench: Bench) -> None:
     def reply(originate: bytes) -> list[bytes]:
         seconds, nanoseconds = struct.unpack("<iI", originate)
-        asked = seconds * 10**9 + nanoseconds
-        return [answer(moment(EPOCH_NS, ">"), moment(EPOCH_NS, ">"), moment(asked, ">"), flags=0)]
+        requested = seconds * 10**9 + nanoseconds
+        return [answer(moment(EPOCH_NS, ">"), moment(EPOCH_NS, ">"), moment(requested, ">"), flags=0)]
 
     client, _ = start(bench, reply)
     client.ok("epoch_sync 1000")
@@ -134,8 +134,8 @@ def test_what_is_lost_is_asked_again(bench: Bench) -> None:
     )
     result = client.ok("epoch_sync 1000")
     assert 3 * PLAN.times.retry_first_ms <= result.slept <= 3 * PLAN.times.retry_first_ms + 5
-    assert len(agent.asked) == 4
-    assert len(set(agent.asked)) == 4, "each question has its own time"
+    assert len(agent.requests) == 4
+    assert len(set(agent.requests)) == 4, "each question has its own time"
 
 
 @pytest.mark.parametrize(("timeout", "questions"), [(0, 1), (-1, 1), (40, 1), (41, 2), (100, 3)])
@@ -145,7 +145,7 @@ def test_no_answer_ends_in_time(bench: Bench, timeout: int, questions: int) -> N
     assert result.code == 1
     assert result.error == f"no agent answers at 127.0.0.1:8888 within {max(timeout, 0)} ms"
     assert result.slept == max(timeout, 0)
-    assert len(agent.asked) == questions
+    assert len(agent.requests) == questions
     assert not epoch(client)[0]
 
 
@@ -175,7 +175,7 @@ def test_a_malformed_answer_is_counted(bench: Bench, spoil: Callable[[bytes], by
 
     client, agent = start(bench, reply)
     client.ok("epoch_sync 1000")
-    assert len(agent.asked) == 2
+    assert len(agent.requests) == 2
     assert client.statistics()["malformed"] == 1
     assert abs(epoch(client)[2] - EPOCH_NS) < 2 * 10**6
 
@@ -184,7 +184,7 @@ def test_an_unasked_answer_changes_nothing(bench: Bench) -> None:
     client, agent = start(bench, lambda o: [answer(moment(EPOCH_NS), moment(EPOCH_NS), o)] * 2)
     client.ok("epoch_sync 1000")
     before = epoch(client)
-    client.queued.append(answer(moment(5), moment(5), moment(agent.asked[0])))
+    client.queued.append(answer(moment(5), moment(5), moment(agent.requests[0])))
     client.spin()
     assert epoch(client) == before
 

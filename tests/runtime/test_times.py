@@ -127,11 +127,11 @@ def test_questions_to_a_silent_agent_grow_apart(bench: Bench) -> None:
     client.sent.clear()
     client.sent_at.clear()
     client.spin(36_000, 100)
-    asked = [
+    questions = [
         at for at, message in zip(client.sent_at, client.sent, strict=True) if message[4] == CREATE_CLIENT
     ]
-    pauses = [b - a for a, b in pairwise(asked)]
-    assert len(asked) <= 20, "in an hour"
+    pauses = [b - a for a, b in pairwise(questions)]
+    assert len(questions) <= 20, "in an hour"
     assert all(b >= a - 100 for a, b in pairwise(pauses))
     assert pauses[-1] <= 600_100
 
@@ -222,12 +222,12 @@ def test_a_quiet_node_rests(liveliness: str, times: SessionTimes, most: int, tmp
 
 @pytest.mark.parametrize("liveliness", ["ping", "acknack"])
 def test_a_node_without_its_agent_rests_longer_and_longer(liveliness: str, tmp_path: Path) -> None:
-    _, woke, asked = hour(with_times(QUIET, BATTERY), liveliness, tmp_path)
-    pauses = [b - a for a, b in pairwise(asked)]
-    assert 5 <= len(asked) <= 22
+    _, woke, questions = hour(with_times(QUIET, BATTERY), liveliness, tmp_path)
+    pauses = [b - a for a, b in pairwise(questions)]
+    assert 5 <= len(questions) <= 22
     assert pauses == sorted(pauses)
     assert pauses[-1] == 600_000
-    assert woke <= len(asked) + 40, "those of HEARTBEATs while it is not lost yet"
+    assert woke <= len(questions) + 40, "those of HEARTBEATs while it is not lost yet"
 
 
 def test_tasks_that_share_the_library_look_once_a_second(tmp_path: Path) -> None:

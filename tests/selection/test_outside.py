@@ -160,8 +160,8 @@ def test_an_installed_package(kind: str, folder: Path, run: Runner, monkeypatch:
     inputs = json.loads((folder / "crag/manifest.json").read_text())["inputs"]
     assert {"target crag.yaml", "target _family.yaml"} <= inputs.keys()
     assert f"from {origin}" in run("profiles", "lighthouse").out
-    made = run("init", "new", "--profile", "lighthouse")
-    assert made.status == 0, made.err
+    result = run("init", "new", "--profile", "lighthouse")
+    assert result.status == 0, result.err
     assert "lighthouse" in (folder / "new/microros.yaml").read_text()
 
 

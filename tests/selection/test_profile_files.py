@@ -111,10 +111,10 @@ def test_a_component_that_one_profile_drops_and_another_has(tmp_path: Path, reso
         f"{place}/less.yaml:3:14: error: the profile 'less' drops 'logging' and the profile 'more' has it "
         f"({place}/more.yaml:2). Decide in the application: `components: [+logging]` or `[-logging]`",
     )
-    for sign, there in (("+", True), ("-", False)):
+    for sign, selected in (("+", True), ("-", False)):
         decided = resolve("less", "more", folder=tmp_path, text=f"components: ['{sign}logging']\n")
         assert decided.messages == ()
-        assert ("logging" in decided.names()) is there
+        assert ("logging" in decided.names()) is selected
 
 
 def test_a_profile_that_drops_what_another_component_needs(tmp_path: Path, resolve: Resolve) -> None:

@@ -80,11 +80,11 @@ def masked(text: str) -> str:
     return re.sub(r"(?m)^(files|compiled) +\d+", r"\1 N", text).rstrip()
 
 
-def shows(printed: str, shown: list[str], begun: bool = False) -> bool:
-    """Return whether what was printed is what a page shows; `begun`: whether it begins so."""
+def shows(printed: str, shown: list[str], is_prefix: bool = False) -> bool:
+    """Return whether what was printed is what a page shows; `is_prefix`: whether it begins with it."""
     lines = masked("\n".join(shown)).splitlines()
     parts = [r"(?:.*\n)*?" if line == "..." else re.escape(line).replace("…", ".*") + "\n" for line in lines]
-    pattern = "".join(parts) + (r"(?:.*\n)*" if begun or not shown else "")
+    pattern = "".join(parts) + (r"(?:.*\n)*" if is_prefix or not shown else "")
     return re.fullmatch(pattern, masked(printed) + "\n") is not None
 
 
@@ -170,7 +170,7 @@ class Terminal:
         self._running.append((command, process, output))
         threading.Thread(target=_collect, args=(process, output), daemon=True).start()
         end = deadline(_WAIT_S)
-        while not shows(self._unmoved("".join(output)), shown, begun=True):
+        while not shows(self._unmoved("".join(output)), shown, is_prefix=True):
             assert time.monotonic() < end, f"$ {command} &\n{''.join(output)}"
             assert process.poll() is None, f"$ {command} & ended with {process.returncode}\n{''.join(output)}"
             time.sleep(0.05)

@@ -42,8 +42,10 @@ def install_wheel(base: Path) -> Installed:
         else:
             shutil.copy(path, source / name)
     wheel = [sys.executable, "-m", "pip", "wheel", "-q", "--disable-pip-version-check", "--no-deps"]
-    made = subprocess.run([*wheel, "-w", str(base), str(source)], text=True, capture_output=True, check=False)
-    assert made.returncode == 0, made.stdout + made.stderr
+    result = subprocess.run(
+        [*wheel, "-w", str(base), str(source)], text=True, capture_output=True, check=False
+    )
+    assert result.returncode == 0, result.stdout + result.stderr
     (path,) = base.glob("microros_gen-*.whl")
     shutil.rmtree(source)
     environment_with_dependencies(base / "environment")

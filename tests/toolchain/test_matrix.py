@@ -70,15 +70,15 @@ def test_the_variants_select_every_file(tree_of: TreeOf) -> None:
 
     selected = {source for name in VARIANTS if name not in ALSO for source in tree_of(name).sources}
     ready = [component for component in load_catalogue().values() if component.ready]
-    there = {
+    generated = {
         f"src/{c.name}/{source.path.removesuffix('.j2')}"
         for c in ready
         if c.layer != "port" or c.name.startswith("port_posix")
         for source in c.files
         if OF_A_BOARD.isdisjoint(source.when)
     }
-    assert there
-    assert there <= selected
+    assert generated
+    assert generated <= selected
 
 
 def _including(tree: Tree, folder: Path, ending: str) -> list[str]:
@@ -130,10 +130,10 @@ def test_the_header_of_what_is_not_selected_names_the_key(tree_of: TreeOf, tmp_p
 @pytest.mark.parametrize("name", VARIANTS)
 def test_sources_txt_is_complete(tree_of: TreeOf, name: str) -> None:
     tree = tree_of(name)
-    there = sorted(p.relative_to(tree.out).as_posix() for p in (tree.out / "src").rglob("*.c"))
-    assert list(tree.sources) == there
+    generated = sorted(p.relative_to(tree.out).as_posix() for p in (tree.out / "src").rglob("*.c"))
+    assert list(tree.sources) == generated
     cmake = (tree.out / "CMakeLists.txt").read_text(encoding="utf-8")
-    assert [line.strip() for line in cmake.splitlines() if line.startswith("  src/")] == there
+    assert [line.strip() for line in cmake.splitlines() if line.startswith("  src/")] == generated
 
 
 @pytest.mark.skipif(not has("cmake"), reason="no cmake")

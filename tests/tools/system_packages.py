@@ -69,8 +69,10 @@ def _missing_libgcc() -> set[str]:
     versions = [int(path.name) for path in release.glob("*") if path.name.isdigit()]
     if not Path("/etc/debian_version").exists() or not versions:
         return set()
-    there = {path.parent.parent.name for path in Path("/usr/lib/gcc-cross").glob("*/*/libgcc.a")}
-    return {f"libgcc-{max(versions)}-dev-{CROSS[target]}-cross" for target in CROSS if target not in there}
+    installed = {path.parent.parent.name for path in Path("/usr/lib/gcc-cross").glob("*/*/libgcc.a")}
+    return {
+        f"libgcc-{max(versions)}-dev-{CROSS[target]}-cross" for target in CROSS if target not in installed
+    }
 
 
 def _missing_sanitizers() -> set[str]:

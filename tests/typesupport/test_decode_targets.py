@@ -68,9 +68,9 @@ def test_32_bit_reads_the_same(everything: Generated, replayed: tuple[Path, int]
     if found.returncode != 0:
         pytest.skip("no 32-bit C library (gcc-multilib)")
     program = write_program(everything, "replay.c", REPLAY)
-    made = objects(everything, "replay_m32", ["gcc", "-m32", "-O0"], program)
+    compiled = objects(everything, "replay_m32", ["gcc", "-m32", "-O0"], program)
     output = everything.folder / "replay_m32"
-    run(["gcc", "-m32", GARBAGE, *made, "-o", output])
+    run(["gcc", "-m32", GARBAGE, *compiled, "-o", output])
     replay(everything, replayed, [output])
 
 
@@ -87,7 +87,7 @@ def test_other_targets_read_the_same(
         pytest.skip(f"no C library for {target}")
     command = ["clang", f"--target={target}", "-O0", "-isystem", f"/usr/{target}/include"]
     program = write_program(everything, "replay.c", REPLAY)
-    made = objects(everything, f"replay_{target}", command, program)
+    compiled = objects(everything, f"replay_{target}", command, program)
     start = [library / "crt1.o", library / "crti.o", compiler[-1] / "crtbegin.o"]
     end: list[str | Path] = [
         "--start-group",
@@ -107,7 +107,7 @@ def test_other_targets_read_the_same(
         "-o",
         str(output),
         *start,
-        *made,
+        *compiled,
     ]
     run([*link, f"-L{library}", f"-L{compiler[-1]}", *end])
     replay(everything, replayed, [emulator, output])
@@ -119,8 +119,8 @@ def fuzzer(everything: Generated) -> Path:
     command = ["clang", "-O0", f"-fsanitize=fuzzer,{SANITIZERS.removeprefix('-fsanitize=')}"]
     command += ["-fno-sanitize-recover=all", "-Wno-unused-command-line-argument"]
     output = everything.folder / "fuzz"
-    made = objects(everything, "fuzz", command, write_program(everything, "fuzz_main.c", FUZZ))
-    run([*command, GARBAGE, *made, "-o", output])
+    compiled = objects(everything, "fuzz", command, write_program(everything, "fuzz_main.c", FUZZ))
+    run([*command, GARBAGE, *compiled, "-o", output])
     return output
 
 

@@ -84,10 +84,10 @@ def test_any_other_content_is_not_equal(everything: Generated, functions_library
     structs = CStructs(everything.messages)
     for seed, plan in enumerate(everything.plans):
         source = Randomizer(everything.messages, seed)
-        one, other = (source.tree(plan.name, plan.limits, "random") for _ in range(2))
-        values = (structs.fill(plan.name, tree) for tree in (one, other))
+        first, second = (source.tree(plan.name, plan.limits, "random") for _ in range(2))
+        values = (structs.fill(plan.name, tree) for tree in (first, second))
         equal = Functions(functions_library, plan)("are_equal", *values)
-        assert equal == (one == other), plan.name
+        assert equal == (first == second), plan.name
 
 
 def test_each_failing_allocation_leaves_nothing(
@@ -137,9 +137,9 @@ def test_sequences_grow_and_compare(
         call("Sequence__fini", source, result=None)
         call("Sequence__fini", copy, result=None)
         assert (copy.data, copy.size, copy.capacity) == (None, 0, 0)
-        made = call("Sequence__create", ctypes.c_size_t(2), result=ctypes.c_void_p)
-        assert made
-        call("Sequence__destroy", ctypes.c_void_p(made), result=None)
+        sequence = call("Sequence__create", ctypes.c_size_t(2), result=ctypes.c_void_p)
+        assert sequence
+        call("Sequence__destroy", ctypes.c_void_p(sequence), result=None)
         assert not memory.live, plan.name
 
 

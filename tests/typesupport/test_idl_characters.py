@@ -145,19 +145,19 @@ def test_defaults_copies_and_equality(
     memory = Memory()
     compiled.test_set_allocator(ctypes.byref(memory.allocator))
     encoder, decoder = Encoder(compiled, plan.c_name), Decoder(compiled, letters, plan)
-    theirs, made, copy = (decoder.structs.structure(plan.name)() for _ in range(3))
+    theirs, ours, copy = (decoder.structs.structure(plan.name)() for _ in range(3))
     ros.init(name, theirs)
     expected = ros.write(name, theirs)
-    assert function(compiled, plan, "init")(ctypes.byref(made))
+    assert function(compiled, plan, "init")(ctypes.byref(ours))
     assert function(compiled, plan, "init")(ctypes.byref(copy))
-    assert encoder.encode(made) == expected
+    assert encoder.encode(ours) == expected
     if plan.storage:
         assert encoder.encode(decoder.bind()) == expected
-    change(name, made)
-    assert not function(compiled, plan, "are_equal")(ctypes.byref(made), ctypes.byref(copy))
-    assert function(compiled, plan, "copy")(ctypes.byref(made), ctypes.byref(copy))
-    assert function(compiled, plan, "are_equal")(ctypes.byref(made), ctypes.byref(copy))
-    for message in (made, copy):
+    change(name, ours)
+    assert not function(compiled, plan, "are_equal")(ctypes.byref(ours), ctypes.byref(copy))
+    assert function(compiled, plan, "copy")(ctypes.byref(ours), ctypes.byref(copy))
+    assert function(compiled, plan, "are_equal")(ctypes.byref(ours), ctypes.byref(copy))
+    for message in (ours, copy):
         function(compiled, plan, "fini")(ctypes.byref(message))
     assert not memory.live
 

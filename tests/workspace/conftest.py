@@ -61,11 +61,11 @@ def project(
     replace(
         home / "CMakeLists.txt", "CONFIG microros.yaml", f"CONFIG microros.yaml AGENT 127.0.0.1:{relay.port}"
     )
-    made = Project(home, request.param, tool)
-    configured = made.configure()
+    project = Project(home, request.param, tool)
+    configured = project.configure()
     assert configured.returncode == 0, configured.stderr
-    assert {"robot-microros-build/librobot.a", "app", "app.c"} < made.rebuilt()
-    return made
+    assert {"robot-microros-build/librobot.a", "app", "app.c"} < project.rebuilt()
+    return project
 
 
 @pytest.fixture(scope="session")

@@ -103,11 +103,12 @@ def test_every_dependency_is_looked_for() -> None:
 
 
 @pytest.mark.parametrize(
-    ("asked", "taken"),
+    ("version", "taken"),
     [("", True), ("0.1", True), (__version__, True), ("0.0.9", False), ("1", False), ("0.2", False)],
 )
-def test_the_version_is_the_tools(project: Project, asked: str, taken: bool) -> None:
-    text = f'find_package(microros_gen {asked})\nmessage(STATUS "${{microros_gen_FOUND}} ${{microros_gen_VERSION}}.")\n'
+def test_the_version_is_the_tools(project: Project, version: str, taken: bool) -> None:
+    found = "${microros_gen_FOUND} ${microros_gen_VERSION}."
+    text = f'find_package(microros_gen {version})\nmessage(STATUS "{found}")\n'
     (project.source / "CMakeLists.txt").write_text(BEGIN + text)
     done = project.configure()
     assert done.returncode == 0, done.stderr

@@ -58,9 +58,9 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Built:
         install(environment, ["--no-deps", "--force-reinstall", str(ROOT)]), env=clean_environ(), check=True
     )
     shutil.copytree(WORKSPACE, base / "a workspace" / "src")
-    made = Built(base / "a workspace", environ(environment, base / "cache"))
-    made.build()
-    return made
+    workspace = Built(base / "a workspace", environ(environment, base / "cache"))
+    workspace.build()
+    return workspace
 
 
 def robot_as_rosbags_writes_it(built: Built) -> bytes:

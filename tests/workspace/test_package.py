@@ -36,7 +36,7 @@ DATA = ("profiles", "components", "templates", "idl", "targets")
 
 def test_the_wheel_holds_every_file_of_data(installed: Installed) -> None:
     with zipfile.ZipFile(installed.wheel) as wheel:
-        there = set(wheel.namelist())
+        names = set(wheel.namelist())
     for folder in DATA:
         origin = ROOT / "profiles" if folder == "profiles" else ROOT / "microros_gen" / folder
         files = [
@@ -45,8 +45,8 @@ def test_the_wheel_holds_every_file_of_data(installed: Installed) -> None:
             if p.is_file() and "__pycache__" not in p.parts
         ]
         assert files, folder
-        assert {f"microros_gen/{folder}/{name}" for name in files} <= there
-    shared = {name.partition(".data/data/share/")[2] for name in there}
+        assert {f"microros_gen/{folder}/{name}" for name in files} <= names
+    shared = {name.partition(".data/data/share/")[2] for name in names}
     assert "cmake/microros_gen/microros_genConfig.cmake" in shared
     prefix = ROOT / "cmake" / "ament" / "prefix"
     ament = {path.relative_to(prefix).as_posix() for path in prefix.glob("*/cmake/*.cmake")}
@@ -56,9 +56,9 @@ def test_the_wheel_holds_every_file_of_data(installed: Installed) -> None:
         "selection/profile.schema.json",
         "interfaces/msg/msg.lark",
     ):
-        assert f"microros_gen/{name}" in there
-    assert not [name for name in there if name.startswith(("tests/", "examples/", "docs/"))]
-    assert any(name.endswith("licenses/LICENSE") for name in there)
+        assert f"microros_gen/{name}" in names
+    assert not [name for name in names if name.startswith(("tests/", "examples/", "docs/"))]
+    assert any(name.endswith("licenses/LICENSE") for name in names)
 
 
 def test_it_builds_from_another_folder_without_ros(installed: Installed, tmp_path: Path) -> None:

@@ -278,9 +278,9 @@ class XrceClient:
 
 def connected(port: int) -> socket.socket:
     """Return a UDP socket whose peer is a port of this machine."""
-    made = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-    made.connect(("127.0.0.1", port))
-    return made
+    opened = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    opened.connect(("127.0.0.1", port))
+    return opened
 
 
 def dds_type(ros_name: str) -> str:

@@ -232,7 +232,7 @@ class _Peer:
             self._clients[service] = self._node.create_client(_load(type), service, qos_profile=profile)
         client = self._clients[service]
         assert client.wait_for_service(10)
-        self._calls = [client.call_async(_load(type).Request(names=one)) for one in names]
+        self._calls = [client.call_async(_load(type).Request(names=prefixes)) for prefixes in names]
         return True
 
     def replies(self) -> list[Any]:

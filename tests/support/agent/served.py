@@ -48,8 +48,8 @@ class Served:
         for value in values:
             client.write(writer, int32_body(value))
         client.drain()
-        got = [data[4:] for _, data in self.bench.bridge.published[before:]]
-        assert got == [int32_body(value) for value in values]
+        received = [data[4:] for _, data in self.bench.bridge.published[before:]]
+        assert received == [int32_body(value) for value in values]
 
 
 def wait_until(done: Callable[[], bool], what: str, timeout_s: float = 15.0) -> None:

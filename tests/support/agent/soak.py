@@ -65,7 +65,7 @@ class Place:
         self.session = self.chance.choice((0x81, 0x01))
         self.life = 0
         self.replies: dict[int, list[int]] = {}
-        self.heard: int | None = None
+        self.last: int | None = None
         self.heard_count = 0
         self.connected_at = self.new_until = 0.0
         self.gap_allowed = False
@@ -123,7 +123,7 @@ class Place:
 
     def _connect(self, client: SoakClient) -> None:
         client.link = self.world.link(self.number, client.hear)
-        self.heard, self.gap_allowed = None, False
+        self.last, self.gap_allowed = None, False
         self.heard_count, self.connected_at = 0, time.monotonic()
         self.new_until = self.connected_at + NEW_S
         self.replies.clear()
@@ -131,7 +131,7 @@ class Place:
     def _create(self, client: SoakClient) -> Step:
         name = f"/soak/node_{self.number}"
         node = participant_blob(name)
-        made = (
+        descriptions = (
             (NODE, node, 0),
             (UP, topic_blob("rt/soak/up", STRING), NODE),
             (DOWN, topic_blob("rt/soak/down", STRING), NODE),
@@ -142,7 +142,9 @@ class Place:
             (CALLER, service_blob("/soak/ledger", GET_TYPES), NODE),
             (SERVER, service_blob(self._service, GET_TYPES), NODE),
         )
-        numbers = [client.ask(partial(_create, self.world.domain, *one)) for one in made]
+        numbers = [
+            client.ask(partial(_create, self.world.domain, *description)) for description in descriptions
+        ]
         yield lambda: all(number in client.statuses for number in numbers)
         assert all(client.statuses[number] in (0, 1) for number in numbers), client.statuses
         for source in (READER, CALLER, SERVER):
@@ -247,13 +249,13 @@ class Place:
         end = 3 + int.from_bytes(body[:4], "little")  # DDS fills up to a multiple of four after it
         number, size, rest = body[4:end].decode().split(":", 2)
         assert rest == "x" * int(size)
-        if self.heard is not None and int(number) != self.heard + 1:
-            assert int(number) > self.heard, f"{number} after {self.heard}"
+        if self.last is not None and int(number) != self.last + 1:
+            assert int(number) > self.last, f"{number} after {self.last}"
             seen = f"{self.heard_count} before, in {time.monotonic() - self.connected_at:.1f} s"
             new = time.monotonic() < self.new_until
-            assert self.gap_allowed or new, f"samples between {self.heard} and {number} are lost ({seen})"
+            assert self.gap_allowed or new, f"samples between {self.last} and {number} are lost ({seen})"
             self.gap_allowed = self.gap_allowed and new
-        self.heard = int(number)
+        self.last = int(number)
         self.heard_count += 1
         self.world.count["samples down"] += 1
 
@@ -290,10 +292,10 @@ class World:
             return self._line.end(1 + number // 10, take)
         kind = UdpLink if number % 10 < 6 else TcpStream
         port = int(self.agent.places["udp4" if kind is UdpLink else "tcp4"].rpartition(":")[2])
-        made: Link = kind(port, take)
-        self._links[made.fileno()] = made
-        self._poll.register(made.fileno(), select.POLLIN)
-        return made
+        link: Link = kind(port, take)
+        self._links[link.fileno()] = link
+        self._poll.register(link.fileno(), select.POLLIN)
+        return link
 
     def run(self, places: list[Place]) -> None:
         """Let all of them live to their ends."""

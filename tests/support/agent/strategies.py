@@ -40,7 +40,7 @@ i16 = st.integers(-0x8000, 0x7FFF)
 text = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0"), max_size=20)
 octets = st.binary(max_size=40)
 properties = st.none() | st.lists(st.tuples(text, text), max_size=3).map(tuple)
-moment = st.tuples(st.integers(-(2**31), 2**31 - 1), u32)
+wire_time = st.tuples(st.integers(-(2**31), 2**31 - 1), u32)
 
 
 def four(size: int) -> st.SearchStrategy[bytes]:
@@ -105,6 +105,6 @@ BY_NAME: dict[str, st.SearchStrategy[Any]] = {
     "HEARTBEAT": st.builds(Heartbeat, u16, u16, u8),
     "RESET": st.builds(Reset),
     "FRAGMENT": st.builds(Fragment, octets, st.booleans()),
-    "TIMESTAMP": st.builds(Timestamp, moment),
-    "TIMESTAMP_REPLY": st.builds(TimestampReply, moment, moment, moment),
+    "TIMESTAMP": st.builds(Timestamp, wire_time),
+    "TIMESTAMP_REPLY": st.builds(TimestampReply, wire_time, wire_time, wire_time),
 }

@@ -62,7 +62,7 @@ class _Peer:
             if what == "publishers"
             else self._node.get_subscriptions_info_by_topic
         )
-        return sorted(_info(one) for one in ask(topic))
+        return sorted(_info(endpoint) for endpoint in ask(topic))
 
     def count(self, what: str, name: str) -> int:
         ask = {

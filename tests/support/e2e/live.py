@@ -68,8 +68,8 @@ class Live:
         lines: list[str] = []
         for line in self.process.stdout:
             if line.startswith("ret "):
-                _, code, took, text = line.rstrip("\n").split(" ", 3)
-                return Answer(int(code), int(took), text, tuple(lines))
+                _, code, elapsed, text = line.rstrip("\n").split(" ", 3)
+                return Answer(int(code), int(elapsed), text, tuple(lines))
             lines.append(line.rstrip("\n"))
         assert self.process.stderr is not None
         raise AssertionError(f"the application ended: {self.process.stderr.read()}")

@@ -71,8 +71,8 @@ class Peer:
             elif kind == REPLIER:
                 self._requests += 1
                 datagrams += self.agent.give(target, identity(self._requests) + SAMPLE)
-        asked, self.agent.asked = self.agent.asked, []
-        for target, request, _ in asked:
+        calls, self.agent.calls = self.agent.calls, []
+        for target, request, _ in calls:
             datagrams += self.agent.give(target, request + target + SAMPLE)
         return datagrams
 

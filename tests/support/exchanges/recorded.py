@@ -33,11 +33,11 @@ def recorded() -> tuple[str, ...]:
 
 def build_clock(folder: Path) -> Path:
     """Compile what is loaded before the C library."""
-    made = folder / "still_time.so"
+    library = folder / "still_time.so"
     source = HERE / "still_time.c"
     flags = ["-std=gnu99", "-O1", "-Wall", "-Wextra", "-Werror", "-fPIC", "-shared"]
-    subprocess.run(["gcc", *flags, "-o", made, source, "-ldl"], check=True)
-    return made
+    subprocess.run(["gcc", *flags, "-o", library, source, "-ldl"], check=True)
+    return library
 
 
 def exchange_of(name: str, folder: Path, still_time: Path) -> str:

@@ -18,9 +18,9 @@ def identity(sequence: int) -> bytes:
 
 @dataclass
 class ServingAgent(ReadingAgent):
-    """`asked` are the requests that a client wrote, `answered` the replies, each as (object, request id, body)."""
+    """`calls` are the requests that a client wrote, `answered` the replies, each as (object, request id, body)."""
 
-    asked: list[tuple[bytes, bytes, bytes]] = field(default_factory=list)
+    calls: list[tuple[bytes, bytes, bytes]] = field(default_factory=list)
     answered: list[bytes] = field(default_factory=list)
 
     def give(self, target: bytes, *samples: bytes) -> list[bytes]:
@@ -30,14 +30,14 @@ class ServingAgent(ReadingAgent):
 
     def reply(self, number: int, value: int) -> list[bytes]:
         """Answer the `number`-th request of all."""
-        target, request, _ = self.asked[number]
+        target, request, _ = self.calls[number]
         return self.give(target, request + target + struct.pack("<i", value))
 
     def _write(self, payload: bytes) -> None:
         if payload[2:4] not in self.objects:
             return
         if payload[3] & 15 == 7:
-            self.asked.append((payload[2:4], payload[:2], payload[4:]))
+            self.calls.append((payload[2:4], payload[:2], payload[4:]))
         elif payload[3] & 15 == 8:
             self.answered.append(payload[4:])
         else:

@@ -18,14 +18,14 @@ class TimedAgent(FakeAgent):
     """Answers TIMESTAMP with what `reply` makes of the originate time."""
 
     reply: Callable[[bytes], list[bytes]] = lambda originate: []
-    asked: list[int] = field(default_factory=list)
+    requests: list[int] = field(default_factory=list)
 
     def receive(self, datagram: bytes) -> list[bytes]:
         if datagram[:8] != TIMESTAMP:
             return super().receive(datagram)
         assert len(datagram) == 16
         seconds, nanoseconds = struct.unpack_from("<iI", datagram, 8)
-        self.asked.append(seconds * 10**9 + nanoseconds)
+        self.requests.append(seconds * 10**9 + nanoseconds)
         return self.reply(datagram[8:])
 
 

@@ -98,12 +98,12 @@ class Oracle:
             value = tree[field.name]
             many = isinstance(field.type, (ArrayType, SequenceType))
             if many and isinstance(element, Primitive):
-                made: Any = numpy.array(value, dtype=DTYPES[element])
+                built: Any = numpy.array(value, dtype=DTYPES[element])
             elif many:
-                made = [self._one(messages, element, item) for item in value]
+                built = [self._one(messages, element, item) for item in value]
             else:
-                made = self._one(messages, element, value)
-            values[normalize_fieldname(field.name)] = made
+                built = self._one(messages, element, value)
+            values[normalize_fieldname(field.name)] = built
         if not values:
             values["structure_needs_at_least_one_member"] = 0
         return self.store.types[key(name)](**values)

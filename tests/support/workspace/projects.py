@@ -155,11 +155,11 @@ class Followed(Project):
 def follow_page(folder: Path, build: str) -> Followed:
     """Run the commands of docs/howto/cmake.md that are for the build folder `build`; return what they made."""
     (folder / "examples").symlink_to(EXAMPLE.parent)
-    made = Followed(folder, folder=build)
+    followed = Followed(folder, folder=build)
     lines = [line.split() for line in COMMANDS.splitlines() if build in line.split()]
     assert len(lines) == 2
     for words in lines:
-        found = made.found if "-S" in words else ()
-        done = run(*words, *found, cwd=folder, env=made.environment)
+        found = followed.found if "-S" in words else ()
+        done = run(*words, *found, cwd=folder, env=followed.environment)
         assert done.returncode == 0, done.stdout + done.stderr
-    return made
+    return followed
