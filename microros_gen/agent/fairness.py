@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Who is served next: of those that have something to do, whoever cost least lately; and for how long at most.
+"""The order of work: of all clients with pending work, the one with the lowest recent cost is served first.
 
-The agent has one thread. What a client makes it do is measured in seconds of that thread, waiting for ROS 2 included,
-and charged to the client's account, where it fades: after `MEMORY_S` a third of it is left. So a client that asks for
-less than its share is served before all who ask for more, whatever the number and size of their messages; what it did
-not use for long is not its own; and while nobody else wants anything, one client has all of it.
+The agent has one thread. The time that this thread spends on a client, waiting for ROS 2 included, is charged to the
+client's account in seconds and decays: after `MEMORY_S` a third of it is left. A client that needs less than its share
+is therefore served before all that need more, whatever the number and size of their messages. Unused time is not saved
+up for long, and a client that is alone gets the whole agent.
 
-What was refused counts `REFUSED` times: many clients that mostly ask for what they do not get have little of the agent,
-and do not make the share small that each of the others has. Who is new has `START_S` on its account, so that nobody
-comes before all others by coming again and again.
+Refused work counts `REFUSED` times, so many clients whose requests are mostly refused get little of the agent and leave
+the others their share. A new account starts with `START_S`, so reconnecting does not help.
 """
 
 from __future__ import annotations
@@ -20,33 +19,33 @@ from math import exp
 from typing import Protocol, TypeVar
 
 MEMORY_S = 0.25
-"""Seconds after which about a third of what a client cost still counts."""
+"""Seconds after which about a third of a client's cost is left."""
 START_S = 0.02
-"""What counts as the cost of a client that nobody knew."""
+"""Initial cost of an unknown client, in seconds."""
 REFUSED = 8
-"""How often it counts what was refused in the end."""
+"""Factor for work that was refused in the end."""
 TURN_S = 0.004
-"""Seconds for all clients of one descriptor, and of one round, before what else there is gets its turn."""
+"""Maximum seconds for the clients of one descriptor, and for one round, before other work gets its turn."""
 
 
 @dataclass(eq=False, slots=True)
 class Account:
-    """What one client, or all senders without a session together, cost."""
+    """The cost of one client, or of all senders without a session together."""
 
     used: float = 0.0
-    """Seconds of work lately, as of `used_at`."""
+    """Recent cost in seconds, as of `used_at`."""
     used_at: float = 0.0
     refused: bool = False
-    """What is done now is refused."""
+    """Whether the current work is refused."""
     busy: bool = False
-    """Its client has work that was begun and goes on by itself: no further messages are read meanwhile."""
+    """Whether its client has unfinished work that continues by itself; meanwhile none of its messages are read."""
     graph_s: float = 0.0
-    """Seconds that changes of the ROS graph took lately (see `graph_work`)."""
+    """Recent cost of changes of the ROS graph, in seconds (see `graph_work`)."""
     graph_at: float = 0.0
-    """When that was counted last."""
+    """When that cost was last updated."""
 
     def bill(self, seconds: float, now: float) -> None:
-        """Charge the time since the last call up to `now`, in seconds."""
+        """Charge `seconds` of work that ended at `now`."""
         if self.refused:
             self.refused = False
             seconds *= REFUSED
@@ -61,7 +60,7 @@ class Account:
 
 
 class Billed(Protocol):
-    """Work that is done for the owner of an account."""
+    """Work for the owner of an account."""
 
     @property
     def account(self) -> Account:
@@ -72,7 +71,7 @@ B = TypeVar("B", bound=Billed)
 
 
 class Fairness:
-    """The order of one agent's work."""
+    """The order of one agent's work, by cost."""
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
@@ -87,7 +86,7 @@ class Fairness:
 
 
 class Accounts:
-    """Accounts by key, kept after the client has left, so that reconnecting does not help; at most `limit`."""
+    """Accounts by client key, at most `limit`. They outlast the client's session, so reconnecting does not help."""
 
     def __init__(self, limit: int, clock: Callable[[], float] = time.monotonic) -> None:
         self._limit = limit

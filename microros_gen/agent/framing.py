@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Messages on a stream of bytes, as XRCE clients frame them on serial lines and on TCP.
+"""Framing of messages on a stream of bytes, on serial lines and TCP, as the public client does it.
 
-On TCP each message follows its length (16 bits, little endian). On a serial line a frame is a flag (0x7E),
+On TCP each message is preceded by its length (16 bits, little endian). On a serial line a frame is a flag (0x7E),
 then, stuffed: source address, destination address, length of the payload (16 bits, little endian), the payload, and
 its CRC-16/ARC (little endian). Stuffing writes 0x7E as 7D 5E and 0x7D as 7D 5D; so a flag always begins a frame, and
 none follows the last one. Addresses are bytes; an agent has address 0.
 
 The CRC is a table look-up for two bytes at a time in Python, measured 35 MB/s, and 24 MB/s for whole
-frames: twenty times what a serial line of 12 Mbit/s carries, so no library is needed for it.
+frames: twenty times the rate of a serial line of 12 Mbit/s, so no library is needed.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ FLAG = b"\x7e"
 ESCAPE = b"\x7d"
 AGENT_ADDRESS = 0
 LARGEST_PAYLOAD = 0xFFFF
-"""What the length of a frame can say, in bytes."""
+"""Maximum payload of a frame in bytes: its length has 16 bits."""
 
 _HEADER = 4
 _CRC = 2
@@ -30,20 +30,20 @@ _ESCAPED_ESCAPE = b"\x7d\x5d"
 _POLYNOMIAL = 0xA001  # x^16 + x^15 + x^2 + 1, least significant bit first
 
 Fault = Callable[[str, str], None]
-"""Takes the kind of a fault and what was found."""
+"""Function that gets the kind of a fault and its details."""
 Frame = tuple[int, bytes]
 """Source address and payload."""
 
 
 def crc16(data: bytes) -> int:
-    """Return the CRC-16/ARC of `data` (initially 0, reflected, not inverted); that of `123456789` is 0xBB3D."""
+    """Return the CRC-16/ARC of `data`: initial value 0, reflected, not inverted. That of `123456789` is 0xBB3D."""
     table = _table()
     words = len(data) >> 1
     crc = 0
     for word in struct.unpack_from(f"<{words}H", data):
         crc = table[crc ^ word]
     if len(data) & 1:
-        # A byte alone: as the second one of a pair whose first leaves the register where it is now.
+        # A single byte: as the second one of a pair whose first byte does not change the register.
         crc = (crc >> 8) ^ _byte((crc ^ data[-1]) & 0xFF)
     return crc
 
@@ -56,12 +56,12 @@ def encode_frame(payload: bytes, destination: int, source: int = AGENT_ADDRESS) 
 
 
 def encode_length(payload: bytes) -> bytes:
-    """Return `payload` (at most 65,535 bytes) after its length, as it goes over TCP."""
+    """Return `payload` (at most 65,535 bytes) preceded by its length, as sent over TCP."""
     return len(payload).to_bytes(2, "little") + payload
 
 
 class LengthDecoder:
-    """Splits a TCP stream into messages, whatever its segments; holds at most one incomplete message."""
+    """Decoder of a TCP stream into messages, whatever its segments; stores at most one incomplete message."""
 
     def __init__(self) -> None:
         self._rest = b""
@@ -88,16 +88,16 @@ class LengthDecoder:
 
 
 class FrameDecoder:
-    """Cuts a stream into frames, whatever its pieces; after a fault it goes on with the next flag.
+    """Decoder of a serial stream into frames, in chunks of any size; after a fault it continues at the next flag.
 
-    Never raises, and never holds more than one frame of `largest` bytes. Faults, by kind:
+    Never raises, and never stores more than one frame of `largest` bytes. Faults, by kind:
 
     - `frame_noise`: bytes between frames (a boot message, another baud rate, the rest of an older frame);
     - `frame_truncated`: another frame began before this one was complete;
     - `frame_escape`: an invalid escape sequence;
     - `frame_too_large`: a length beyond `largest`; `frame_empty`: no payload;
-    - `frame_crc`: a checksum that is another one;
-    - `frame_address`: a frame to somebody else, for example this side's own, echoed.
+    - `frame_crc`: a wrong checksum;
+    - `frame_address`: a frame for another receiver, for example an echo of this side's frames.
     """
 
     def __init__(self, fault: Fault, address: int = AGENT_ADDRESS, largest: int = LARGEST_PAYLOAD) -> None:
@@ -107,10 +107,10 @@ class FrameDecoder:
         self._plain = bytearray()
         self._in_frame = False
         self._escaped = False  # an escape was the last byte
-        self._skipping = False  # after a fault that was told: what follows up to the flag belongs to it
+        self._skipping = False  # after a reported fault: everything up to the next flag belongs to it
 
     def reset(self) -> None:
-        """Drop an incomplete frame: the line was opened again."""
+        """Drop an incomplete frame, because the line was opened again."""
         self._drop()
         self._skipping = False
 
@@ -125,7 +125,7 @@ class FrameDecoder:
         return frames
 
     def _begin(self) -> None:
-        if self._in_frame and (self._plain or self._escaped):  # flags in a row only separate
+        if self._in_frame and (self._plain or self._escaped):  # consecutive flags only separate frames
             self._fault("frame_truncated", f"a frame ended after {len(self._plain)} bytes")
         self._drop()
         self._in_frame = True
@@ -150,7 +150,7 @@ class FrameDecoder:
             self._fail("frame_escape", f"0x7d before {bad}")
 
     def _unstuff(self, chunk: bytes) -> tuple[bytes, str]:
-        """Return the plain bytes up to a wrong escape, and what follows the escape there (empty: none)."""
+        """Return the unstuffed bytes up to a wrong escape, and the byte after that escape (empty: no wrong escape)."""
         if self._escaped:
             chunk = ESCAPE + chunk
             self._escaped = False
@@ -214,7 +214,7 @@ def _wrong_escape(chunk: bytes) -> int:
 
 
 def _byte(register: int) -> int:
-    """Return what eight shifts make of a register of eight bits."""
+    """Return an 8-bit register after eight shifts."""
     for _ in range(8):
         register = register >> 1 ^ (_POLYNOMIAL if register & 1 else 0)
     return register
@@ -222,7 +222,7 @@ def _byte(register: int) -> int:
 
 @cache
 def _table() -> array[int]:
-    """Return what 16 shifts make of each register: 128 KiB, made in 10 ms when the first frame comes."""
+    """Return each 16-bit register after 16 shifts: 128 KiB, computed in 10 ms with the first frame."""
     single = [_byte(i) for i in range(256)]
     twice = (single[(single[i & 0xFF] ^ i >> 8) & 0xFF] ^ single[i & 0xFF] >> 8 for i in range(65536))
     return array("H", twice)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What Fast DDS keeps for the writers and readers of clients: its histories are its own, so what goes in is counted.
+"""Estimated memory of the histories in Fast DDS. They cannot be inspected, so the samples written to them are counted.
 
-Fast DDS 2.14.5 has a buffer for each sample that a history holds. A buffer goes from sample to sample, grows to the
-largest of them, and is freed with the writer. So a writer takes at most as many buffers as it ever had samples in its
-history, each of the size of its largest sample.
+Fast DDS 2.14.5 has a buffer for each sample in a history. Buffers are reused, grow to the largest sample, and are freed
+with the writer. A writer therefore has at most as many buffers as it ever had samples in its history, each as large as
+its largest sample.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ from microros_gen.agent.ros.bridge import BridgeError, BusyError, Writer
 from microros_gen.agent.wire.constants import Status
 
 CHANGE_BYTES = 512
-"""What a sample in a history takes besides its bytes."""
+"""Bytes of a sample in a history besides its payload."""
 UNREAD_BYTES = 64
-"""What is counted for each sample that a reader may have. Most are never there: what is, `memory` sees."""
+"""Bytes charged for each sample of a reader's depth. Most never exist; `memory` observes those that do."""
 KEEP_ALL_DEPTH = 5_000
-"""Samples that Fast DDS keeps for KEEP_ALL at most."""
+"""Maximum number of samples that Fast DDS keeps with KEEP_ALL."""
 
 
 class HistoryFullError(BridgeError):
-    """A sample is refused for good: the history that it belongs to must not grow."""
+    """A sample is refused for good, because its history must not grow."""
 
     def __init__(self, reason: str) -> None:
         super().__init__(reason, Status.RESOURCES)
@@ -61,9 +61,11 @@ class WriterHistory:
         self._shares = shares
         self._lasting = qos.durability is not Durability.VOLATILE
         self._keeps_all = not qos.keep_last
-        self.depth = depth if qos.reliable or self._lasting else 1  # best effort keeps nothing that was sent
+        self.depth = (
+            depth if qos.reliable or self._lasting else 1
+        )  # best effort does not keep samples after sending them
         self.samples = 0
-        """In the history, or in it since it was last known to be empty."""
+        """Upper bound of the samples in the history: those since it was last known to be empty."""
         self.largest = 0
         self.bytes = 0
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What one kind of thing (unfinished input, objects, histories) takes of all clients and connections together.
+"""Memory budget of one kind (unfinished input, objects, histories), shared by all clients and connections.
 
-Half of the total is for whoever comes first. The other half is divided: each holder has its share for itself, so those
-who take all that they can get keep nobody else from having something.
+Half of the total is first come, first served. The other half is divided equally among the possible holders, so greedy
+holders leave the others their share.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ class InputPool:
     def __init__(self, total: int, holders: int) -> None:
         self.share = total // 2 // max(1, holders)
         self.free = total - self.share * holders
-        """Bytes without an owner; below 0 when holders took bytes that could not be refused."""
+        """Free bytes of the common half; negative if holders took bytes that could not be refused."""
 
 
 class Holder:
-    """What one client or connection uses of a pool; without a pool it is not limited."""
+    """The use of a pool by one client or connection; without a pool it is unlimited."""
 
     def __init__(self, pool: InputPool | None = None, most: int = 1 << 62) -> None:
-        """Use at most `most` bytes of what can be refused."""
+        """Limit bytes that can be refused to `most`."""
         self._pool = pool
         self._most = most
         self.held = 0
@@ -51,5 +51,5 @@ class Holder:
         self.add(-self.held)
 
     def _beyond(self, size: int) -> int:
-        """Return how much of `size` is beyond the share."""
+        """Return how many of `size` bytes exceed the holder's share."""
         return max(0, size - self._pool.share) if self._pool is not None else 0

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Keeps samples from DDS for the reliable readers of a client that timed out, or replaced its session, and returns.
+"""Samples kept for the reliable readers of a client that timed out or opened a new session.
 
-DDS has an acknowledgement of it, and does not give it again. Kept is what the client has not acknowledged: what was
-sent and may or may not have arrived, what waited to be sent, and, when the agent gives a client up, what DDS still had.
-The client gets it in order, before anything newer, when it reads from the same reader again; what did arrive comes
-twice.
+The agent has acknowledged these samples to DDS, which does not deliver them again. The agent keeps all that the client
+has not acknowledged: samples that were sent and may or may not have arrived, samples that waited to be sent, and, when
+a client times out, those still in DDS. When the client reads from the same reader again, it gets them in order, before
+any newer sample; those that did arrive before come twice.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from microros_gen.agent.streams_out import Kept
 
 
 class Keeping:
-    """Keeps samples for `keep_s` seconds after the last message of a client, within the budget of its histories."""
+    """Store of samples for `keep_s` seconds after the last message of a client, within the budget of its histories."""
 
     def __init__(self, keep_s: float, deliveries: Deliveries, log: EventLog) -> None:
         self._keep_s = keep_s

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Two clients with one key: each takes over the session of the other. That is detected, and reported once."""
+"""Detection of two clients with the same key: each takes over the other's session. It is reported once."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.transport.base import Transport
 
 MEMORY_S = 60.0
-"""Seconds for which the place is remembered that a key came from before."""
+"""Seconds for which the previous address of a key is remembered."""
 IN_FLIGHT_S = 1.0
-"""Seconds in which a message from the place before may still be on its way."""
+"""Seconds in which a message from the previous address may still be under way."""
 Place = tuple[Transport, Hashable]
 
 
 class KeyConflicts:
-    """Remembers the addresses from which keys were used; at most `limit` of them."""
+    """The previous addresses of keys, at most `limit`."""
 
     def __init__(self, log: EventLog, limit: int) -> None:
         self._log = log
@@ -26,7 +26,7 @@ class KeyConflicts:
         self._reported: set[bytes] = set()
 
     def moved(self, client: Client, transport: Transport, address: Hashable, now: float) -> None:
-        """Note that the key of `client` is used from another address; moving back and forth reveals two clients."""
+        """Record that the key of `client` is used from another address; moving back and forth reveals two clients."""
         key = client.session.link.key
         self._before.pop((client.transport, client.address), None)
         self._before[client.transport, client.address] = key, now
@@ -37,7 +37,7 @@ class KeyConflicts:
             self._report(key, client.place, transport.name_of(address))
 
     def observe(self, transport: Transport, address: Hashable, now: float) -> bytes | None:
-        """Return the key that an address without a client had recently, if any: it still sends."""
+        """Return the key that the sender at an address without a client used recently, or None."""
         key, when = self._before.get((transport, address), (b"", now))
         return key if key and IN_FLIGHT_S < now - when < MEMORY_S else None
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The log of the agent: events as lines for people, or as one JSON object per line."""
+"""The agent's log: events as readable lines, or as one JSON object per line."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from typing import TextIO, Union
 
 Value = str | int | float
 Json = Union[Value, bool, "list[Json]", "dict[str, Json]"]
-"""A field of an event: what comes from the network is shown as text only after `printable`."""
+"""A field of an event. Text from the network is shown only after `printable`."""
 
 
 class Level(IntEnum):
-    """How important an event is; -v shows DEBUG, -vv TRACE as well."""
+    """Importance of an event; -v also shows DEBUG, -vv also TRACE."""
 
     ERROR = 0
     WARNING = 1
@@ -27,19 +27,19 @@ class Level(IntEnum):
 
 
 BURST, SUSTAINED = 1_000, 100
-"""Lines of one event that are written at once, and how many more each second; those of -v are not counted."""
+"""Lines of one event in a burst, and per second on average; those of -v are not counted."""
 LONGEST = 400
-"""Characters of a text in a line: what is longer came from the network, and its middle is left out; not with -v."""
+"""Maximum characters of a text in a line; the middle of a longer one is omitted, except with -v."""
 BYTES_AT_ONCE, BYTES_PER_SECOND = 1 << 20, 16_384
-"""Bytes of lines that are written at once, and how many more each second; those of -v are not counted."""
+"""Bytes of lines in a burst, and per second on average; those of -v are not counted."""
 REPEATED_S, REPEATED = 10.0, 3
-"""For so long a warning that is the same as the one of its event before is written so often; then it is counted."""
+"""Maximum number of identical consecutive warnings of an event, and the seconds in which; further ones are counted."""
 ALWAYS = ("stopped", "memory_tight", "memory_relieved")
-"""Events that are written whatever was written before."""
+"""Events that are always written."""
 
 
 def printable(text: str) -> str:
-    """Return `text` from the network without anything that could control a terminal."""
+    """Return `text` from the network without control characters, which a terminal would execute."""
     return "".join(c if c.isprintable() else "?" for c in text)
 
 
@@ -52,7 +52,7 @@ def _short(text: str) -> str:
 
 @dataclass
 class _Repeated:
-    """A warning, when it was written, and how often it was repeated since."""
+    """A warning, when it was written, and the number of its repetitions since then."""
 
     message: str
     since: float
@@ -60,7 +60,7 @@ class _Repeated:
 
 
 class EventLog:
-    """Writes events to one stream. A closed stream is ignored: the agent continues."""
+    """Writer of events to one stream. A closed stream is ignored: the agent continues."""
 
     def __init__(
         self,
@@ -85,17 +85,18 @@ class EventLog:
 
     @property
     def as_json(self) -> bool:
-        """Whether events are written for programs."""
+        """Whether events are written as JSON."""
         return self._json
 
     def shows(self, level: Level) -> bool:
-        """Return whether events of `level` are written; ask before building expensive ones."""
+        """Return whether events of `level` are written; for callers that build expensive ones."""
         return level <= self._limit
 
     def emit(self, level: Level, event: str, text: str, /, **fields: Json) -> None:
-        """Write one event: `text`, for people, is a format string over `fields`; JSON has both.
+        """Write one event. `text` is a format string for people, over `fields`; JSON contains both.
 
-        No sender can fill a disk or delay the agent by it: see `BURST`. Suppressed lines are counted and reported.
+        The number of lines is limited (see `BURST`), so no sender can fill a disk or delay the agent. Suppressed lines
+        are counted and reported.
         """
         if level > self._limit:
             return
@@ -152,7 +153,7 @@ class EventLog:
             self._write(Level.WARNING, "repeated", "{what} … repeated {count} times", fields)
 
     def _may_write(self, event: str) -> bool:
-        """Return whether there is room for one more line of an event, by their number and by all bytes."""
+        """Return whether the limits of lines per event and of bytes permit one more line."""
         now = self._clock()
         passed = max(0.0, now - self._bytes_at)
         self._bytes = min(BYTES_AT_ONCE, self._bytes + passed * self._bytes_per_second)
@@ -166,7 +167,7 @@ class EventLog:
         self._credit[event] = credit - 1, since
 
     def count(self, kind: str, text: str, /, **fields: Value) -> None:
-        """Count a fault of input; write it the first time that its `kind` occurs."""
+        """Count a fault in input; write the first one of its `kind`."""
         self.counters[kind] += 1
         if kind not in self._seen:
             self._seen.add(kind)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which types a client was generated with, by their hashes: what its manifest says, handed to the ROS side."""
+"""The type hashes that clients were generated with, from their manifests."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ class Manifests:
     """Type hashes by client: its key (`0xA1B2C3D4`) or the full name of its node (`/ns/node`)."""
 
     def __init__(self, hashes: Mapping[str, Mapping[str, str]] | None = None) -> None:
-        """Take for each client its types as `pkg/msg/Type`, with their hashes (RIHS01_…, REP-2011)."""
+        """Take the types of each client as `pkg/msg/Type`, with their hashes (RIHS01_…, REP-2011)."""
         self._hashes = {_client(name): types for name, types in (hashes or {}).items()}
 
     def hash_of(self, key: bytes, node: str) -> HashOf | None:
-        """Return the source of the hashes of a client's types; None without a manifest of the client.
+        """Return a function from types to hashes for a client; None if it has no manifest.
 
-        `node` is the name of its node, `node` or `namespace/node`; a manifest for the key goes before one for it.
+        `node` is the name of its node, `node` or `namespace/node`. A manifest for the key precedes one for the node.
         """
         types = self._hashes.get(key.hex())
         if types is None:

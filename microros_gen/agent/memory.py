@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The memory of the agent's process: held below its limit by what is seen of it, whatever the budgets have counted.
+"""The memory of the agent's process, measured and kept below its limit, independent of the budgets.
 
-Budgets bound what the agent knows of. What it does not see (samples that nobody reads, in DDS; gaps on the heap) is in
-what the system says. Near the limit nothing more is made. Beyond that the client that takes most is sent away; and what
-is freed is returned to the system, as the C library keeps it otherwise.
+Budgets bound the memory that the agent knows of. The measured memory also includes the rest: unread samples in DDS, and
+gaps on the heap. Near the limit, no objects are created. Above it, the client with the most memory is removed. Freed
+memory is returned to the system, since the C library would keep it.
 """
 
 from __future__ import annotations
@@ -18,18 +18,18 @@ from microros_gen.agent.clients import Client, ClientTable
 from microros_gen.agent.log import EventLog, Level
 
 TIGHT_PART, OVER_PART = 0.75, 0.85
-"""Of the limit: from here on nothing more is made, and from here on clients are sent away."""
+"""Fractions of the limit from which no objects are created, and from which clients are removed."""
 FREED_BYTES = 8 << 20
-"""When clients gave back so much, the system gets it."""
+"""Bytes that clients must have freed before memory is returned to the system."""
 TRIM_EVERY_S = 2.0
-"""Least time between two times that this is done: it takes milliseconds."""
+"""Minimum seconds between two such returns, which take milliseconds."""
 UNREAD_BYTES = 4_096
-"""What a sample is taken to have that waits in DDS and that nobody saw."""
+"""Assumed bytes of an unread sample in DDS."""
 _STATM = Path("/proc/self/statm")
 
 
 class Pressure(IntEnum):
-    """How much of the memory is in use."""
+    """How close the memory is to its limit."""
 
     LOW = 0
     TIGHT = 1
@@ -37,12 +37,12 @@ class Pressure(IntEnum):
 
 
 class MemoryGuard:
-    """Checks the memory of this process some ten times a second."""
+    """Watch over the memory of this process, checked some ten times a second."""
 
     def __init__(
         self, limit: int, used: Callable[[], int] | None = None, trim: Callable[[], object] | None = None
     ) -> None:
-        """Use `used`, which returns the used bytes, and `trim`, which returns free memory to the system."""
+        """Keep memory below `limit` bytes. `used` returns the used bytes, `trim` returns free memory to the system."""
         self.limit = limit
         self._used = used or resident_bytes
         self._trim = trim or (lambda: None)
@@ -50,7 +50,7 @@ class MemoryGuard:
         self._most_held = 0
 
     def look(self, held: int, now: float) -> Pressure:
-        """Return the pressure, after returning free memory where that helps; clients hold `held` bytes."""
+        """Return the pressure, after returning free memory if that helps; clients hold `held` bytes."""
         self._most_held = max(self._most_held, held)
         pressure = self._pressure()
         freed = self._most_held - held >= FREED_BYTES
@@ -73,7 +73,7 @@ def resident_bytes() -> int:
 
 
 def heaviest(clients: Iterable[Client]) -> Client | None:
-    """Return the client with the most memory, by estimate; None without clients."""
+    """Return the client with the most memory by estimate, or None without clients."""
     return max(clients, key=weight_of, default=None)
 
 
@@ -84,7 +84,7 @@ def weight_of(client: Client) -> int:
 
 
 class Relief:
-    """Relieves the memory: stops creating objects, and disconnects the client with the most memory."""
+    """Relief of memory pressure: stops the creation of objects and disconnects the client with the most memory."""
 
     def __init__(
         self,
@@ -94,7 +94,7 @@ class Relief:
         dismiss: Callable[[Client, str], None],
         log: EventLog,
     ) -> None:
-        """Close `gate` while nothing may be created; without a guard nothing is ever done."""
+        """Close `gate` while no objects may be created; without a guard, do nothing."""
         self._guard = guard
         self._clients = clients
         self._gate = gate

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Clients that opened a session and said nothing in it yet, and which of them is replaced when no place is free.
+"""Clients that opened a session and sent nothing in it yet, and which client is replaced when no place is free.
 
-Over UDP anybody can send a CREATE_CLIENT under a forged address, and DDS-XRCE has no cookie. So what such a datagram
-leaves is one small record here, and not a client: no streams, no objects, no place in the ROS graph, no place that a
-client in session needs. The first message of the session that comes from the same address makes a client of it.
+Over UDP anyone can send a CREATE_CLIENT with a forged address, and DDS-XRCE has no handshake to prove an address. Such
+a datagram therefore creates only a small record here, and no client: no streams, no objects, nothing in the ROS graph,
+and no place that a client in session needs. The first message of the session from the same address makes it a client.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ from microros_gen.agent.wire.session_messages import CreateClient
 from microros_gen.records import dataclass
 
 HARD_LIVELINESS = "uxr_hl"
-"""Property by which a client asks for its own time-out, in ms."""
+"""Property with which a client requests its own time-out, in ms."""
 EMPTY_S = 1.0
-"""A client that has no object, and was silent for this long, gives its place to another."""
+"""Seconds of silence after which a client without objects may be replaced."""
 
 
 @dataclass(frozen=True)
@@ -76,10 +76,10 @@ class Newcomers:
 
 
 def who_gives_way(clients: Iterable[Client], now: float, silent_s: float) -> Client | None:
-    """Return the client whose place another may have; None: all of them are heard.
+    """Return the client to replace, or None if all are active.
 
-    First one without an object that says nothing, then one that left the ROS graph, then one that was silent for
-    `silent_s`; of each the one that was heard least recently.
+    First a silent one without objects, then one that left the ROS graph, then one that was silent for `silent_s`
+    seconds; among equals the one with the oldest last message.
     """
     found: tuple[int, float, Client] | None = None
     for client in clients:
@@ -98,7 +98,7 @@ def who_gives_way(clients: Iterable[Client], now: float, silent_s: float) -> Cli
 
 
 class Strangers:
-    """Senders of samples without a session, with the time of their first one; at most `limit`, the newest."""
+    """Senders of samples without a session, with the time of their first sample: the newest `limit` ones."""
 
     def __init__(self, listen_s: float, limit: int) -> None:
         self._listen_s = listen_s
@@ -110,7 +110,7 @@ class Strangers:
         self._since.pop((transport, address), None)
 
     def listened_to(self, transport: Transport, address: Hashable, now: float) -> bool:
-        """Return whether a sender was observed for long enough."""
+        """Return whether a sender was observed for long enough to be adopted."""
         since = self._since.setdefault((transport, address), now)
         if len(self._since) > self._limit:
             del self._since[next(iter(self._since))]

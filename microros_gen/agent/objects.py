@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The objects of one client: creation modes, references between objects, and what they are in ROS 2.
+"""The objects of one client: creation modes, references between objects, and their ROS 2 entities.
 
-An object is made from others: a writer from its publisher and, in binary form, its topic; those from their
-participant. When one is replaced by something else, what was made from it goes with it. When a participant or
-publisher is deleted, what it contains goes too, and a later DELETE of such a part still succeeds, in whatever
-order a client cleans up. A writer outlives the DELETE of its topic: micro-ROS deletes the topic first.
+An object is created from others: a writer from its publisher and, in binary form, its topic; those from their
+participant. If an object is replaced by a different one, the objects created from it are removed. If a participant or
+publisher is deleted, its contents are removed too; a later DELETE of such a part still succeeds, so a client may clean
+up in any order. A writer outlives the DELETE of its topic, since micro-ROS deletes the topic first.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ _SERVED = frozenset(
     )
 )
 LARGEST_REPRESENTATION = 65_000
-"""Bytes of a representation that an INFO has room for, besides what else it says; a longer one is not kept."""
+"""Maximum bytes of a representation that fit into an INFO; a longer one is not stored."""
 _CONTAINER = {
     ObjectKind.TOPIC: ObjectKind.PARTICIPANT,
     ObjectKind.PUBLISHER: ObjectKind.PARTICIPANT,
@@ -63,12 +63,12 @@ _CONTAINER = {
 
 
 Heritage = dict[int, tuple[object, list[bytes]]]
-"""Samples that readers of an earlier session with the same key had not got, by object id, and what those were."""
+"""Undelivered samples of an earlier session with the same key: by reader id, its description and the samples."""
 
 
 @dataclass(frozen=True)
 class _Wanted:
-    """An object that is to be created, and what to do if one with its id exists."""
+    """An object to create, and what to do if one with its id exists."""
 
     id: int
     parent: int
@@ -76,13 +76,13 @@ class _Wanted:
     reuse: bool
     replace: bool
     representation: int = 0
-    """Bytes of what describes it."""
+    """Bytes of its representation."""
     within: Entity | None = None
-    """The application that it is a part of."""
+    """The application that contains it."""
 
 
 class ObjectTree:
-    """Objects by id, in the order of their creation, which has sources before what is made from them."""
+    """Objects by id, in the order of their creation: sources precede the objects created from them."""
 
     def __init__(self, home: Home, references: References, maximum: int) -> None:
         self._home = home
@@ -92,7 +92,7 @@ class ObjectTree:
         self._gone_with_container: dict[int, None] = {}
         self._heritage: Heritage = {}
         self.publish: dict[int, Publish] = {}
-        """How to publish for each data writer, by object id."""
+        """The publish function of each data writer, by object id."""
 
     def __len__(self) -> int:
         return len(self._objects)
@@ -101,7 +101,7 @@ class ObjectTree:
         return iter(self._objects.values())
 
     def inherit(self, heritage: Heritage) -> None:
-        """Take over undelivered samples of an earlier session, as far as there is room."""
+        """Take over undelivered samples of an earlier session, as far as the budget permits."""
         self._heritage = {
             object_id: (about, samples)
             for object_id, (about, samples) in heritage.items()
