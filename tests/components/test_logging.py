@@ -57,11 +57,17 @@ def test_an_image_has_floating_point_only_where_it_is_selected(verbose: Path, tm
     folder = Path("src/logging/rcutils_format.c")
     needed = {}
     for name, out in (("without", verbose), ("with", chosen)):
-        made = tmp_path / f"{name}.o"
+        compiled = tmp_path / f"{name}.o"
         run(
-            "arm-none-eabi-gcc", "-mcpu=cortex-m0plus", "-c", f"-I{out / 'include'}", out / folder, "-o", made
+            "arm-none-eabi-gcc",
+            "-mcpu=cortex-m0plus",
+            "-c",
+            f"-I{out / 'include'}",
+            out / folder,
+            "-o",
+            compiled,
         )
-        needed[name] = set(run("arm-none-eabi-nm", "-u", made).split()) - {"U"}
+        needed[name] = set(run("arm-none-eabi-nm", "-u", compiled).split()) - {"U"}
     assert needed["with"] - needed["without"] == {"microros_format_floating"}
     assert not [name for name in needed["without"] if re.match("__aeabi_[df]", name)]
     assert not (verbose / "src/logging_float").exists()
