@@ -40,8 +40,8 @@ def relay(image_port: Relay) -> Iterator[Relay]:
 
 @pytest.fixture(scope="session")
 def profile_image(images: Images, image_port: Relay) -> Image:
-    """`microros-gen build --profile pure_sender`, with sanitizers."""
-    return images.build(image_port.port, "", "gcc")
+    """The profile alone, as `microros-gen generate --profile pure_sender` writes it, with sanitizers."""
+    return images.build(image_port.port)
 
 
 # These are for live.c, which is told where its agent is.

@@ -94,7 +94,7 @@ def test_timers_follow_the_clock(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, tmp_path: Path
 ) -> None:
     """It stops, jumps forward and back, runs four times as fast and four times as slow as the clock on the wall."""
-    image = images.build(image_port.port, APPLICATION, "gcc")
+    image = images.build(image_port.port, APPLICATION)
     program = image.application(
         C_FILES / "simulation.c", tmp_path / "simulation", "-std=c99", "-Wall", "-Werror"
     )

@@ -57,7 +57,7 @@ def built(
     """Build an image for each way, in a separate namespace; a full stream is waited for, so nothing is lost."""
     head = "version: 1\nprofiles: [pure_sender]\non_full: block 2 s\npools: {history: 16}\nnodes:\n"
     texts = {name: f"{head}{WAYS[name][0].format(name=name)}{WAYS[name][1]}" for name in names}
-    return {name: images.build(port, text, "gcc", flags) for name, text in texts.items()}
+    return {name: images.build(port, text, flags=flags) for name, text in texts.items()}
 
 
 def files_of(found: Mapping[str, Image]) -> list[str]:

@@ -41,7 +41,7 @@ def test_declared_timers_publish_and_callbacks_take(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer
 ) -> None:
     """Two executors: one publishes and hears orders, the other asks and answers itself."""
-    image = images.build(image_port.port, APPLICATION, "gcc", (*SANITIZE, *WARNINGS))
+    image = images.build(image_port.port, APPLICATION, flags=(*SANITIZE, *WARNINGS))
     observer.subscribe(COUNT, "std_msgs/msg/UInt32")
     observer.ask(do="publish", topic=ORDER, type="std_msgs/msg/Int32", values=[])
     end = deadline(40)

@@ -11,7 +11,7 @@ import pytest
 
 from tests.support.agent.observer import Observer
 from tests.support.agent.process import AgentProcess
-from tests.support.e2e.images import C_FILES, SANITIZE, Images
+from tests.support.e2e.images import C_FILES, Images
 from tests.support.e2e.relay import Fault, Relay, no_fault
 from tests.support.patience import deadline, seconds
 
@@ -63,7 +63,7 @@ def test_large_messages_arrive_whole(
     fault: Fault,
     chunks: int,
 ) -> None:
-    image = images.build(1, APPLICATION.format(mtu=mtu, name=name), "gcc", SANITIZE)
+    image = images.build(1, APPLICATION.format(mtu=mtu, name=name))
     program = image.application(
         C_FILES / "large.c", image.out.parent / "large", "-std=c99", f'-DLARGE_NAMESPACE="/{name}"'
     )

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.e2e.images import C_FILES, SANITIZE, Images, ends_well, started
+from tests.support.e2e.images import C_FILES, Images, ends_well, started
 from tests.support.e2e.logger_peer import MODEL, LoggerPeer, logger_peer
 from tests.support.e2e.relay import Relay
 from tests.support.e2e.serving import await_line
@@ -41,7 +41,7 @@ def both_get(peer: LoggerPeer, *names: str) -> list[list[object]]:
 def test_as_a_node_of_rclpy(
     images: Images, image_port: Relay, agent: object, domain: int, tmp_path: Path
 ) -> None:
-    image = images.build(image_port.port, APPLICATION, "gcc", SANITIZE)
+    image = images.build(image_port.port, APPLICATION)
     program = image.application(C_FILES / "levels.c", tmp_path / "levels", *STRICT)
     with logger_peer(domain) as peer, started(program) as process:
         await_line(process, "ready")

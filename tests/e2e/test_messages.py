@@ -57,7 +57,7 @@ FRAMES = {"joints": "base_link", "arm": "arm"}
 def test_rclpy_gets_what_sources_write(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, flags: tuple[str, ...]
 ) -> None:
-    image = images.build(image_port.port, APPLICATION, "gcc", flags)
+    image = images.build(image_port.port, APPLICATION, flags=flags)
     program = image.application(
         C_FILES / "messages.c", image.out.parent / "messages", "-std=c99", "-Wall", "-Wextra", "-Werror"
     )
@@ -92,7 +92,7 @@ limits: {"*": {string: 17, sequence: 4}}
 def test_strings_of_services_are_exchanged_with_rclpy(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, flags: tuple[str, ...]
 ) -> None:
-    image = images.build(image_port.port, SERVICES, "gcc", flags)
+    image = images.build(image_port.port, SERVICES, flags=flags)
     program = image.application(
         C_FILES / "names.c", image.out.parent / "names", "-std=c99", "-Wall", "-Wextra", "-Werror"
     )

@@ -47,7 +47,7 @@ def test_the_package_does_not_know_it() -> None:
 def test_rclpy_reads_what_it_publishes(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, tmp_path: Path
 ) -> None:
-    image = images.build(image_port.port, APPLICATION, "gcc")
+    image = images.build(image_port.port, APPLICATION)
     example = image.out / "examples" / "pure_sender" / "main.c"
     program = image.application(example, tmp_path / "board", f"-DEXAMPLE_SAMPLES={TICKS}u")
     observer.subscribe("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray")

@@ -96,7 +96,7 @@ def parameters(*pairs: tuple[str, int, Any]) -> list[dict[str, Any]]:
 
 @pytest.fixture(scope="module")
 def program(images: Images, image_port: Relay, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    image = images.build(image_port.port, APPLICATION, "gcc", SANITIZE)
+    image = images.build(image_port.port, APPLICATION)
     path = tmp_path_factory.mktemp("requests") / "requests"
     return image.application(
         C_FILES / "parameter_requests.c", path, "-std=c99", "-Wall", "-Wextra", "-Werror"
@@ -268,7 +268,7 @@ def test_the_struct_of_declared_values(
     images: Images, image_port: Relay, tmp_path: Path, flags: tuple[str, ...]
 ) -> None:
     """It has every value, says what changed, and keeps what was deleted."""
-    image = images.build(image_port.port, DECLARED, "gcc", (*SANITIZE, *flags))
+    image = images.build(image_port.port, DECLARED, flags=(*SANITIZE, *flags))
     program = image.application(
         C_FILES / "parameter_values.c", tmp_path / "values", "-std=c99", "-Wall", "-Wextra", "-Werror"
     )

@@ -50,7 +50,7 @@ BOTH = (DEVICE, MODEL)
 
 
 def program_of(images: Images, port: int, folder: Path, *flags: str, application: str = APPLICATION) -> Path:
-    image = images.build(port, application, "gcc", (*SANITIZE, *flags))
+    image = images.build(port, application, flags=(*SANITIZE, *flags))
     return image.application(C_FILES / "parameters.c", folder / "parameters", *STRICT)
 
 

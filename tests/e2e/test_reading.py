@@ -53,7 +53,7 @@ def test_rclpy_publishes_and_the_client_takes(
 ) -> None:
     """Every reliable sample once and in order; a word above its limit is refused in words; the graph shows the node."""
     flags = ("-m32", *SANITIZE) if entities == "xml" else SANITIZE
-    image = images.build(image_port.port, f"{APPLICATION}entities: {entities}\n", "gcc", flags)
+    image = images.build(image_port.port, f"{APPLICATION}entities: {entities}\n", flags=flags)
     program = image.application(C_FILES / "listen.c", tmp_path / "listen", "-std=c99", "-Wall", "-Werror")
     publish(observer, "/numbers", "std_msgs/msg/Int32")
     publish(observer, "/words", "std_msgs/msg/String")
@@ -91,7 +91,7 @@ def test_samples_of_any_size_share_the_bytes_of_a_queue(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, tmp_path: Path
 ) -> None:
     """rclpy writes faster than the program takes; the large ones come in fragments. Each arrives once, in order."""
-    image = images.build(image_port.port, SHARED, "gcc", ("-m32", *SANITIZE))
+    image = images.build(image_port.port, SHARED, flags=("-m32", *SANITIZE))
     program = image.application(C_FILES / "words.c", tmp_path / "words", "-std=c99", "-Wall", "-Werror")
     chance = random.Random(1)
     sizes = [chance.choice((1, 20, 400, 1000, chance.randrange(1, 1001))) for _ in range(120)]

@@ -12,7 +12,7 @@ import pytest
 
 from tests.support.agent.observer import Observer
 from tests.support.agent.process import running_agent
-from tests.support.e2e.images import C_FILES, SANITIZE, Images, ends_well, started
+from tests.support.e2e.images import C_FILES, Images, ends_well, started
 from tests.support.e2e.relay import Relay
 from tests.support.e2e.serving import await_line
 from tests.support.patience import deadline
@@ -31,7 +31,7 @@ INFO, WARN, ERROR = 20, 30, 40
 
 
 def program_of(images: Images, port: int, folder: Path) -> Path:
-    image = images.build(port, APPLICATION, "gcc", SANITIZE)
+    image = images.build(port, APPLICATION)
     return image.application(C_FILES / "logs.c", folder / "logs", *STRICT)
 
 

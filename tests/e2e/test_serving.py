@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import time
@@ -84,7 +85,7 @@ def test_rclpy_calls_a_service(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, tmp_path: Path, entities: str
 ) -> None:
     flags = ("-m32", *SANITIZE) if entities == "xml" else SANITIZE
-    image = images.build(image_port.port, f"{SERVER}entities: {entities}\n", "gcc", flags)
+    image = images.build(image_port.port, f"{SERVER}entities: {entities}\n", flags=flags)
     call(image.application(C_FILES / "serve.c", tmp_path / "serve", *STRICT), observer)
 
 
@@ -93,7 +94,7 @@ def test_a_client_calls_rclpy(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, tmp_path: Path, entities: str
 ) -> None:
     flags = ("-m32", *SANITIZE) if entities == "binary" else SANITIZE
-    image = images.build(image_port.port, f"{ASKER}entities: {entities}\n", "gcc", flags)
+    image = images.build(image_port.port, f"{ASKER}entities: {entities}\n", flags=flags)
     answer(image.application(C_FILES / "ask.c", tmp_path / "ask", *STRICT), observer)
 
 
@@ -147,6 +148,7 @@ def test_the_example_asks_itself(images: Images, image_port: Relay, agent: Agent
             if lines == wanted:
                 break
     assert lines == wanted
+    tool("build", "-c", image.out.parent / "microros.yaml", "-o", image.out)
     found = tool("size", image.out, "--format", "json")
     entities = {(e["kind"], e["name"]): e for e in json.loads(found)["entities"]}
     queues = {
@@ -163,9 +165,9 @@ def test_the_example_asks_itself(images: Images, image_port: Relay, agent: Agent
     assert "/left/empty" not in output
 
 
-def tool(command: str, out: Path, *arguments: str) -> str:
-    done = subprocess.run(
-        [sys.executable, "-m", "microros_gen", command, str(out), *arguments], capture_output=True, text=True
-    )
+def tool(*arguments: str | Path) -> str:
+    command = [sys.executable, "-m", "microros_gen", *map(str, arguments)]
+    environment = {**os.environ, "CFLAGS": "-O0"}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     return done.stdout

@@ -10,7 +10,7 @@ import pytest
 
 from tests.support.agent.observer import Observer
 from tests.support.agent.process import running_agent
-from tests.support.e2e.images import C_FILES, SANITIZE, Images, run
+from tests.support.e2e.images import C_FILES, Images, run
 from tests.support.e2e.relay import Relay
 from tests.support.patience import deadline
 
@@ -34,7 +34,7 @@ def test_samples_go_on_over_sleeps(
     images: Images, relay: Relay, observer: Observer, domain: int, tmp_path: Path
 ) -> None:
     """In order in both directions, in one session in which everything was created once."""
-    image = images.build(relay.port, APPLICATION, "gcc", SANITIZE)
+    image = images.build(relay.port, APPLICATION)
     program = image.application(C_FILES / "sleep.c", tmp_path / "sleep", "-std=c99", "-Wall", "-Werror")
     memory = tmp_path / "memory"
     observer.subscribe("/sleep_out", "std_msgs/msg/Int32")

@@ -169,4 +169,4 @@ def test_no_agent(tmp_path: Path) -> None:
     assert done.returncode == 2
     assert done.stdout == f"no transport to {DISCOVERY_GROUP}:{group.port}\n"
     assert len(set(group.questions)) == 1
-    assert 2 <= len(group.questions) <= 8, "at 0, 40, 120 and 280 ms, over one or two interfaces"
+    assert 2 <= len(group.questions) <= 10, "at 0, 40, 80, 160 and 320 ms, over one or two interfaces"
