@@ -18,7 +18,8 @@ WORD = re.compile(r"[A-Za-z_]\w*")
 STATIC = re.compile(r"^static\b[^;={]*?(\w+)\s*(?:\[[^;={]*)?[(;={]", re.MULTILINE)
 MACRO = re.compile(r"^\s*#\s*define\s+(\w+)", re.MULTILINE)
 TYPE = re.compile(
-    r"^(?:typedef\b[^;{]*?(\w+)\s*;|\}\s*(\w+)\s*;|(?:typedef\s+)?(?:struct|union|enum)\s+(\w+))",
+    r"^(?:typedef\b[^;{]*?(\w+)\s*;|typedef\b[^;{]*?\(\*\s*(\w+)\)|\}\s*(\w+)\s*;"
+    r"|(?:typedef\s+)?(?:struct|union|enum)\s+(\w+))",
     re.MULTILINE,
 )
 ENUMERATION = re.compile(r"\benum\b[^;{]*\{([^}]*)\}")
