@@ -202,11 +202,14 @@ def test_exceeded_budgets_name_places_contributors_and_what_would_help(run: Runn
     limit = next(a for line, a in advice.items() if line.startswith("  sensor_msgs/msg/Imu: {"))
     change = "  sensor_msgs/msg/Imu: {header: {frame_id: {string: 16}}}"
     assert limit == {"change": change, "place": "instead of line 9", "saves": 48, "exact": True}
-    _what_is_advised_helps(run, folder, lines)
 
 
-def _what_is_advised_helps(run: Runner, folder: Path, before: Any) -> None:
+@pytest.mark.system
+def test_what_is_advised_helps(run: Runner, folder: Path) -> None:
     """Follow the advice and measure: each promised byte comes."""
+    put(folder, "ram_budget: 1200, flash_budget: 10 KiB, stack: 512")
+    assert run("build", "-o", "out").status == 1
+    before = {line["key"]: line for line in json.loads(run("size", "out", "--format", "json").out)["budgets"]}
     text = APPLICATION.replace("frame_id: 64", "frame_id: 16") + "pools: {history: 3}\nerrors: code\n"
     (folder / "microros.yaml").write_text(f"{text}memory: {{ram_budget: 16 KiB, flash_budget: 64 KiB}}\n")
     assert run("build", "-o", "out").status == 0

@@ -11,7 +11,7 @@ from urllib.parse import unquote, urlsplit
 
 import pytest
 
-pytestmark = pytest.mark.builds
+pytestmark = [pytest.mark.builds, pytest.mark.system]
 
 _TAGS = """
 html head meta title link script body nav div section article main header footer form label input button a p span ul ol

@@ -109,6 +109,11 @@ VARIANTS = {
     "reader-preconfigured-ping": (changed(ONLY_READER, creation__entities="preconfigured"), "ping"),
     "reader-reference-ping": (changed(ONLY_READER, creation__entities="reference"), "ping"),
 }
+QUICK = (
+    *("pool-ping", "declared-acknack", "best-effort-none", "fragments-acknack"),
+    *("creation-none", "reader-ping", "reader-only-none", "reader-fragments-xml-ping"),
+)
+"""Variants whose symbols are looked at in `make test`: each kind of stream, of liveliness and of endpoint."""
 FORBIDDEN = re.compile(
     r"\b(malloc|calloc|realloc|free|\w*printf|puts|fputs|fwrite|strtol|strdup|abort|exit|__assert\w*)$"
 )
@@ -205,8 +210,11 @@ def _local(objects: tuple[Path, ...]) -> set[str]:
     return {line.split()[-1] for line in out.splitlines() if " t " in line}
 
 
-@pytest.mark.parametrize(("plan", "liveliness"), VARIANTS.values(), ids=VARIANTS.keys())
-def test_no_symbol_that_is_not_selected(plan: RuntimePlan, liveliness: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    "name", [name if name in QUICK else pytest.param(name, marks=pytest.mark.system) for name in VARIANTS]
+)
+def test_no_symbol_that_is_not_selected(name: str, tmp_path: Path) -> None:
+    plan, liveliness = VARIANTS[name]
     tree = render(tmp_path, plan, components(plan, liveliness))
     of_port = [source for source in tree.sources if source.parent.name.startswith("port_posix")]
     of_library = [source for source in tree.sources if source not in of_port]
