@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 from microros_gen.agent.representation.description import Durability, Qos, Service, Topic
 from microros_gen.agent.ros.bridge import BridgeError, HashOf, Reader, Replier, Requester, Writer
+from microros_gen.agent.ros.client_graph import GRAPH_TOPIC, ClientGraph
 from microros_gen.agent.ros.endpoints import RawReader, RawWriter, Ros
 from microros_gen.agent.ros.graph import Comparison, Endpoint, Events, TopicTypes
 from microros_gen.agent.ros.names import ros_service, ros_topic, ros_type
@@ -39,12 +40,14 @@ class RawNode:
         patience: Patience,
         domain: int,
         topics: TopicTypes,
+        graph: ClientGraph,
         leave: Callable[[], None],
     ) -> None:
         self._handles = handles
         self._handle = handle
         self._ros = ros
         self._hash_of = hash_of
+        self._graph = graph
         self._leave = leave
         self._events = Events(handles, handle, ros.wakeups, ros.libraries, comparison, topics, ros.report)
         self._patience = patience
@@ -60,7 +63,9 @@ class RawNode:
         )
 
     def create_reader(self, topic: Topic, qos: Qos) -> Reader:
-        """See Node."""
+        """See Node. The topic of micro-ROS's graph support is answered here: it is none of ROS 2."""
+        if topic.name == GRAPH_TOPIC:
+            return self._graph.read(topic, self.label, self._ros.wakeups, self._events.entities)
         handle, endpoints = self._create_topic("subscription", self._handles.Subscription, topic, qos)
         return self._attach(handle, endpoints, lambda: RawReader(handle, self._ros, self._events, endpoints))
 

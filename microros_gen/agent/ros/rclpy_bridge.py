@@ -25,6 +25,7 @@ from microros_gen.agent.ros.bridge import (
     OtherDomain,
     Source,
 )
+from microros_gen.agent.ros.client_graph import ClientGraph
 from microros_gen.agent.ros.endpoints import Ros
 from microros_gen.agent.ros.graph import Comparison, TopicTypes
 from microros_gen.agent.ros.names import ros_node
@@ -34,7 +35,7 @@ from microros_gen.agent.ros.wakeups import Watcher
 from microros_gen.agent.wire.constants import Status
 from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.ros.errors import RosUnusableError
-from microros_gen.ros.libraries import FAILURES, first_line
+from microros_gen.ros.libraries import FAILURES, Libraries, first_line
 from microros_gen.ros.loading import load_rclpy
 from microros_gen.ros.raw_types import MAXIMUM_HANDLES, raw_types
 
@@ -126,6 +127,7 @@ class RclpyBridge:
             self._patience,
             context.domain,
             context.topics,
+            context.graph,
             partial(self._leave, context),
         )
 
@@ -189,7 +191,7 @@ class RclpyBridge:
             raise BridgeError(f"domain {domain} does not exist (0 to {MAXIMUM_DOMAIN})", Status.INVALID_DATA)
         if domain not in self._contexts:
             self._make_room()
-            self._contexts[domain] = _Context(self._handles, domain)
+            self._contexts[domain] = _Context(self._handles, domain, self._ros.libraries)
         return self._contexts[domain]
 
     def _make_room(self) -> None:
@@ -205,7 +207,7 @@ class _Context:
     """A ROS context. Its own node, hidden by its name, keeps the DDS participant: that goes with the last node, and
     until others discover a new one some seconds pass, which a client that comes back would have to wait."""
 
-    def __init__(self, handles: Any, domain: int) -> None:
+    def __init__(self, handles: Any, domain: int, libraries: Libraries) -> None:
         context_class = importlib.import_module("rclpy.context").Context
         self._context = context_class()
         self.domain = domain
@@ -215,6 +217,7 @@ class _Context:
             self._context.init(args=[], domain_id=domain, initialize_logging=False)
             self.handle = self._context.handle
             self._own = handles.Node(f"{OWN_NODE}_{os.getpid()}", "/", self.handle, None, False, False)
+            self.graph = ClientGraph(handles, self.handle, self._own, libraries)
         except FAILURES as error:
             raise BridgeError(f"domain {domain}: {first_line(error)}") from error
 
