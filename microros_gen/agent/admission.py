@@ -395,4 +395,5 @@ class Admission:
         return who_gives_way(self._clients, now, self._limits.client_timeout_s * SILENT_PART)
 
     def _report(self, client: Client, event: str, text: str, **fields: str | int | float) -> None:
+        self._clients.watch(client, event)
         self._log.emit(Level.INFO, event, text, client=client.name, **fields)

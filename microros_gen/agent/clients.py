@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Hashable, Iterator
+from collections.abc import Callable, Hashable, Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -128,6 +128,8 @@ class ClientTable:
         self._by_address: dict[Hashable, Client] = {}
         self.at = self._by_address.get
         """Return the client at an address, or None."""
+        self.watch: Callable[[Client, str], object] = _unwatched
+        """Called for each event in the life of a client, with its name in the log."""
 
     def __len__(self) -> int:
         return len(self._by_key)
@@ -158,3 +160,7 @@ class ClientTable:
         self._by_key.pop(client.session.link.key, None)
         if self._by_address.get(client.address) is client:
             del self._by_address[client.address]
+
+
+def _unwatched(_client: Client, _event: str) -> None:
+    """Do nothing."""

@@ -29,6 +29,7 @@ from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.processing import Processor
 from microros_gen.agent.representation import References
 from microros_gen.agent.ros.bridge import Bridge
+from microros_gen.agent.states import ClientState, ClientStates
 from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.turns import Turns
 from microros_gen.agent.wire.constants import STREAM_RELIABLE
@@ -63,8 +64,11 @@ class Agent:
         processor: Callable[[], float] | None = None,
         memory: MemoryGuard | None = None,
         budgets: Budgets | None = None,
+        watched: bool = False,
     ) -> None:
         """Use parts that may be shared with the transports; by default the agent has its own.
+
+        `watched`: keep what `client_states` returns.
 
         `pool` is the budget of input, `fair` the order of clients, and `strangers` the account of senders without a
         session. `processor` returns the processor time of this thread in seconds.
@@ -92,6 +96,16 @@ class Agent:
         self._processor = Processor(
             self.clients, limits, self._operations, self._admission, self._turns, graph, self._refuse_of
         )
+
+        self._states: ClientStates | None = None
+        if watched:
+            self._states = ClientStates(self.clients, clock, limits.clients)
+            self.clients.watch = self._states.note
+            log.on_warning = self._states.fault
+
+    def client_states(self) -> tuple[ClientState, ...]:
+        """Return the view of all clients, also of those that have left; empty unless the agent is `watched`."""
+        return self._states.snapshot() if self._states is not None else ()
 
     @property
     def samples(self) -> int:
@@ -258,6 +272,8 @@ class Agent:
     def _refuse(self, error: Exception, data: bytes, address: Hashable, transport: Transport) -> None:
         if isinstance(error, MalformedError):
             self._payer.refused = self._payer is not self._strangers
+            if self._states is not None and (client := self.clients.at(address)) is not None:
+                self._states.fault(client.name, error.detail or error.kind)
             self._log.count(
                 error.kind,
                 WORDS.get(error.kind, "malformed message from {peer} ignored: {detail}"),

@@ -82,6 +82,8 @@ class EventLog:
         self._before: dict[str, _Repeated] = {}
         """The last warning of each event."""
         self.counters: Counter[str] = Counter()
+        self.on_warning: Callable[[str, str], None] | None = None
+        """Called with the key of a client and a text for each warning about it, whether it is written or not."""
 
     @property
     def as_json(self) -> bool:
@@ -100,6 +102,8 @@ class EventLog:
         """
         if level > self._limit:
             return
+        if level is Level.WARNING and self.on_warning is not None:
+            self._pass_on(text, fields)
         if level > Level.INFO:
             self._write(level, event, text, fields)
             return
@@ -178,6 +182,14 @@ class EventLog:
                 kind=kind,
                 **fields,
             )
+        elif self.on_warning is not None:
+            self._pass_on(text, {"kind": kind, **fields})
+
+    def _pass_on(self, text: str, fields: Mapping[str, Json]) -> None:
+        client = fields.get("client")
+        if self.on_warning is not None and isinstance(client, str):
+            short = {key: _short(value) if isinstance(value, str) else value for key, value in fields.items()}
+            self.on_warning(client, printable(text.format(**short)))
 
     def line(self, text: str) -> None:
         """Write one line at once."""

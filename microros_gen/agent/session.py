@@ -39,6 +39,7 @@ class Session:
         self._limits = limits
         self._holder = holder or Holder()
         self._output = output or Holder()
+        self._lost_before = self._resent_before = 0
         self._open(link)
 
     def _open(self, link: Link) -> None:
@@ -53,6 +54,7 @@ class Session:
 
     def reset(self, link: Link | None = None) -> None:
         """Restart all streams at 0, after a RESET or a new CREATE_CLIENT (then with its new `link`)."""
+        self._lost_before, self._resent_before = self.lost, self.resent
         self._open(link or self.link)
 
     def incoming(self, stream: int, sequence: int, data: bytes) -> tuple[bytes, ...]:
@@ -76,6 +78,26 @@ class Session:
         if not reliable.stopped:
             self._drop_unfinished(heartbeat.stream)  # dropped by the client
         return ready
+
+    @property
+    def lost(self) -> int:
+        """Messages from the client that did not arrive in time, over all resets."""
+        best_effort = sum(stream.lost for stream in self._best_effort_in.values())
+        return self._lost_before + best_effort + sum(stream.lost for stream in self._reliable_in.values())
+
+    @property
+    def resent(self) -> int:
+        """Messages that were sent to the client again, over all resets."""
+        return self._resent_before + sum(stream.resent for stream in self._reliable_out())
+
+    @property
+    def round_trip_s(self) -> float | None:
+        """Seconds from a reliable message to its acknowledgement, as last measured; None: never."""
+        known = [stream.round_trip_s for stream in self._reliable_out()]
+        return max((seconds for seconds in known if seconds is not None), default=None)
+
+    def _reliable_out(self) -> list[ReliableOut]:
+        return [output for output in self._outputs.values() if isinstance(output, ReliableOut)]
 
     @property
     def held(self) -> int:
@@ -193,13 +215,11 @@ class Session:
 
     def undelivered(self) -> list[Kept]:
         """Return the messages on reliable streams that are sent or waiting, and not acknowledged."""
-        streams = (output for output in self._outputs.values() if isinstance(output, ReliableOut))
-        return [kept for stream in streams for kept in stream.undelivered()]
+        return [kept for stream in self._reliable_out() for kept in stream.undelivered()]
 
     def repeated_part(self) -> float:
         """Return which part of the reliable messages to the client are repetitions, by the stream with most of them."""
-        streams = (output for output in self._outputs.values() if isinstance(output, ReliableOut))
-        return max((stream.repeated_part() for stream in streams), default=0.0)
+        return max((stream.repeated_part() for stream in self._reliable_out()), default=0.0)
 
     def probe(self) -> bytes:
         """Return a message that makes a client answer: HEARTBEAT on a reliable stream, else GET_INFO."""

@@ -18,6 +18,8 @@ class BestEffortIn:
 
     def __init__(self) -> None:
         self._last: int | None = None
+        self.lost = 0
+        """Messages that a later one overtook."""
 
     def accept(self, sequence: int) -> bool:
         """Return whether the message is newer and has to be processed."""
@@ -25,6 +27,7 @@ class BestEffortIn:
             ahead = (sequence - self._last) & 0xFFFF
             if ahead == 0 or ahead >= HALF:
                 return False
+            self.lost += ahead - 1
         self._last = sequence
         return True
 
@@ -38,6 +41,8 @@ class ReliableIn:
     def __init__(self, hold_bytes: int, holder: Holder | None = None) -> None:
         self._holder = holder or Holder()
         self.next = 0
+        self.lost = 0
+        """Messages that the sender gave up before they arrived."""
         self._announced = 0  # messages from `next` on that are known to exist
         self._held: dict[int, bytes] = {}
         self._held_bytes = 0
@@ -121,7 +126,9 @@ class ReliableIn:
 
     def _skip_to(self, first: int, skip: int) -> None:
         self._stopped = False
-        for sequence in [s for s in self._held if (s - self.next) & 0xFFFF < skip]:
+        overtaken = [s for s in self._held if (s - self.next) & 0xFFFF < skip]
+        self.lost += skip - len(overtaken)
+        for sequence in overtaken:
             self._count(-len(self._held.pop(sequence)))
         self.next = first
         self._announced = max(0, self._announced - skip)

@@ -115,6 +115,8 @@ class ReliableOut:
         """Messages that were sent, and of recent ones how many again."""
         self._recent = 0
         self._again = 0
+        self.resent = 0
+        """Messages that were sent again, of all."""
         self._repeated: dict[int, float] = {}
         """When messages of the window were sent again."""
 
@@ -204,7 +206,13 @@ class ReliableOut:
             repeated[sequence] = before
         self._repeated = repeated
         self._again += len(again)
+        self.resent += len(again)
         return again
+
+    @property
+    def round_trip_s(self) -> float | None:
+        """Seconds from a message to its acknowledgement, as last measured; None: never."""
+        return self._round_trip or None
 
     def repeated_part(self) -> float:
         """Return which part of the recent messages was sent again, 0 to 1; 0 for few messages."""

@@ -249,6 +249,7 @@ class Bench:
         references: References | None = None,
         preconfigured: Preconfigured | None = None,
         manifests: Manifests | None = None,
+        watched: bool = False,
     ) -> None:
         self.now = 1000.0
         self.bridge = FakeBridge()
@@ -264,6 +265,7 @@ class Bench:
             clock=lambda: self.now,
             processor=lambda: self.now,
             manifests=manifests,
+            watched=watched,
         )
 
     def say(self, data: bytes | str, address: Hashable = "a") -> list[str]:

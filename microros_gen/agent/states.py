@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The agent's view of its clients: who is connected, silent or gone, what was lost, and how often they came again.
+
+`ClientStates` records what happens to clients; a datagram costs nothing here. It keeps one record for each client in
+session, and those of the last clients that left, as many as the agent may have clients.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass as mutable
+from enum import IntEnum
+
+from microros_gen.agent.clients import Client, ClientTable
+from microros_gen.agent.wire.constants import ObjectKind
+from microros_gen.records import dataclass
+
+
+class Presence(IntEnum):
+    """Whether a client is there; the numbers are those of microros_agent_msgs/msg/ClientState."""
+
+    CONNECTED = 0
+    SILENT = 1
+    GONE = 2
+
+
+@dataclass(frozen=True)
+class ClientState:
+    """One client at one moment. Counts are those since the agent started, over all sessions with the same key."""
+
+    key: str
+    """Eight hexadecimal digits, as in the log."""
+    presence: Presence
+    """SILENT: not heard for its time-out, so its entities are out of the ROS graph."""
+    transport: str
+    address: str
+    nodes: tuple[str, ...]
+    """Fully qualified names; the last known ones of a client that is silent or gone."""
+    silent_s: float
+    """Seconds since its last message."""
+    sessions: int
+    """Sessions that it opened, or that were adopted. A board that restarts opens one."""
+    reconnects: int
+    """Sessions after the first one."""
+    silences: int
+    """How often it fell silent."""
+    round_trip_s: float | None
+    """From a reliable message to its acknowledgement, as last measured; None: never."""
+    lost: int
+    """Messages from the client that did not arrive, came after later ones (best effort) or were given up (reliable)."""
+    resent: int
+    """Reliable messages that were sent to it again."""
+    last_error: str
+    """The last warning about it; empty: none."""
+
+
+@mutable
+class _Record:
+    """What is known of a key beyond its current session."""
+
+    client: Client
+    presence: Presence = Presence.CONNECTED
+    sessions: int = 0
+    silences: int = 0
+    lost: int = 0
+    resent: int = 0
+    nodes: tuple[str, ...] = ()
+    round_trip_s: float | None = None
+    last_error: str = ""
+
+
+_SESSIONS = ("client_connected", "client_again", "client_adopted")
+"""Events that begin a session."""
+
+
+class ClientStates:
+    """Records of clients by key."""
+
+    def __init__(self, clients: ClientTable, clock: Callable[[], float], most: int) -> None:
+        """Keep the records of `most` clients that are gone. `clock`: that of the agent, in seconds."""
+        self._clients = clients
+        self._clock = clock
+        self._most = most
+        self._records: dict[str, _Record] = {}
+
+    def note(self, client: Client, event: str) -> None:
+        """Take note of an event of the log about a client's session."""
+        record = self._records.get(client.name)
+        if record is None:
+            record = self._records[client.name] = _Record(client)
+        if event in _SESSIONS:
+            self._begin(record, client)
+        elif event == "client_silent":
+            record.presence = Presence.SILENT
+            record.silences += 1
+        elif event == "client_back":
+            record.presence = Presence.CONNECTED
+        elif event == "client_gone" and record.client is client:
+            record.presence = Presence.GONE
+            self._forget_oldest()
+
+    def fault(self, key: str, reason: str) -> None:
+        """Take note of a warning about a client."""
+        record = self._records.get(key)
+        if record is not None:
+            record.last_error = reason
+
+    def snapshot(self) -> tuple[ClientState, ...]:
+        """Return the state of every client, in the order of their first sessions."""
+        now = self._clock()
+        return tuple(self._state(key, record, now) for key, record in self._records.items())
+
+    def _begin(self, record: _Record, client: Client) -> None:
+        if record.client is not client:
+            record.lost += record.client.session.lost
+            record.resent += record.client.session.resent
+            record.client = client
+        record.sessions += 1
+        record.presence = Presence.CONNECTED
+
+    def _state(self, key: str, record: _Record, now: float) -> ClientState:
+        client = record.client
+        if record.presence is Presence.CONNECTED:
+            record.nodes = _nodes(client) or record.nodes
+        measured = client.session.round_trip_s
+        record.round_trip_s = record.round_trip_s if measured is None else measured
+        return ClientState(
+            key=key,
+            presence=record.presence,
+            transport=client.transport.label,
+            address=client.place,
+            nodes=record.nodes,
+            silent_s=max(0.0, now - client.last_received),
+            sessions=record.sessions,
+            reconnects=max(0, record.sessions - 1),
+            silences=record.silences,
+            round_trip_s=record.round_trip_s,
+            lost=record.lost + client.session.lost,
+            resent=record.resent + client.session.resent,
+            last_error=record.last_error,
+        )
+
+    def _forget_oldest(self) -> None:
+        gone = [key for key, record in self._records.items() if record.presence is Presence.GONE]
+        for key in gone[: max(0, len(gone) - self._most)]:
+            del self._records[key]
+
+
+def _nodes(client: Client) -> tuple[str, ...]:
+    return tuple(
+        entity.label
+        for entity in client.objects
+        if entity.kind == ObjectKind.PARTICIPANT and entity.node is not None
+    )
