@@ -107,6 +107,10 @@ class Agent:
         """Return the view of all clients, also of those that have left; empty unless the agent is `watched`."""
         return self._states.snapshot() if self._states is not None else ()
 
+    def latest_client_states(self) -> tuple[ClientState, ...]:
+        """Return what `client_states` returned at the last `care`; may be called in any thread."""
+        return self._states.latest if self._states is not None else ()
+
     @property
     def samples(self) -> int:
         """Return how many samples, requests and replies were passed to ROS 2."""
@@ -167,6 +171,8 @@ class Agent:
     def care(self, now: float) -> None:
         """Check the memory of the process; to be called some ten times a second. Never raises."""
         self._guarded(partial(self._relief.look, now))
+        if self._states is not None:
+            self._guarded(partial(self._states.look, now))
 
     def _look_after(self, client: Client, now: float) -> None:
         waits = self._turns.waits(client)

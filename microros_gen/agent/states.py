@@ -47,7 +47,7 @@ class ClientState:
     round_trip_s: float | None
     """From a reliable message to its acknowledgement, as last measured; None: never."""
     lost: int
-    """Messages from the client that did not arrive, came after later ones (best effort) or were given up (reliable)."""
+    """Messages from the client that did not arrive, came after later ones (best effort), or were abandoned."""
     resent: int
     """Reliable messages that were sent to it again."""
     last_error: str
@@ -69,6 +69,8 @@ class _Record:
     last_error: str = ""
 
 
+LOOK_S = 0.25
+"""Seconds between two looks for other threads."""
 _SESSIONS = ("client_connected", "client_again", "client_adopted")
 """Events that begin a session."""
 
@@ -82,6 +84,9 @@ class ClientStates:
         self._clock = clock
         self._most = most
         self._records: dict[str, _Record] = {}
+        self._look_at = clock()
+        self.latest: tuple[ClientState, ...] = ()
+        """What `look` saw; may be read in any thread."""
 
     def note(self, client: Client, event: str) -> None:
         """Take note of an event of the log about a client's session."""
@@ -104,6 +109,12 @@ class ClientStates:
         record = self._records.get(key)
         if record is not None:
             record.last_error = reason
+
+    def look(self, now: float) -> None:
+        """Bring `latest` up to date; a look at 100 clients takes a millisecond, so it is done some times a second."""
+        if now >= self._look_at:
+            self._look_at = now + LOOK_S
+            self.latest = self.snapshot()
 
     def snapshot(self) -> tuple[ClientState, ...]:
         """Return the state of every client, in the order of their first sessions."""

@@ -42,7 +42,7 @@ class ReliableIn:
         self._holder = holder or Holder()
         self.next = 0
         self.lost = 0
-        """Messages that the sender gave up before they arrived."""
+        """Messages that the sender abandoned before they arrived."""
         self._announced = 0  # messages from `next` on that are known to exist
         self._held: dict[int, bytes] = {}
         self._held_bytes = 0

@@ -31,6 +31,7 @@ NOTHING = {
     "discovery": False,
     "discovery_port": None,
     "graph_server": False,
+    "client_state": False,
     "client_timeout": None,
     "max_clients": None,
     "limits": (),
@@ -113,6 +114,13 @@ def test_the_command_line_wins(tmp_path: Path) -> None:
     )
     assert options_read.limits == Limits(clients=4, client_timeout_s=9.0, message_bytes=1000, objects=5)
     assert options_read.references == (tmp_path / "refs.xml", Path("more.xml"))
+
+
+def test_the_view_of_clients_is_asked_for(tmp_path: Path) -> None:
+    head = "version: 1\ntransports: [udp4: {}]\n"
+    assert options(head + "client_state: true\n", tmp_path).client_state
+    assert not options(head, tmp_path).client_state
+    assert options(head, tmp_path, client_state=True).client_state
 
 
 def test_a_graph_server_inside_the_agent(tmp_path: Path) -> None:

@@ -78,7 +78,7 @@ def test_lost_messages_are_counted_over_the_wrap_of_their_numbers() -> None:
     assert state(bench).lost == 5
 
 
-def test_messages_that_the_client_gave_up_are_lost() -> None:
+def test_messages_that_the_client_abandoned_are_lost() -> None:
     bench = watched()
     opened(bench)
     bench.say(write(0, 1))

@@ -62,6 +62,7 @@ class AgentFile:
     discovery: int | None = None
     domain: int | None = None
     graph_server: bool = False
+    client_state: bool = False
     limits: tuple[tuple[str, float], ...] = ()
     references: tuple[NamedPath, ...] = ()
     entities: tuple[NamedPath, ...] = ()

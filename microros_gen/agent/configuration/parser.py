@@ -52,6 +52,7 @@ def parse_agent_file(source: Source, diagnostics: Diagnostics) -> AgentFile:
         discovery=_discovery(child(tree, "discovery")),
         domain=int_of(child(tree, "domain")),
         graph_server=bool_of(child(tree, "graph_server")) or False,
+        client_state=bool_of(child(tree, "client_state")) or False,
         limits=_numbers(child(tree, "limits")),
         references=_paths(child(tree, "references")),
         entities=_paths(child(tree, "entities")),

@@ -68,6 +68,12 @@ _COMMON = (
         " else ROS_DOMAIN_ID.",
     ),
     click.option(
+        "--client-state",
+        is_flag=True,
+        help="Publish the view of the clients (connected, silent, lost messages, reconnects) on"
+        " /microros_agent/client_states, and list them by service; in the domain of --domain, else ROS_DOMAIN_ID.",
+    ),
+    click.option(
         "--client-timeout",
         type=click.FloatRange(min=0.1),
         metavar="SECONDS",
@@ -138,6 +144,7 @@ class AgentOptions:
     discovery: int | None = None
     domain: int | None = None
     graph_server: bool = False
+    client_state: bool = False
     limits: Limits = DEFAULTS
     references: tuple[Path, ...] = ()
     entities: tuple[Path, ...] = ()
@@ -166,6 +173,7 @@ class AgentOptions:
             discovery=file.discovery if discovery_port is None else discovery_port,
             domain=file.domain if options["domain"] is None else options["domain"],
             graph_server=options["graph_server"] or file.graph_server,
+            client_state=options["client_state"] or file.client_state,
             limits=_limits(file, options),
             references=_paths(folder, file.references, options["references"]),
             entities=_paths(folder, file.entities, options["entities"]),

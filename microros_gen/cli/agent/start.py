@@ -34,6 +34,7 @@ from microros_gen.agent.server import Server, stopped_by_signals
 from microros_gen.agent.trace import TracedTransport
 from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.transport.sockets import PROTOCOLS
+from microros_gen.cli.agent.clients import client_state_node
 from microros_gen.cli.agent.graph import graph_server
 from microros_gen.cli.agent.options import AgentOptions, read_sources
 from microros_gen.cli.agent.types import ClientTypes, HashOf, TypeHashes, read_manifests
@@ -79,6 +80,7 @@ def serve(options: AgentOptions) -> None:
         strangers=shared.strangers,
         memory=MemoryGuard(limits.memory_bytes, trim=bridge.trim),
         budgets=budgets,
+        watched=options.client_state,
     )
     _report_memory(log, limits)
     _report_descriptors(log, limits, streams)
@@ -90,7 +92,11 @@ def serve(options: AgentOptions) -> None:
     announcements = EventLog(sys.stdout, as_json)
     gc.collect()
     gc.freeze()  # modules and libraries stay: to look through them now and then would stop the agent for 20 ms
-    with graph_server(options.graph_server, options.domain, log), stopped_by_signals(server):
+    with (
+        graph_server(options.graph_server, options.domain, log),
+        client_state_node(options.client_state, agent, options.domain, limits.clients, log),
+        stopped_by_signals(server),
+    ):
         notify("READY=1")
         server.run(lambda transport: _announce(announcements, transport), time.monotonic)
 

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The view of clients in ROS 2: a topic with each change, and a service that lists all (microros_agent_msgs)."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+from microros_gen.agent.states import ClientState
+from microros_gen.ros.endpoints import Value
+from microros_gen.ros.errors import CodecError, RosError
+from microros_gen.ros.peer import Peer
+from microros_gen.ros.qos import Qos
+
+NODE = "microros_agent"
+TOPIC = f"/{NODE}/client_states"
+SERVICE = f"/{NODE}/list_clients"
+STATE_TYPE = "microros_agent_msgs/msg/ClientState"
+LIST_TYPE = "microros_agent_msgs/srv/ListClients"
+LOOK_S = 0.2
+"""Between two looks for changes: a state that changes more often is published once."""
+
+
+class StateNode:
+    """Serves on the node of a peer, in the thread that calls `turn`."""
+
+    def __init__(
+        self,
+        peer: Peer,
+        states: Callable[[], tuple[ClientState, ...]],
+        depth: int,
+        report: Callable[[str], object],
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """Create topic and service. `states` returns the latest view, in any thread; `depth`: samples for late readers.
+
+        `report` gets a line about each request that could not be answered. Raises RosError if the node cannot have
+        them.
+        """
+        self._peer = peer
+        self._states = states
+        self._report = report
+        self._clock = clock
+        self._told: dict[str, Value] = {}
+        self._look_at = clock()
+        self._stop = False
+        peer.serve(SERVICE, LIST_TYPE, lambda request: list_clients(self._states(), request))
+        self._topic = peer.publisher(TOPIC, STATE_TYPE, Qos(transient_local=True, depth=depth))
+
+    def run(self) -> None:
+        """Serve until `stop`."""
+        while not self._stop:
+            self.turn()
+
+    def stop(self) -> None:
+        """Let `run` end within a second."""
+        self._stop = True
+
+    def turn(self, wait_s: float = LOOK_S) -> None:
+        """Wait for requests, at most `wait_s` seconds, and publish what has changed."""
+        try:
+            self._peer.spin_once(max(0.0, min(wait_s, self._look_at - self._clock())))
+        except (CodecError, RosError) as error:  # one request; the others are answered
+            self._report(str(error))
+        if self._clock() >= self._look_at:
+            self._look_at = self._clock() + LOOK_S
+            for value in changes(self._states(), self._told):
+                self._topic.publish(value)
+
+
+def changes(states: tuple[ClientState, ...], told: dict[str, Value]) -> list[Value]:
+    """Return the states that differ from those in `told`, and remember them there.
+
+    Times alone are no change: `silent` grows always, and the round trip is never twice the same.
+    """
+    changed = []
+    for state in states:
+        value = message_of(state)
+        known = {key: part for key, part in value.items() if key not in ("silent", "round_trip")}
+        if told.get(state.key) != known:
+            told[state.key] = known
+            changed.append(value)
+    for key in told.keys() - {state.key for state in states}:
+        del told[key]
+    return changed
+
+
+def list_clients(states: tuple[ClientState, ...], request: Value) -> Value:
+    """Return the response of ListClients."""
+    first = min(int(request["first"]), len(states))
+    most = int(request["clients_max"]) or len(states)
+    page = states[first : first + most]
+    return {
+        "total": len(states),
+        "next": first + len(page),
+        "clients": [message_of(state) for state in page],
+    }
+
+
+def message_of(state: ClientState) -> Value:
+    """Return a state as microros_agent_msgs/msg/ClientState."""
+    return {
+        "key": state.key,
+        "presence": int(state.presence),
+        "transport": state.transport,
+        "address": state.address,
+        "nodes": list(state.nodes),
+        "silent": state.silent_s,
+        "sessions": state.sessions,
+        "reconnects": state.reconnects,
+        "silences": state.silences,
+        "round_trip": -1.0 if state.round_trip_s is None else state.round_trip_s,
+        "lost": state.lost,
+        "resent": state.resent,
+        "last_error": state.last_error,
+    }
