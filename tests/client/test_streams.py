@@ -133,6 +133,30 @@ def test_fragments_begin_one_byte_above_the_mtu(transport: str) -> None:
     assert above.reliable_slot_size == mtu + 4 + 4, "the message, and FRAGMENT's header in front of it"
 
 
+@pytest.mark.parametrize("transport", ["serial", "tcp"])
+def test_where_there_are_no_datagrams_the_longest_create_needs_no_mtu(transport: str) -> None:
+    """CREATE cannot be fragmented; the MTU of a stream of bytes is a matter of memory alone."""
+    streams, found_errors = plan(large(3000), transport=transport, create=2000)
+    assert (streams.mtu, streams.best_effort_size, found_errors) == (2000, 2000, [])
+    streams, _ = plan(large(1999 - 12), transport=transport, create=2000)
+    assert not streams.fragments
+
+
+@pytest.mark.parametrize("transport", ["udp", "custom"])
+def test_a_create_above_the_datagram_is_an_error(transport: str) -> None:
+    mtu = DEFAULT_MTU[transport]
+    assert plan(INT32, transport=transport, create=mtu)[1] == []
+    what = (
+        f"the longest CREATE message takes {mtu + 1} bytes and without transport.mtu a datagram holds {mtu}"
+    )
+    (error,) = plan(INT32, transport=transport, create=mtu + 1)[1]
+    assert what in error
+    application = Application(transport=Transport(mtu=600))
+    what = "the longest CREATE message takes 601 bytes and transport.mtu is 600"
+    (error,) = plan(INT32, application=application, transport="serial", create=601)[1]
+    assert what in error
+
+
 @given(size=st.integers(1, LARGEST_BODY), mtu=st.integers(64, 65507))
 def test_a_slot_holds_the_whole_message(size: int, mtu: int) -> None:
     application = Application(transport=Transport(mtu=mtu))

@@ -71,8 +71,7 @@ def test_rclpy_receives_what_the_board_logs(builds: Builds, domain: int, observe
 @pytest.mark.parametrize("name", ["host", NAME, "qemu-riscv32-virt"])
 @pytest.mark.parametrize("entities", ENTITIES)
 def test_the_profile_with_diagnostics_builds(builds: Builds, name: str, entities: str) -> None:
-    """With XML, types of services take more than the 512 bytes that a serial line has by default."""
+    """With XML, types of services take more than the 512 bytes that a message has by default on a serial line."""
     need(name)
-    wide = "transport: {type: serial, mtu: 640}\n" if entities == "xml" and name != "host" else ""
-    built = builds.build(name, PROFILE.format(entities=entities) + wide)
+    built = builds.build(name, PROFILE.format(entities=entities))
     assert built.image.is_file()

@@ -21,6 +21,7 @@ WRITE_SIDE_INPUT = 64
 # One Ethernet frame: larger datagrams are fragmented by IP, which small stacks drop. The sizes of serial and custom
 # transports are those that micro-ROS has.
 DEFAULT_MTU = {"udp": 1472, "tcp": 1460, "serial": 512, "custom": 512}
+_BYTE_STREAMS = ("tcp", "serial")
 DEFAULT_HISTORY = 4
 LEAST_DEFAULT_HISTORY = 2
 DEFAULT_HISTORY_BYTES = 1024
@@ -164,7 +165,7 @@ def plan_streams(
     `pools.slot_size` makes each buffer at least so large.
     """
     messages, samples = tuple(written), tuple(received)
-    ceiling = application.transport.mtu or DEFAULT_MTU[transport]
+    ceiling = application.transport.mtu or _default_mtu(transport, create)
     for message in messages:
         _check_fits(message, ceiling, transport, application, diagnostics)
     for sample in samples:
@@ -309,6 +310,13 @@ def _input_slots(application: Application, reliable_input: bool, diagnostics: Di
             id="MG-7025",
         )
     return 0
+
+
+def _default_mtu(transport: str, create: int) -> int:
+    """Return the largest message without `transport.mtu`: a line without datagrams carries any CREATE."""
+    if transport in _BYTE_STREAMS:
+        return max(DEFAULT_MTU[transport], min(create, LARGEST_MTU))
+    return DEFAULT_MTU[transport]
 
 
 def _check_create(create: int, ceiling: int, application: Application, diagnostics: Diagnostics) -> None:
