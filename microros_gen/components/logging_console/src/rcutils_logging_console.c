@@ -6,7 +6,7 @@
 #include "microros/rcutils_format.h"
 #include "microros_config.h"
 
-enum { NANOSECOND_DIGITS = 9 };
+enum { CONSOLE_TIME_DIGITS = 9 };
 
 static uint32_t console_unreported; /* dropped since the last line that was written */
 
@@ -28,7 +28,8 @@ static const char * console_level(int severity)
 static void console_time(microros_format_t * out, rcutils_time_point_value_t timestamp)
 {
   const microros_conversion_t seconds = {false, false, false, false, false, 0, -1, '\0', 'u'};
-  const microros_conversion_t fraction = {false, true, false, false, false, NANOSECOND_DIGITS, -1, '\0', 'u'};
+  const microros_conversion_t fraction = {
+    false, true, false, false, false, CONSOLE_TIME_DIGITS, -1, '\0', 'u'};
   uint32_t nanoseconds;
 
   microros_format_integer(out, &seconds, microros_format_seconds(timestamp, &nanoseconds), false);

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-enum { PRECISION_DEFAULT = 6, FIXED_LEAST = -4, EXPONENT_BITS = 11, MANTISSA_BITS = 52 };
+enum { PRECISION_DEFAULT = 6, FIXED_LEAST = -4, FLOAT_EXPONENT_BITS = 11, FLOAT_MANTISSA_BITS = 52 };
 
 /* The digits of a number that are shown. Where rounding has carried over all of them, they are 1 and zeros. */
 typedef struct float_shown_t {
@@ -238,7 +238,7 @@ static char float_sign(const microros_conversion_t * how, bool negative)
 
 bool microros_format_floating(microros_format_t * out, const microros_conversion_t * how, va_list * args)
 {
-  const uint64_t infinity = (((uint64_t)1 << EXPONENT_BITS) - 1u) << MANTISSA_BITS;
+  const uint64_t infinity = (((uint64_t)1 << FLOAT_EXPONENT_BITS) - 1u) << FLOAT_MANTISSA_BITS;
   const double value = how->length == 'L' ? (double)va_arg(*args, long double) : va_arg(*args, double);
   float_layout_t layout = {0, 0, false, false, '\0'};
   uint64_t bits = 0;

@@ -5,12 +5,12 @@
 #include "microros/message_memory.h"
 
 /* One counter for all, since functions of messages take no handle. */
-static uint32_t refused;
+static uint32_t memory_refused;
 
 void microros_memory_refuse(void)
 {
   microros_lock();
-  refused += refused != UINT32_MAX ? 1u : 0u;
+  memory_refused += memory_refused != UINT32_MAX ? 1u : 0u;
   microros_unlock();
 }
 
@@ -19,7 +19,7 @@ uint32_t rmw_uros_get_refused_memory(void)
   uint32_t count;
 
   microros_lock();
-  count = refused;
+  count = memory_refused;
   microros_unlock();
   return count;
 }

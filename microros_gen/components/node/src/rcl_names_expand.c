@@ -13,7 +13,7 @@ typedef struct names_output_t {
   size_t size; /* of everything written, including what had no room */
 } names_output_t;
 
-static void names_put(names_output_t * output, char c)
+static void names_append(names_output_t * output, char c)
 {
   if (output->size + 1u < output->room) {
     output->text[output->size] = c;
@@ -24,7 +24,7 @@ static void names_put(names_output_t * output, char c)
 static void names_put_text(names_output_t * output, const char * text)
 {
   for (; *text != '\0'; ++text) {
-    names_put(output, *text);
+    names_append(output, *text);
   }
 }
 
@@ -75,7 +75,7 @@ static void names_put_node_prefix(names_output_t * output, const char * namespac
   if (namespace_[1] != '\0') {
     names_put_text(output, namespace_);
   }
-  names_put(output, '/');
+  names_append(output, '/');
 }
 
 size_t rcl_names_expand(const char * topic, const rcl_names_scope_t * scope, char * full, size_t size)
@@ -101,7 +101,7 @@ size_t rcl_names_expand(const char * topic, const rcl_names_scope_t * scope, cha
       }
       names_put_text(&output, value);
     } else {
-      names_put(&output, *at);
+      names_append(&output, *at);
       ++at;
     }
   }

@@ -7,7 +7,7 @@
 
 #include <stddef.h>
 
-static char logger_names[MICROROS_NODES_MAX][MICROROS_NODE_LOGGER_NAME_SIZE];
+static char node_logger_names[MICROROS_NODES_MAX][MICROROS_NODE_LOGGER_NAME_SIZE];
 
 /* Writes `namespace.name`, of a namespace that begins with a slash; one `/` separates others. */
 static void logger_name_write(char * text, const char * namespace_, const char * name)
@@ -38,7 +38,7 @@ const char * rcl_node_get_logger_name(const rcl_node_t * node)
     return node->impl->name;
   }
   microros_lock();
-  text = logger_names[rmw_node_index(node->impl)];
+  text = node_logger_names[rmw_node_index(node->impl)];
   logger_name_write(text, node->impl->namespace_, node->impl->name);
   microros_unlock();
   return text;

@@ -48,7 +48,7 @@ typedef struct server_service_t {
   rclc_service_callback_with_context_t callback;
 } server_service_t;
 
-static const server_service_t services[RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES] = {
+static const server_service_t server_offers[RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES] = {
   {&rclc_parameter_describe_type, "~/describe_parameters", server_reply},
   {&rclc_parameter_get_types_type, "~/get_parameter_types", server_reply},
   {&rclc_parameter_get_type, "~/get_parameters", server_reply},
@@ -61,7 +61,7 @@ static rcl_ret_t server_open(rclc_parameter_server_t * server, const rcl_node_t 
 {
   for (uint32_t i = 0; i < (uint32_t)RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES; ++i) {
     const rcl_ret_t result = rclc_service_init(
-      &server->services[i], node, services[i].type, services[i].name, &rmw_qos_profile_parameters);
+      &server->services[i], node, server_offers[i].type, server_offers[i].name, &rmw_qos_profile_parameters);
 
     if (result != RCL_RET_OK) {
       return result;
@@ -173,7 +173,7 @@ rcl_ret_t rclc_executor_add_parameter_server_with_context(
   parameter_server->context = context;
   for (uint32_t i = 0; i < (uint32_t)RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES && result == RCL_RET_OK; ++i) {
     result = rclc_executor_add_service_with_context(
-      executor, &parameter_server->services[i], parameter_server, parameter_server, services[i].callback,
+      executor, &parameter_server->services[i], parameter_server, parameter_server, server_offers[i].callback,
       parameter_server);
   }
   if (result == RCL_RET_OK) {

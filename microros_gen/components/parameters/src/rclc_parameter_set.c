@@ -60,7 +60,7 @@ static parameter_outcome_t set_check_new(
   return server->count + fresh < server->max_params ? PARAMETER_SET : PARAMETER_FULL;
 }
 
-static parameter_outcome_t set_check(
+static parameter_outcome_t set_check_parameter(
   const rclc_parameter_server_t * server, const parameter_requested_t * requested, size_t fresh)
 {
   const rclc_parameter_place_t * place = rclc_parameter_find(server, &requested->name);
@@ -156,7 +156,7 @@ void rclc_parameter_set_each(rclc_parameter_server_t * server)
 
   for (uint32_t i = 0; i < count; ++i) {
     const parameter_requested_t requested = rclc_parameter_request_parameter(&in);
-    parameter_outcome_t outcome = set_check(server, &requested, 0);
+    parameter_outcome_t outcome = set_check_parameter(server, &requested, 0);
 
     if (outcome == PARAMETER_SET && !set_accepts(server, &requested)) {
       outcome = PARAMETER_REJECTED;
@@ -185,7 +185,7 @@ static bool set_pass(rclc_parameter_server_t * server, set_pass_t pass)
     const parameter_requested_t requested = rclc_parameter_request_parameter(&in);
 
     if (pass == SET_PASS_CHECK) {
-      outcome = set_check(server, &requested, fresh);
+      outcome = set_check_parameter(server, &requested, fresh);
       fresh += rclc_parameter_find(server, &requested.name) == NULL ? 1u : 0u;
     } else if (pass == SET_PASS_ACCEPT) {
       outcome = set_accepts(server, &requested) ? PARAMETER_SET : PARAMETER_REJECTED;

@@ -5,7 +5,7 @@
 #include "microros/xrce_read.h"
 
 /* Start of DATA: the submessage's header, request id and object id. */
-enum { LENGTH_AT = 2, REQUEST_AT = 4, OBJECT_AT = 6, SAMPLE_AT = 8 };
+enum { PARAMETERS_LENGTH_AT = 2, PARAMETERS_REQUEST_AT = 4, PARAMETERS_OBJECT_AT = 6, SAMPLE_AT = 8 };
 
 void xrce_parameters_answer_large(const xrce_endpoint_t * endpoint, bool answers)
 {
@@ -22,7 +22,8 @@ static void parameters_keep(
   if (here < XRCE_OBJECT_PREFIX + (size_t)XRCE_PARAMETERS_BEGINNING || (data[1] & XRCE_READ_FORMATS) != 0u) {
     return;
   }
-  receiver = xrce_read_requested(client, xrce_get_be16(&data[REQUEST_AT]), xrce_get_be16(&data[OBJECT_AT]));
+  receiver = xrce_read_requested(
+    client, xrce_get_be16(&data[PARAMETERS_REQUEST_AT]), xrce_get_be16(&data[PARAMETERS_OBJECT_AT]));
   if (
     receiver == NULL || !client->large_answered[receiver - client->receivers] ||
     whole <= (size_t)xrce_read_largest(client, receiver) + XRCE_OBJECT_PREFIX) {
@@ -46,7 +47,8 @@ void xrce_parameters_on_fragment(
   const uint8_t * data = xrce_payload_of(submessage);
 
   if (!client->large_begun && size > XRCE_SUBMESSAGE_HEADER && data[0] == XRCE_DATA) {
-    parameters_keep(client, data, size - XRCE_SUBMESSAGE_HEADER, xrce_get_le16(&data[LENGTH_AT]), now);
+    parameters_keep(
+      client, data, size - XRCE_SUBMESSAGE_HEADER, xrce_get_le16(&data[PARAMETERS_LENGTH_AT]), now);
   }
   client->large_begun = (xrce_flags_of(submessage) & XRCE_FLAG_LAST_FRAGMENT) == 0u;
 }

@@ -11,7 +11,7 @@
 #include <stddef.h>
 
 /* Bytes 00 01 00 00: XCDR1, little endian, no options (OMG DDS-XTypes 1.3, 7.6.3.1.2). */
-enum { ENCAPSULATION_SIZE = 4, CDR_LITTLE_ENDIAN = 1 };
+enum { PUBLISH_ENCAPSULATION_SIZE = 4, PUBLISH_LITTLE_ENDIAN = 1 };
 
 /* `fault` is only set for a refused message, not for one that was already encoded. */
 static rmw_ret_t publish_report(
@@ -82,14 +82,17 @@ rmw_ret_t rmw_publish_serialized_message(
   writer = publisher->data;
   bytes = serialized_message->buffer;
   size = serialized_message->buffer_length;
-  capacity = ENCAPSULATION_SIZE + xrce_route_capacity((writer->qos & XRCE_QOS_RELIABLE) != 0u);
-  if (size <= ENCAPSULATION_SIZE || size > capacity || bytes[0] != 0u || bytes[1] != CDR_LITTLE_ENDIAN) {
+  capacity = PUBLISH_ENCAPSULATION_SIZE + xrce_route_capacity((writer->qos & XRCE_QOS_RELIABLE) != 0u);
+  if (
+    size <= PUBLISH_ENCAPSULATION_SIZE || size > capacity || bytes[0] != 0u ||
+    bytes[1] != PUBLISH_LITTLE_ENDIAN) {
     microros_error_set(microros_error_serialized, NULL, NULL, (uint32_t)size, (uint32_t)capacity);
     return RMW_RET_ERROR;
   }
   microros_lock();
   result = publish_report(
-    writer, xrce_write_body(writer, &bytes[ENCAPSULATION_SIZE], size - ENCAPSULATION_SIZE), &none);
+    writer, xrce_write_body(writer, &bytes[PUBLISH_ENCAPSULATION_SIZE], size - PUBLISH_ENCAPSULATION_SIZE),
+    &none);
   microros_unlock();
   return result;
 }

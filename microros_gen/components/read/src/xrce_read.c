@@ -8,13 +8,13 @@
 
 /* Message header, submessage header, request id, object id; then the specification (OMG DDS-XRCE 1.0, 8.3.5.9). */
 enum {
-  REQUEST_AT = 8,
-  OBJECT_AT = 10,
+  READ_REQUEST_AT = 8,
+  READ_OBJECT_AT = 10,
   STREAM_AT = 12,
   CONTROLLED_AT = 15,
   SAMPLES_AT = 16,
   READ_DATA_MESSAGE = 24,
-  STATUS_SIZE = 6
+  READ_STATUS_SIZE = 6
 };
 
 enum { SAMPLES_UNLIMITED = 0xffff };
@@ -73,8 +73,8 @@ static void read_send(xrce_client_t * client, uint32_t now)
   (void)memset(message, 0, sizeof(message));
   xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_READING, reading->sequence);
   xrce_put_submessage(&message[4], XRCE_READ_DATA, XRCE_FLAG_LITTLE_ENDIAN, READ_DATA_MESSAGE - 8);
-  xrce_put_be16(&message[REQUEST_AT], reading->request);
-  xrce_put_be16(&message[OBJECT_AT], read_object(reading->receiver));
+  xrce_put_be16(&message[READ_REQUEST_AT], reading->request);
+  xrce_put_be16(&message[READ_OBJECT_AT], read_object(reading->receiver));
   if (reading->samples != 0u) {
     message[STREAM_AT] = xrce_read_is_reliable(client, receiver) ? (uint8_t)XRCE_STREAM_RELIABLE
                                                                  : (uint8_t)XRCE_STREAM_BEST_EFFORT;
@@ -199,7 +199,7 @@ void xrce_read_on_status(xrce_client_t * client, const uint8_t * submessage, siz
   xrce_receiver_t * receiver;
   uint16_t request;
 
-  if (size < STATUS_SIZE || client->session.state != XRCE_READY) {
+  if (size < READ_STATUS_SIZE || client->session.state != XRCE_READY) {
     return;
   }
   request = xrce_get_be16(&payload[0]);

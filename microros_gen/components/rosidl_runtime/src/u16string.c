@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
-static uint_least16_t * string_empty(void)
+static uint_least16_t * u16string_empty(void)
 {
   static uint_least16_t nothing = 0; /* shared by all empty strings and threads, therefore never written */
 
@@ -18,15 +18,15 @@ bool rosidl_runtime_c__U16String__init(rosidl_runtime_c__U16String * str)
   if (str == NULL) {
     return false;
   }
-  str->data = string_empty();
+  str->data = u16string_empty();
   str->size = 0;
   str->capacity = 1;
   return true;
 }
 
-static void string_release(rosidl_runtime_c__U16String * str)
+static void u16string_release(rosidl_runtime_c__U16String * str)
 {
-  if (str->data != string_empty()) {
+  if (str->data != u16string_empty()) {
     microros_memory_give_back(MICROROS_POOL_u16text, str->data);
   }
 }
@@ -36,19 +36,19 @@ void rosidl_runtime_c__U16String__fini(rosidl_runtime_c__U16String * str)
   if (str == NULL) {
     return;
   }
-  string_release(str);
+  u16string_release(str);
   str->data = NULL;
   str->size = 0;
   str->capacity = 0;
 }
 
 /* Ensures room for `size` units and the terminator; `keep` preserves the existing units. */
-static bool string_make_room(rosidl_runtime_c__U16String * str, size_t size, bool keep)
+static bool u16string_make_room(rosidl_runtime_c__U16String * str, size_t size, bool keep)
 {
   size_t room;
   uint_least16_t * data;
 
-  if (str->data != NULL && str->capacity > size && (str->data != string_empty() || size == 0u)) {
+  if (str->data != NULL && str->capacity > size && (str->data != u16string_empty() || size == 0u)) {
     return true;
   }
   if (size >= SIZE_MAX / sizeof(uint_least16_t)) {
@@ -62,7 +62,7 @@ static bool string_make_room(rosidl_runtime_c__U16String * str, size_t size, boo
   if (keep && str->data != NULL) {
     (void)memcpy(data, str->data, str->size * sizeof(uint_least16_t));
   }
-  string_release(str);
+  u16string_release(str);
   str->data = data;
   str->capacity = room / sizeof(uint_least16_t);
   return true;
@@ -71,10 +71,10 @@ static bool string_make_room(rosidl_runtime_c__U16String * str, size_t size, boo
 bool rosidl_runtime_c__U16String__assignn_from_char(
   rosidl_runtime_c__U16String * str, const char * value, size_t n)
 {
-  if (str == NULL || value == NULL || !string_make_room(str, n, false)) {
+  if (str == NULL || value == NULL || !u16string_make_room(str, n, false)) {
     return false;
   }
-  if (str->data != string_empty()) {
+  if (str->data != u16string_empty()) {
     (void)memmove(str->data, value, n * sizeof(uint_least16_t));
     str->data[n] = 0;
   }
@@ -110,10 +110,10 @@ bool rosidl_runtime_c__U16String__copy(
 
 bool rosidl_runtime_c__U16String__resize(rosidl_runtime_c__U16String * str, size_t n)
 {
-  if (str == NULL || !string_make_room(str, n, true)) {
+  if (str == NULL || !u16string_make_room(str, n, true)) {
     return false;
   }
-  if (str->data != string_empty()) {
+  if (str->data != u16string_empty()) {
     if (n > str->size) {
       (void)memset(&str->data[str->size], 0, (n - str->size) * sizeof(uint_least16_t));
     }

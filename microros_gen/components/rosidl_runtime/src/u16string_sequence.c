@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 /* Makes the strings from `first` up to `last` empty, which cannot fail. */
-static void strings_begin(rosidl_runtime_c__U16String * data, size_t first, size_t last)
+static void u16strings_begin(rosidl_runtime_c__U16String * data, size_t first, size_t last)
 {
   for (size_t i = first; i < last; ++i) {
     (void)rosidl_runtime_c__U16String__init(&data[i]);
@@ -30,7 +30,7 @@ bool rosidl_runtime_c__U16String__Sequence__init(
       return false;
     }
   }
-  strings_begin(data, 0, size);
+  u16strings_begin(data, 0, size);
   sequence->data = data;
   sequence->size = size;
   sequence->capacity = size;
@@ -68,12 +68,12 @@ bool rosidl_runtime_c__U16String__Sequence__are_equal(
 }
 
 /* Ensures room for `size` strings: in the existing block if possible, otherwise in a larger one. */
-static bool strings_grow(rosidl_runtime_c__U16String__Sequence * sequence, size_t size)
+static bool u16strings_grow(rosidl_runtime_c__U16String__Sequence * sequence, size_t size)
 {
   rosidl_runtime_c__U16String__Sequence larger;
 
   if (microros_memory_room(MICROROS_POOL_u16string, sequence->data) / sizeof(*sequence->data) >= size) {
-    strings_begin(sequence->data, sequence->capacity, size);
+    u16strings_begin(sequence->data, sequence->capacity, size);
     sequence->capacity = size;
     return true;
   }
@@ -91,7 +91,7 @@ bool rosidl_runtime_c__U16String__Sequence__copy(
   if (input == NULL || output == NULL) {
     return false;
   }
-  if (output->capacity < input->size && !strings_grow(output, input->size)) {
+  if (output->capacity < input->size && !u16strings_grow(output, input->size)) {
     return false;
   }
   output->size = input->size;

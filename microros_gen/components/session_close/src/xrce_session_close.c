@@ -6,7 +6,7 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_wire.h"
 
-enum { DELETE_CLIENT_SIZE = 12, STATUS_SIZE = 6 };
+enum { DELETE_CLIENT_SIZE = 12, CLOSE_STATUS_SIZE = 6 };
 
 static void leave_send(xrce_session_t * session)
 {
@@ -52,7 +52,7 @@ void xrce_session_leave_on_status(
 
   (void)now;
   if (
-    session->state == XRCE_CLOSING && size >= STATUS_SIZE &&
+    session->state == XRCE_CLOSING && size >= CLOSE_STATUS_SIZE &&
     xrce_get_be16(&payload[0]) == XRCE_REQUEST_LOGOUT && xrce_get_be16(&payload[2]) == XRCE_OBJECT_CLIENT) {
     session->state = XRCE_CLOSED;
   }

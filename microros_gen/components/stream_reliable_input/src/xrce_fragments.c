@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* Start of the first fragment: the submessage's header, request id and object id. */
-enum { LENGTH_AT = 2, REQUEST_AT = 4, OBJECT_AT = 6, BEGIN_SIZE = 8 };
+enum { FRAGMENTS_LENGTH_AT = 2, FRAGMENTS_REQUEST_AT = 4, FRAGMENTS_OBJECT_AT = 6, BEGIN_SIZE = 8 };
 
 void xrce_fragments_reset(xrce_fragments_t * fragments)
 {
@@ -25,13 +25,13 @@ static bool fragments_begin(xrce_client_t * client, const uint8_t * begin, size_
     ++client->session.statistics.malformed;
     return false;
   }
-  length = xrce_get_le16(&begin[LENGTH_AT]);
+  length = xrce_get_le16(&begin[FRAGMENTS_LENGTH_AT]);
   if (length <= XRCE_OBJECT_PREFIX || (begin[1] & XRCE_READ_FORMATS) != 0u) {
     ++client->session.statistics.malformed;
     return false;
   }
-  fragments->sample.request = xrce_get_be16(&begin[REQUEST_AT]);
-  fragments->sample.object = xrce_get_be16(&begin[OBJECT_AT]);
+  fragments->sample.request = xrce_get_be16(&begin[FRAGMENTS_REQUEST_AT]);
+  fragments->sample.object = xrce_get_be16(&begin[FRAGMENTS_OBJECT_AT]);
   fragments->sample.size = (uint16_t)(length - XRCE_OBJECT_PREFIX);
   fragments->sample.flags = begin[1];
   fragments->arrived = 0;

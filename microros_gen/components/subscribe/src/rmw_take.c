@@ -12,9 +12,9 @@
 #include <string.h>
 
 /* Bytes 00 01 00 00 or 00 00 00 00: XCDR1 in either byte order, no options (OMG DDS-XTypes 1.3, 7.6.3.1.2). */
-enum { ENCAPSULATION_SIZE = 4, CDR_LITTLE_ENDIAN = 1 };
+enum { TAKE_ENCAPSULATION_SIZE = 4, TAKE_LITTLE_ENDIAN = 1 };
 
-enum { NS_PER_MS = 1000000 };
+enum { TAKE_NS_PER_MS = 1000000 };
 
 /* XRCE carries neither the sender of a sample nor its time; only the time of arrival is known. */
 void rmw_subscription_describe(const rmw_subscription_t * subscription, rmw_message_info_t * info)
@@ -27,7 +27,7 @@ void rmw_subscription_describe(const rmw_subscription_t * subscription, rmw_mess
   if (!xrce_read_peek(subscription->data, &sample)) {
     return;
   }
-  age_ns = (int64_t)(port_time_ms() - sample.arrived_ms) * NS_PER_MS;
+  age_ns = (int64_t)(port_time_ms() - sample.arrived_ms) * TAKE_NS_PER_MS;
   epoch_ns = port_time_epoch_ns();
   info->received_timestamp = epoch_ns != 0 ? epoch_ns - age_ns : 0; /* the time of day has not been set yet */
   info->publication_sequence_number = RMW_MESSAGE_INFO_SEQUENCE_NUMBER_UNSUPPORTED;
@@ -68,15 +68,15 @@ static rmw_ret_t take_serialized(
   if (!xrce_read_peek(endpoint, &sample)) {
     return RMW_RET_OK;
   }
-  size = ENCAPSULATION_SIZE + (size_t)sample.size;
+  size = TAKE_ENCAPSULATION_SIZE + (size_t)sample.size;
   if (
     serialized_message->buffer_capacity < size &&
     rmw_serialized_message_resize(serialized_message, size) != RCUTILS_RET_OK) {
     return RMW_RET_BAD_ALLOC;
   }
-  (void)memset(serialized_message->buffer, 0, ENCAPSULATION_SIZE);
-  serialized_message->buffer[1] = sample.big_endian ? (uint8_t)0 : (uint8_t)CDR_LITTLE_ENDIAN;
-  (void)memcpy(&serialized_message->buffer[ENCAPSULATION_SIZE], sample.data, sample.size);
+  (void)memset(serialized_message->buffer, 0, TAKE_ENCAPSULATION_SIZE);
+  serialized_message->buffer[1] = sample.big_endian ? (uint8_t)0 : (uint8_t)TAKE_LITTLE_ENDIAN;
+  (void)memcpy(&serialized_message->buffer[TAKE_ENCAPSULATION_SIZE], sample.data, sample.size);
   serialized_message->buffer_length = size;
   xrce_read_pop(endpoint, false);
   *taken = true;

@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Size of everything before the body in a submessage. */
-enum { BODY_OFFSET = XRCE_SUBMESSAGE_HEADER + XRCE_OBJECT_PREFIX };
+enum { WRITE_BODY_OFFSET = XRCE_SUBMESSAGE_HEADER + XRCE_OBJECT_PREFIX };
 
 /* Longest time of publishing without reading: well below the time after which a session counts as lost. */
 enum { PAUSE_MS = 250, PAUSE_CONNECTING_MS = 10 };
@@ -78,8 +78,8 @@ static xrce_write_t write_end(xrce_endpoint_t * writer, uint8_t * room, size_t s
   xrce_put_submessage(room, XRCE_WRITE_DATA, XRCE_FLAG_LITTLE_ENDIAN, (uint16_t)(XRCE_OBJECT_PREFIX + size));
   xrce_put_be16(&room[4], XRCE_REQUEST_NONE);
   xrce_put_be16(&room[6], xrce_object_id(writer->index, XRCE_KIND_DATAWRITER));
-  if (!xrce_route_commit(client, write_is_reliable(writer), BODY_OFFSET + size)) {
-    return xrce_write_on_unsent(writer, BODY_OFFSET + size);
+  if (!xrce_route_commit(client, write_is_reliable(writer), WRITE_BODY_OFFSET + size)) {
+    return xrce_write_on_unsent(writer, WRITE_BODY_OFFSET + size);
   }
   return XRCE_WRITTEN;
 }
@@ -93,7 +93,7 @@ xrce_write_t xrce_write_message(xrce_endpoint_t * writer, const void * message, 
   if (outcome != XRCE_WRITTEN) {
     return outcome;
   }
-  size = writer->type->encode(message, &room[BODY_OFFSET], fault);
+  size = writer->type->encode(message, &room[WRITE_BODY_OFFSET], fault);
   return size == 0u ? XRCE_WRITE_REFUSED : write_end(writer, room, size);
 }
 
@@ -105,6 +105,6 @@ xrce_write_t xrce_write_body(xrce_endpoint_t * writer, const uint8_t * body, siz
   if (outcome != XRCE_WRITTEN) {
     return outcome;
   }
-  (void)memcpy(&room[BODY_OFFSET], body, size);
+  (void)memcpy(&room[WRITE_BODY_OFFSET], body, size);
   return write_end(writer, room, size);
 }
