@@ -43,7 +43,7 @@ CORE = (
 PORTS = ("port_posix_sockets", "port_posix")
 SANITIZER = "clang" if shutil.which("clang") else "gcc"
 """Who compiles clients with sanitizers: clang takes two thirds of gcc's time for it. Unit tests use both."""
-SANITIZE = ("-g", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+SANITIZE = ("-g1", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 
 
 def components(plan: RuntimePlan, liveliness: str = "ping") -> tuple[str, ...]:
