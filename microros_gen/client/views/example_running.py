@@ -73,6 +73,11 @@ class RunningView:
     sends: tuple[Sender, ...]
     left_out: tuple[str, ...]
 
+    @property
+    def has_callbacks(self) -> bool:
+        """Return whether there are functions to declare before those that name them."""
+        return any((self.timers, self.received, self.services, self.clients))
+
 
 @dataclass(frozen=True)
 class _Handle:
