@@ -179,7 +179,7 @@ class ObjectTree:
         self._gone_with_container.clear()
 
     def forget_requests(self) -> None:
-        """Remove open requests, which the client does not know any more."""
+        """Remove open requests, which the client has forgotten."""
         for entity in self:
             if entity.kind == ObjectKind.REQUESTER:
                 entity.forget_calls(self._home.shares)
@@ -259,7 +259,7 @@ class ObjectTree:
         return Outcome(Status.OK, entity=entity)
 
     def _fill(self, application: Entity, description: Application, replace: bool) -> Steps[None]:
-        """Create all parts of an application; if one fails, none of them and not the application (7.8.3.1)."""
+        """Create all parts of an application. If one fails, remove all of them and the application (7.8.3.1)."""
         ids = part_ids(application.id, description)
         try:
             for object_id, part in zip(ids, description.parts, strict=True):

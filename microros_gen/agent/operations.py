@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The requests of clients in session: one method per submessage."""
+"""The requests of clients in session, one method for each submessage."""
 
 from __future__ import annotations
 
@@ -59,9 +59,9 @@ from microros_gen.agent.wire.session_messages import (
 from microros_gen.agent.wire.submessages import Submessage, encode
 
 Handler = Callable[[Client, Submessage, float], "Steps[None] | None"]
-"""What it returns is still to be done, step by step."""
+"""A function for a submessage; it may return steps that are still to be done."""
 MOST_REPORTS, MOST_CREDIT = 2, 262_144
-"""How often a client whose address may be forged is told what it said of an object, and how many bytes of it."""
+"""How often a client whose address may be forged gets the configuration of an object, and how many bytes at most."""
 CALLS = (ObjectKind.REQUESTER, ObjectKind.REPLIER)
 READABLE = (ObjectKind.DATAREADER, *CALLS)
 NAMES = {
@@ -71,11 +71,11 @@ NAMES = {
     "requester": "service client",
     "replier": "service",
 }
-"""What people call objects that have a place in ROS 2."""
+"""Names for people of objects that have a ROS 2 entity."""
 
 
 class Operations:
-    """Dispatches by submessage; answers are sent at once, after the due acknowledgements."""
+    """Dispatcher by submessage. Answers are sent at once, after the due acknowledgements."""
 
     def __init__(self, log: EventLog, deliveries: Deliveries, turns: Turns) -> None:
         self._turns = turns
@@ -131,14 +131,14 @@ class Operations:
         )
 
     def refuse(self, client: Client, data: bytes, at: int, status: Status, now: float) -> None:
-        """Answer a request whose ids begin at `data[at]` and that is not carried out (table 2)."""
+        """Answer a refused request, whose ids begin at `data[at]`, with `status` (DDS-XRCE 1.0, table 2)."""
         request, object_id = data[at] << 8 | data[at + 1], data[at + 2] << 8 | data[at + 3]
         self._answer(client, request, object_id, status, now)
 
     def write(self, client: Client, data: bytes, at: int, end: int, flags: int, done: int) -> int:
-        """Carry out a WRITE_DATA that is no plain sample of a data writer; return how much went to ROS 2.
+        """Process a WRITE_DATA other than a plain sample of a data writer; return the number of samples sent to ROS 2.
 
-        `done` of its samples went there before. BusyError: further ones may go later.
+        `done` of its samples were sent before. Raises BusyError if the rest may be sent later.
         """
         if end - at < DATA_PREFIX:
             raise MalformedError("truncated", f"WRITE_DATA of {end - at} bytes")
@@ -177,7 +177,7 @@ class Operations:
         self._log.count(kind, "client {client}: {reason}", client=client.name, reason=str(error))
 
     def waits(self, client: Client, kind: str, error: BusyError) -> None:
-        """Count that a reliable stream of `client` stopped for now."""
+        """Count that a reliable stream of `client` was stopped for now."""
         text = "client {client}: {reason}; this and what follows on its stream wait, unacknowledged"
         self._log.count(kind, text, client=client.name, reason=str(error))
 
@@ -215,7 +215,7 @@ class Operations:
     def _samples(
         self, client: Client, data: bytes, at: int, end: int, flags: int, done: int
     ) -> Sequence[Sample]:
-        """Return the samples of a WRITE_DATA, which stay until all are processed. Raises TurnOverError until then."""
+        """Return the samples of a WRITE_DATA, stored until all are processed; TurnOverError until all are decoded."""
         kept = client.samples
         if kept is None or not kept.is_of(data, at):
             reader = Reader(data, at + DATA_PREFIX, end, bool(flags & FLAG_LITTLE))
@@ -258,8 +258,9 @@ class Operations:
             self._send(client, info, now, little)
 
     def _may_report(self, client: Client, config: object) -> bool:
-        """Return whether a client gets a configuration of this size: over UDP it may be somebody else who has to take
-        it, so the answers are at most twice as long as the requests."""
+        """Return whether a client gets a configuration of this size.
+
+        Over UDP the address may be forged, so answers are at most twice as long as the requests in total."""
         if not client.transport.forgeable or not isinstance(config, Representation):
             return True
         size = len(config.body)
@@ -302,7 +303,7 @@ class Operations:
         self._send(client, StatusReply(request, object_id, status), now)
 
     def _send(self, client: Client, answer: Submessage, now: float, little: bool = True) -> None:
-        """Answer on the built-in stream of the kind that the question came on."""
+        """Send the answer on the built-in stream of the same kind as that of the request."""
         if isinstance(answer, StatusReply) and answer.status >= Status.DDS_ERROR:
             client.account.refused = True
         stream = STREAM_RELIABLE if is_reliable(client.stream) else STREAM_BEST_EFFORT
@@ -329,12 +330,12 @@ def _check_reading(entity: Entity | None, wanted: ReadData) -> tuple[Status, str
 
 
 def agent_info(question: GetInfo, in_session: bool) -> Info:
-    """Return the answer to a GET_INFO; whatever object and mask it names, the agent tells about itself."""
+    """Return the answer to a GET_INFO: a description of the agent, whatever the object and mask."""
     return Info(question.request, question.object, Status.OK, int(in_session), AgentConfig(), AgentActivity())
 
 
 def object_info(client: Client, question: GetInfo) -> Info:
-    """Return the answer to a GET_INFO on an object (7.8.3.3): what the mask asks for, where there is any."""
+    """Return the answer to a GET_INFO on an object (7.8.3.3): what the mask requests and the object has."""
     entity = client.objects.find(question.object)
     if entity is None:
         return Info(question.request, question.object, Status.UNKNOWN_REFERENCE, 1)

@@ -1,29 +1,28 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Clients that create nothing: the agent holds their objects, and makes them when they open their session.
+"""Clients that create nothing: the agent has their objects and creates them when they open their session.
 
-The objects are then like created ones: they sleep and wake with the client, a CREATE of the same finds them, a DELETE
-takes them away until the session is opened again, and they leave the ROS graph with the session.
+Such objects behave like created ones: they sleep and wake with the client, a CREATE of an equal object finds them, a
+DELETE removes them until the session is opened again, and they leave the ROS graph with the session.
 
-A client that is able to (its `liveliness` is ping or acknack) notices a new agent and opens its session again. One with
-`liveliness: none` never does, and its samples carry a session id that many clients use (0x81) and no key: they name
-their sender only by the address, which a new agent does not know. To take such a sample for that of the only
-client that is missing would publish the samples of any other client without a session under wrong names, and would keep
-that client from healing. So the agent does this (it adopts the client) only where the file says `adopt: true`, that is
-where whoever runs it knows that no other client comes, and only when
+A client with `liveliness: ping` or `acknack` detects a new agent and opens its session again. One with
+`liveliness: none` never does. Its samples have a session id that many clients use (0x81) and no key: only the address
+identifies their sender, and a new agent does not know it. If the agent assumed that such a sample came from the only
+missing client, it would publish samples of other clients under wrong names and keep these clients from recovering. The
+agent therefore adopts a client only if the file says `adopt: true`, which means that no other client connects, and if
 
 - the message carries that client's key (session ids below 0x80), or exactly one client to adopt is not in session and
-  its sender was listened to for some seconds (`Limits.adopt_after_s`), unanswered: a client with liveliness asks for
-  the agent before that;
-- its first submessage is a WRITE_DATA to one of the client's data writers, requesters or repliers, or on a reliable
-  stream the HEARTBEAT that goes before: only that says where the stream goes on;
-- nobody is in session at its address.
+  its sender was observed for some seconds (`Limits.adopt_after_s`) without an answer: a client with liveliness searches
+  for the agent before that;
+- its first submessage is a WRITE_DATA to one of the client's data writers, requesters or repliers, or, on a reliable
+  stream, the HEARTBEAT that precedes it: only this one tells where the stream continues;
+- no client is in session at its address.
 
-A client that only reads cannot be adopted, nor can what an adopted client reads go on: it sent its READ_DATA to the
-agent before and sends nothing more; where it is, which request its DATA has to name and which sequence numbers it would
-take died with that agent, and the standard has no message by which an agent finds clients (DDS-XRCE 1.0, 8.4). Whoever
-reads needs liveliness; the parser of the file says so.
+A client that only reads cannot be adopted, and readers of an adopted client receive nothing: the client sent its
+READ_DATA to the earlier agent. Its address, the request id of its DATA and its sequence numbers are lost with that
+agent, and the standard has no message with which an agent finds clients (DDS-XRCE 1.0, 8.4). A client that reads needs
+liveliness; the parser of the file warns about it.
 
-An adopted client that pings or creates something shows that it is another one: it is sent away, and heals.
+An adopted client that pings or creates an object turns out to be a different one: it is removed, and opens a session.
 """
 
 from __future__ import annotations
@@ -48,12 +47,12 @@ from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass
 
 WRITTEN = (ObjectKind.DATAWRITER, ObjectKind.REQUESTER, ObjectKind.REPLIER)
-"""Kinds of objects that a client writes to."""
+"""Kinds of objects that a client can write to."""
 
 
 @dataclass(frozen=True)
 class PreconfiguredCreation:
-    """An object that the agent creates: its id, its container, its description."""
+    """An object that the agent creates: its id, that of its container, and its description."""
 
     id: int
     parent: int
@@ -64,7 +63,7 @@ class Preconfigured:
     """Objects by the key of their client."""
 
     def __init__(self, clients: Sequence[PreconfiguredClient] = ()) -> None:
-        """Read the contents of a file. Raises UserError for names that ROS 2 does not allow."""
+        """Prepare the contents of a file. Raises UserError for names that are invalid in ROS 2."""
         diagnostics = Diagnostics()
         for client in clients:
             for item in client.objects:
@@ -79,9 +78,9 @@ class Preconfigured:
         return self._by_key.get(None, ()) if found is None else found
 
     def to_adopt(self, key: bytes, writer: int | None, in_session: Iterable[bytes]) -> bytes | None:
-        """Return the key of the client that a message without a session is from, or None.
+        """Return the key of the client to adopt for a message without a session, or None.
 
-        `key` is what its header says (may be empty), `writer` the object that it writes to (None: a HEARTBEAT).
+        `key` is that of the message's header (may be empty), `writer` the object that it writes to (None: a HEARTBEAT).
         """
         missing = self._adopted.difference(in_session)
         candidates = missing & {key} if key else missing

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Submessages of clients in session: processed now, in the client's next turn, or when ROS 2 has room."""
+"""Processing of submessages of clients in session: now, in the client's next turn, or when ROS 2 has room."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ from microros_gen.agent.wire.submessages import decode
 WRITE_DATA = int(SubmessageId.WRITE_DATA)
 ACKNACK = int(SubmessageId.ACKNACK)
 COSTLY = (SubmessageId.CREATE, SubmessageId.DELETE)
-"""What changes the ROS graph: each client has a rate for it, and all together have a part of the agent's time."""
+"""Submessages that change the ROS graph, limited by a rate per client and a share of the agent's time for all."""
 ANSWERED = (SubmessageId.CREATE, SubmessageId.READ_DATA)
-"""Whoever sends these waits for a STATUS when they are refused, also for what cannot be read."""
+"""Submessages whose sender waits for a STATUS, also if they are refused or malformed."""
 RETRY_S, LONGEST_RETRY_S = 0.002, 0.064
-"""Seconds until a sample for which DDS had no room is tried again: at first, and at last."""
+"""Seconds until a sample for which DDS had no room is retried: the first and the longest interval."""
 Refuse = Callable[[Exception, bytes, Client], None]
-"""Counts, and tells, that a message of a client cannot be carried out."""
+"""Function that counts and reports an error in a client's message."""
 
 
 class Processor:
-    """Processes ready input of clients; what does not finish in its turn is postponed."""
+    """Processor of ready input of clients; input that does not finish in its turn is postponed."""
 
     def __init__(
         self,
@@ -65,7 +65,7 @@ class Processor:
         self._stopped: set[Client] = set()
         """Clients with a reliable stream that waits for room in DDS."""
         self.samples = 0
-        """Samples, requests and replies that were handed to ROS 2."""
+        """Number of samples, requests and replies sent to ROS 2."""
         turns.messages = self._take_up
 
     def due(self) -> float | None:
@@ -79,18 +79,18 @@ class Processor:
         self._to_acknowledge.clear()
 
     def note_arrival(self, client: Client, stream: int) -> None:
-        """Note that a message arrived on a reliable stream and has to be acknowledged."""
+        """Record that a message arrived on a reliable stream and has to be acknowledged."""
         client.unacknowledged.add(stream)
         self._to_acknowledge.add(client)
 
     def _take_up(self, client: Client) -> None:
-        """Continue postponed input; what is processed gets acknowledged."""
+        """Continue postponed input; acknowledge processed messages."""
         if client.unacknowledged:
             self._to_acknowledge.add(client)
         self.process(client)
 
     def process(self, client: Client) -> None:
-        """Process ready input of a client, as far as its turn goes."""
+        """Process ready input of a client until its turn ends."""
         ready, turns = client.ready, self._turns
         while ready:
             message = ready.popleft()
@@ -148,7 +148,7 @@ class Processor:
     def _operate(
         self, client: Client, identifier: int, flags: int, data: bytes, at: int, end: int, whole: bool
     ) -> bool:
-        """Process a submessage that is no sample; return False if the rest of the message has to wait."""
+        """Process a submessage other than a sample; return False if the rest of the message has to wait."""
         if identifier == SubmessageId.DELETE and _of_client(data, at, end):
             self._admission.leave(client, data, at)
             self._to_acknowledge.discard(client)
@@ -162,7 +162,9 @@ class Processor:
         if identifier == SubmessageId.FRAGMENT and whole:
             raise MalformedError("nested_fragment")
         if identifier == SubmessageId.INFO or (identifier == SubmessageId.CREATE_CLIENT and at == end):
-            return True  # a sign of life; the public client's answer to a probe lacks its submessage header: zeros
+            return (
+                True  # a sign of life; the public client answers a probe without a submessage header: zeros
+            )
         if identifier == SubmessageId.HEARTBEAT:
             self._to_acknowledge.add(client)
         now = self._clock()
@@ -191,8 +193,7 @@ class Processor:
     def _may_change(self, client: Client, data: bytes, at: int, end: int) -> bool:
         """Return whether a client may create or delete one more object now; it may always leave.
 
-        What comes on a best-effort stream cannot be left unacknowledged until there is time for it: it is begun, and
-        waits for that as any other work.
+        Messages on a best-effort stream are not sent again, so such work is started, and then waits for its time.
         """
         now = self._clock()
         if _of_client(data, at, end):

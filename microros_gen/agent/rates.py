@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 BURST_S = 10.0
-"""What a client did not do in this time it may do at once."""
+"""Seconds whose unused operations may be used in one burst."""
 
 
 class Rate:
@@ -16,7 +16,7 @@ class Rate:
         self._at = 0.0
 
     def take(self, now: float) -> bool:
-        """Return whether one more is within the rate at `now` (seconds, of any clock that does not go back)."""
+        """Count one more operation if it is within the rate at `now` (s of a monotonic clock); return whether it is."""
         most = self._per_second * BURST_S
         self._credit = min(most, self._credit + max(0.0, now - self._at) * self._per_second)
         self._at = now
@@ -27,7 +27,7 @@ class Rate:
 
 
 class Rates:
-    """Rates by key, kept after the client has left; at most `limit` keys."""
+    """Rates by client key, at most `limit`. They outlast the client's session."""
 
     def __init__(self, per_second: int, limit: int) -> None:
         self._per_second = per_second

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One READ_DATA in force: takes what ROS 2 has for a reader, replier or requester and hands it to the client.
+"""Execution of one READ_DATA: passes data from ROS 2 for a reader, replier or requester to the client.
 
-Nothing is queued here. What the delivery control (DDS-XRCE 1.0, 7.7.14 and table 9) or the window of the reliable
-stream does not let through yet stays in DDS, whose QoS says how much of it is kept.
+Nothing is queued here. Samples that the delivery control (DDS-XRCE 1.0, 7.7.14 and table 9) or the window of the
+reliable stream does not permit yet stay in DDS, whose QoS limits how many are kept.
 
 In FORMAT_DATA each sample is a separate message, though several in one would cost less: the rmw of micro-ROS takes
-one message at a time and has room for four samples by default, so a message with more loses some of a reliable stream.
-Who wants several in a message asks for a sequence format.
+one message at a time and has room for four samples by default, so it would lose samples of a reliable stream. A client
+that accepts several samples in a message requests a sequence format.
 """
 
 from __future__ import annotations
@@ -43,42 +43,42 @@ if TYPE_CHECKING:
     from microros_gen.agent.clients import Client
 
 MOST_SAVED = 256
-"""Samples kept for a client that timed out: taking them from ROS takes some milliseconds."""
+"""Maximum number of samples kept for a client that timed out: taking them from ROS 2 takes some milliseconds."""
 TURN = 64
-"""Messages that one reading sends before it is somebody else's turn."""
+"""Messages that one reading sends before the next one's turn."""
 RETRY_S = 0.1
-"""Seconds until ROS 2 is asked again after it refused to give a sample."""
+"""Seconds until the next attempt after ROS 2 failed to return a sample."""
 UNLIMITED = 0xFFFF
 """MAX_SAMPLES_UNLIMITED."""
 ONCE = DeliveryControl(max_samples=1)
-"""Without delivery control: one sample, as soon as there is one."""
+"""Default without delivery control: one sample, as soon as it is available."""
 NEVER = float("inf")
 DATA = int(SubmessageId.DATA)
 
 
 class Reading:
-    """What a client requested with one READ_DATA, and its progress."""
+    """One READ_DATA of a client, and its progress."""
 
     def __init__(self, client: Client, entity: Entity, wanted: ReadData, now: float, log: EventLog) -> None:
         control = wanted.delivery or ONCE
         self.client = client
         self.account = client.account
-        """Who pays."""
+        """The account that is charged."""
         self.entity = entity
         self.source: Readable | None = None
-        """Where it takes from; None while the client is not in the ROS graph."""
+        """Its source of data; None while the client is not in the ROS graph."""
         self._from_ros: Callable[[], Any] = _nothing
         self.stream = _stream(client, wanted.stream)
         self.over = False
-        """There is nothing more to come."""
+        """Whether it is complete."""
         self.waiting = False
-        """It waits for room on its stream."""
+        """Whether it waits for space on its stream."""
         self.scheduled = False
-        """A moment is noted at which it goes on."""
+        """Whether a time is scheduled at which it continues."""
         self._pending: tuple[bytes, int] | None = None
-        """A DATA for which there was no room, and how many samples it has."""
+        """A DATA for which there was no space, and its number of samples."""
         self._raw: tuple[bytes, ...] = ()
-        """The samples of the DATA that was made last."""
+        """The samples of the last DATA."""
         self._keeps = entity.keeps and is_reliable(self.stream)
         self._log = log
         self._calls = entity.kind != ObjectKind.DATAREADER
@@ -103,10 +103,10 @@ class Reading:
         return self.client.session.output(self.stream).has_room()
 
     def deliver(self, now: float) -> float | None:
-        """Deliver what ROS 2 has and the client has credit for.
+        """Deliver data from ROS 2, as far as the client's delivery control and stream permit.
 
-        Return the time of the next call; None if that depends on ROS 2 or an acknowledgement, or if no further call is
-        due (`over`).
+        Return the time of the next call; None if it depends on ROS 2 or an acknowledgement, or if the reading is
+        complete (`over`).
         """
         client = self.client
         output = client.session.output(self.stream)
@@ -132,7 +132,9 @@ class Reading:
             kept = (self.entity.id, self._raw) if self._keeps else None
             messages = output.push(submessage, now, kept)
             if messages is None:
-                if output.may_take(len(submessage)):  # what waits for all clients takes too much now
+                if output.may_take(
+                    len(submessage)
+                ):  # the pending output of all clients takes too much memory now
                     self._pending = submessage, count
                     self._wait()
                     return None
@@ -148,13 +150,13 @@ class Reading:
         return now
 
     def give_back(self) -> None:
-        """Keep the samples of a DATA for which there was no room; this reading ends, another one may follow."""
+        """Keep the samples of a DATA for which there was no space; this reading ends, another one may follow."""
         if self._pending is not None and self._keeps:
             self.entity.keep(self._raw, self.client.shares)
         self._pending = None
 
     def save(self) -> int:
-        """Keep the samples that ROS 2 holds for a client that timed out; return how many did not fit."""
+        """Keep the samples that ROS 2 has for a client that timed out; return the number that did not fit."""
         if not self._keeps or self.source is None:
             return 0
         taken: list[bytes] = []
@@ -167,7 +169,7 @@ class Reading:
         self.entity.kept.append(sample)
 
     def _next(self, now: float) -> tuple[bytes, int]:
-        """Return the next DATA and its number of samples; empty: ROS 2 has none; 0: one was skipped."""
+        """Return the next DATA (empty: ROS 2 has no data) and its number of samples (0: one was skipped)."""
         if self._calls:
             return self._next_call()
         taken = self._take()
@@ -204,7 +206,7 @@ class Reading:
         """Return a DATA with a sample of ROS 2, whose first four bytes are the encapsulation header."""
         size = len(prefix) + len(data)  # the ids take the place of the header
         if size > 0xFFFF:
-            size = 0  # takes everything to its end: as clients say it, and in fragments anyway
+            size = 0  # length 0 extends to the end: as clients send it, and in fragments anyway
         head = bytes((DATA, data[1] & FLAG_LITTLE, size & 0xFF, size >> 8))
         return head + self._head + prefix + data[4:]
 
@@ -266,7 +268,7 @@ def _nothing() -> None:
 
 
 def _stream(client: Client, preferred: int) -> int:
-    """Return the stream for samples; for STREAMID_NONE that of the request, and built-in ones beyond the limit."""
+    """Return the stream for samples: that of the request for STREAMID_NONE, and a built-in one beyond the limit."""
     reliable = is_reliable(preferred or client.stream)
     builtin = STREAM_RELIABLE if reliable else STREAM_BEST_EFFORT
     return preferred if preferred and client.session.may_send_on(preferred) else builtin
