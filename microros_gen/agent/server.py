@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The loop: waits for transports, feeds the agent, ends cleanly on SIGINT and SIGTERM.
+"""The main loop: waits for transports and ROS 2, calls the agent, and ends cleanly on SIGINT and SIGTERM.
 
 One thread and one epoll descriptor (Linux; a transport with several descriptors nests its own in it, as ROS 2 does). A
-turn reads a batch of each transport that has something, takes what ROS 2 has, then sends what is to be acknowledged.
-Descriptors are registered once: a turn costs a system call and the agent's answer when it wants to be called.
+round reads a batch from each readable transport, takes data from ROS 2, and sends due acknowledgements. Descriptors are
+registered once, so that a round costs one system call and a question to the agent when it is due.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.transport.base import Transport
 
 TICK_S = 0.1
-"""Seconds between two looks at what transports wait for: devices that are not there, connections that say nothing."""
+"""Seconds between two calls of the transports' `tick`: for missing devices and silent connections."""
 
 Ready = Callable[[Transport], None]
 
 
 class Server:
-    """Serves some transports until it is told to stop."""
+    """A server of several transports that runs until `stop`."""
 
     def __init__(self, agent: Agent, transports: Sequence[Transport], log: EventLog) -> None:
         self._agent = agent
@@ -77,7 +77,7 @@ class Server:
             flush()
 
     def _register(self, epoll: select.epoll) -> dict[int, Callable[[], object]]:
-        """Watch every descriptor; return what is to be called when one is readable."""
+        """Watch every descriptor; return the function to call when one is readable."""
         handlers: dict[int, Callable[[], object]] = {self._wake: self._noted}
         for transport in self._transports:
             handlers[transport.fileno()] = partial(transport.pump, self._agent.receive)
@@ -87,7 +87,7 @@ class Server:
         return handlers
 
     def _noted(self) -> None:
-        """Nothing: `_stop` says it."""
+        """Do nothing: `_stop` is set."""
 
     def _care(self, now: float, ready: Ready) -> None:
         self._agent.care(now)
@@ -119,15 +119,15 @@ class Server:
 
 
 class Stoppable(Protocol):
-    """What a signal can stop."""
+    """A program that a signal can stop."""
 
     def stop(self) -> None:
-        """Let what runs end soon; called from a signal handler."""
+        """End soon; called from a signal handler."""
 
 
 @contextmanager
 def stopped_by_signals(server: Stoppable) -> Iterator[None]:
-    """Let SIGINT and SIGTERM stop `server` while this lasts."""
+    """Let SIGINT and SIGTERM stop `server` within the context."""
 
     def stop(_number: int, _frame: FrameType | None) -> None:
         server.stop()

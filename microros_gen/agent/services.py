@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Requests and replies of one client: which reply is for which request, many at once.
+"""Correlation of the requests and replies of one client, of which many may be open at the same time.
 
-A requester's requests are known to ROS 2 by a number and to the client by the ids of its WRITE_DATA; a replier's by
-their SampleIdentity, which comes back with the reply. What waits is bounded: the oldest gives way.
+A requester's requests have a number in ROS 2, and for the client the ids of its WRITE_DATA. A replier's requests have a
+SampleIdentity, which the reply repeats. The number of open requests is bounded: a new one replaces the oldest.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from microros_gen.agent.wire.errors import MalformedError
 IDENTITY = 24
 """Bytes of a SampleIdentity: GUID of 16 bytes, then its sequence number (i32 high, u32 low)."""
 ENCAPSULATION = (b"\x00\x00\x00\x00", b"\x00\x01\x00\x00")
-"""What a body gets in front for DDS, by the byte order flag of its WRITE_DATA: XCDR1, big or little."""
+"""Encapsulation header of a body for DDS, by the byte order flag of its WRITE_DATA: XCDR1, big or little endian."""
 
 
 class Calls:
@@ -108,5 +108,5 @@ class Calls:
 
 
 def swapped(identity: bytes) -> bytes:
-    """Return a SampleIdentity in the other byte order: only its sequence number has one."""
+    """Return a SampleIdentity in the other byte order; it affects the sequence number only."""
     return identity[:16] + identity[19:15:-1] + identity[23:19:-1]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The session of one client: its streams in and out. Time comes from the caller; bytes go to the caller."""
+"""The session of one client: its input and output streams. The caller passes the time and sends the returned bytes."""
 
 from __future__ import annotations
 
@@ -25,12 +25,15 @@ from microros_gen.agent.wire.submessages import Submessage, encode
 
 ACKNACK = int(SubmessageId.ACKNACK)
 Ready = tuple[bytes, int, int, bool, int]
-"""To be processed: message, offset of its first submessage, its stream, whether fragments made it, and how many samples
-of that submessage went to ROS 2 already. What fragments made goes before the rest of the message with the last one."""
+"""Input to process: message, offset of its first submessage, stream, whether reassembled, samples done.
+
+The last one is the number of samples of that submessage already sent to ROS 2. A reassembled message precedes the rest
+of the message with its last fragment.
+"""
 
 
 class Session:
-    """Session `link.session` of the client `link.key`; streams are created on first use."""
+    """Session `link.session` of the client `link.key`. Streams are created on first use."""
 
     def __init__(
         self, link: Link, limits: Limits, holder: Holder | None = None, output: Holder | None = None
@@ -101,7 +104,7 @@ class Session:
 
     @property
     def held(self) -> int:
-        """Bytes of incomplete or waiting input."""
+        """Number of bytes of incomplete or waiting input."""
         return self._holder.held
 
     @property
@@ -110,9 +113,9 @@ class Session:
         return bool(self._unfinished)
 
     def stop(self, unfinished: list[Ready], followers: Sequence[bytes]) -> bool:
-        """Acknowledge nothing from the message `unfinished` on, and keep it and those that follow until `go_on`.
+        """Keep the message `unfinished` and those that follow, unacknowledged, until `go_on`.
 
-        False when its stream is not there any more or has stopped before.
+        Return False if its stream no longer exists or was stopped before.
         """
         stream = unfinished[0][2]
         reliable = self._reliable_in.get(stream)
@@ -159,13 +162,13 @@ class Session:
         return reassembly.add(fragment.data, fragment.last)
 
     def acknack(self, stream: int, unfinished: int = 0) -> bytes:
-        """Return the message that tells the client what arrived on reliable stream `stream`.
+        """Return the ACKNACK message for reliable stream `stream`.
 
-        The last `unfinished` messages that were handed on are not acknowledged yet.
+        It does not acknowledge the last `unfinished` messages that were returned for processing.
         """
         reliable = self._reliable_in.get(stream)
         first, missing = reliable.missing(unfinished) if reliable else (0, 0)
-        # One goes out for every reliable message: its bytes are put together here.
+        # Sent for every reliable message, so its bytes are assembled here.
         body = (
             ACKNACK,
             FLAG_LITTLE,
@@ -218,7 +221,7 @@ class Session:
         return [kept for stream in self._reliable_out() for kept in stream.undelivered()]
 
     def repeated_part(self) -> float:
-        """Return which part of the reliable messages to the client are repetitions, by the stream with most of them."""
+        """Return the largest fraction of repetitions among the reliable messages of a stream to the client."""
         return max((stream.repeated_part() for stream in self._reliable_out()), default=0.0)
 
     def probe(self) -> bytes:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Streams from a client (DDS-XRCE 8.4): best effort drops what is old, reliable restores the order."""
+"""Streams from a client (DDS-XRCE 1.0, 8.4): best effort drops old messages, reliable restores the order."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from microros_gen.agent.wire.constants import RELIABLE_WINDOW
 from microros_gen.agent.wire.errors import MalformedError
 
 HALF = 0x8000
-"""Sequence numbers count modulo 2^16: a difference from here on means 'older'."""
+"""Sequence numbers are modulo 2^16: a difference of this or more means 'older'."""
 
 
 class BestEffortIn:
-    """Takes each message that is newer than the last one; gaps are losses."""
+    """Best-effort stream: accepts each message newer than the last one; gaps are losses."""
 
     def __init__(self) -> None:
         self._last: int | None = None
@@ -33,9 +33,9 @@ class BestEffortIn:
 
 
 class ReliableIn:
-    """Returns messages in order, once each; holds those after a gap, at most `hold_bytes`.
+    """Reliable stream: returns each message once, in order; stores up to `hold_bytes` bytes of messages after a gap.
 
-    `holder` decides whether there is room among all clients.
+    `holder` limits the bytes together with those of other clients.
     """
 
     def __init__(self, hold_bytes: int, holder: Holder | None = None) -> None:
@@ -55,9 +55,9 @@ class ReliableIn:
         return self._stopped
 
     def stop(self, followers: Sequence[bytes]) -> None:
-        """Stop acknowledging: the caller could not finish a message, and returns its `followers`.
+        """Stop acknowledging: the caller could not finish a message, and passes back its `followers`.
 
-        Nothing is returned until `go_on`; messages that arrive meanwhile are held as after a gap.
+        No message is returned until `go_on`; those that arrive meanwhile are stored as after a gap.
         """
         self._stopped = True
         returned = (b"", *followers)  # the caller keeps the first
@@ -68,7 +68,7 @@ class ReliableIn:
             self._count(len(message))
 
     def go_on(self) -> tuple[bytes, ...]:
-        """Return what follows the message at which it was stopped, which the caller continues itself."""
+        """Return the messages after the one at which it was stopped; the caller continues that one itself."""
         self._stopped = False
         del self._held[self.next]
         self._advance()
@@ -86,12 +86,12 @@ class ReliableIn:
         if self._held_bytes + len(data) <= self._hold_bytes and self._holder.take(len(data)):
             self._held[sequence] = data
             self._held_bytes += len(data)
-        return ()  # what is not held is not acknowledged either, so the client sends it again
+        return ()  # a message that is not stored is not acknowledged, so the client sends it again
 
     def announce(self, first: int, last: int) -> tuple[tuple[bytes, ...], bool]:
-        """Process a HEARTBEAT: the sender holds the messages `first` to `last` and no earlier ones.
+        """Process a HEARTBEAT: the sender can repeat messages `first` to `last` and no earlier ones.
 
-        Return what can be processed now, and whether missing messages were skipped for it.
+        Return the messages to process now, and whether missing messages were skipped.
         """
         skip = (first - self.next) & 0xFFFF
         lost = 0 < skip < HALF
@@ -104,9 +104,9 @@ class ReliableIn:
         return ready, lost
 
     def missing(self, unfinished: int = 0) -> tuple[int, int]:
-        """Return what an ACKNACK says: the first message not acknowledged, and a bit for each that is known to lack.
+        """Return the content of an ACKNACK: the first unacknowledged message, and a bit for each missing one.
 
-        The last `unfinished` messages that were handed on (0 to the window) are here, and not acknowledged.
+        The last `unfinished` messages (0 to the window) that were returned are neither acknowledged nor missing.
         """
         bitmap = 0
         for i in range(self._announced):
@@ -134,7 +134,7 @@ class ReliableIn:
         self._announced = max(0, self._announced - skip)
 
     def forget(self) -> None:
-        """Drop what is after a gap: the client sends it again."""
+        """Drop messages after a gap: the client sends them again."""
         if not self._stopped:
             for data in self._held.values():
                 self._count(-len(data))
@@ -151,7 +151,7 @@ class ReliableIn:
 
 
 class Reassembly:
-    """Joins the FRAGMENTs of one reliable stream; holds at most `limit` bytes, within the budget of `holder`."""
+    """Reassembly of the FRAGMENTs of one reliable stream, of up to `limit` bytes, within the budget of `holder`."""
 
     def __init__(self, limit: int, holder: Holder | None = None) -> None:
         self._holder = holder or Holder()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Streams to a client: number its messages; reliable ones are stored and repeated until acknowledged."""
+"""Streams to a client (DDS-XRCE 1.0, 8.4): they number messages; reliable ones repeat them until acknowledged."""
 
 from __future__ import annotations
 
@@ -13,25 +13,25 @@ from microros_gen.agent.wire.message import SUBMESSAGE_HEADER, header_bytes, sub
 from microros_gen.records import dataclass
 
 HEARTBEAT_PERIOD_S = 0.2
-"""Seconds that a message waits for its acknowledgement before a HEARTBEAT asks for it, at least."""
+"""Minimum seconds that a message waits for its acknowledgement before a HEARTBEAT requests it."""
 SILENT_PERIOD_S, SLOW_PERIOD_S = 1.0, 5.0
-"""The same at most: where the client is silent, and where its answers take long."""
+"""The maximum, for silent clients and slow answers."""
 
 NEVER = float("-inf")
 STEP_BYTES = 4_096
-"""What a stream may have without asking: that is shared by all clients."""
+"""Bytes that a stream may use without a reservation in the budget of all clients."""
 MANY = 512
 """Number of messages over which the rate of repetitions is measured."""
 REPEAT_S = 0.01
-"""Seconds in which a message is not sent again a second time."""
+"""Minimum seconds between two repetitions of a message."""
 
 Kept = tuple[int, tuple[bytes, ...]]
-"""Which object's samples a submessage has, and the samples: it is known by them until all of it is acknowledged."""
+"""The object and the samples of a submessage, stored until all of it is acknowledged."""
 
 
 @dataclass(frozen=True)
 class Link:
-    """What the messages to one client share: session id, client key, largest message in bytes."""
+    """Common data of all messages to one client: session id, client key, largest message in bytes."""
 
     session: int
     key: bytes
@@ -42,12 +42,12 @@ class Link:
         return header_bytes(self.session, stream, sequence, self.key)
 
     def room(self) -> int:
-        """Return the bytes of submessages, with their headers, that fit into one message."""
+        """Return the number of bytes of submessages, with their headers, that fit into one message."""
         return self.mtu - (4 if self.session >= 0x80 else 8)
 
 
 class BestEffortOut:
-    """Numbers messages; stores none."""
+    """Best-effort stream: numbers messages and stores none."""
 
     def __init__(self, link: Link, stream: int) -> None:
         self._link = link
@@ -81,9 +81,9 @@ class BestEffortOut:
 
 
 class ReliableOut:
-    """Window of unacknowledged messages, followed by a backlog of at most `backlog_bytes`.
+    """Reliable stream: a window of unacknowledged messages, followed by a backlog of at most `backlog_bytes`.
 
-    A submessage of up to `largest` bytes is accepted if nothing waits.
+    A submessage of up to `largest` bytes is accepted if the backlog is empty.
     """
 
     def __init__(
@@ -92,7 +92,7 @@ class ReliableOut:
         """Use `holder` as the budget of all clients; one submessage may wait in any case."""
         self._holder = holder or Holder()
         self._bytes = 0
-        """What is in the window and the backlog, with the samples in it; the holder counts `_told` of it."""
+        """Bytes in the window and the backlog, samples included; `_told` of them are reserved at the holder."""
         self._reported = 0
         self._link = link
         self._head = len(link.header(0, 0))
@@ -101,7 +101,7 @@ class ReliableOut:
         self._unacknowledged: deque[bytes] = deque()
         self._backlog: deque[bytes] = deque()
         self._kept: deque[tuple[int, Kept, int]] = deque()
-        """Each with how many messages were numbered when its last one was, and its bytes."""
+        """Each with the number of messages sent up to its last one, and its bytes."""
         self._backlog_bytes = 0
         self._backlog_limit = backlog_bytes
         self._largest = max(largest, backlog_bytes)
@@ -109,10 +109,10 @@ class ReliableOut:
         self._heartbeat_at = 0.0
         self._round_trip = 0.0
         self._timed: tuple[int, float] | None = None
-        """The number and moment of a message whose acknowledgement will say how long a round trip takes."""
+        """Number and time of a message whose acknowledgement will measure the round trip."""
         self._progress_at = 0.0
         self._numbered = 0
-        """Messages that were sent, and of recent ones how many again."""
+        """Number of messages sent, and of repetitions among recent ones."""
         self._recent = 0
         self._again = 0
         self.resent = 0
@@ -121,19 +121,19 @@ class ReliableOut:
         """When messages of the window were sent again."""
 
     def has_room(self) -> bool:
-        """Return whether the next submessage, if it fits one message, would go out at once."""
+        """Return whether the next submessage, if it fits into one message, would be sent at once."""
         if self._backlog or len(self._unacknowledged) >= RELIABLE_WINDOW:
             return False
         return self._bytes < STEP_BYTES or self._holder.has_room(STEP_BYTES)
 
     def may_take(self, size: int) -> bool:
-        """Return whether a submessage of `size` bytes is not too large, if it may be taken now or not."""
+        """Return whether a submessage of `size` bytes is not too large, whether or not it is accepted now."""
         return size <= self._largest
 
     def push(self, submessage: bytes, now: float, kept: Kept | None = None) -> list[bytes] | None:
-        """Take a submessage of any size; return the messages to send now, None when there is no room.
+        """Accept a submessage of any size; return the messages to send now, or None if there is no space.
 
-        `kept` is what `undelivered` returns until the client has acknowledged all of it.
+        `undelivered` returns `kept` until the client has acknowledged all of the submessage.
         """
         size = len(submessage)
         if self._bytes + size > STEP_BYTES and self._bytes and not self._holder.has_room(size):
@@ -161,10 +161,10 @@ class ReliableOut:
         return self._release(now)
 
     def acknowledge(self, first: int, missing: int, now: float) -> list[bytes]:
-        """Process an ACKNACK; return the messages to send: the missing ones, then those that have room now."""
+        """Process an ACKNACK; return the messages to send: the missing ones, then waiting ones that now fit."""
         done = (first - self._first()) & 0xFFFF
         if done > len(self._unacknowledged):
-            return []  # older than what is known, or never sent
+            return []  # older than the last ACKNACK, or never sent
         if done:
             unacknowledged, kept = self._unacknowledged, self._kept
             size = -done * self._head
@@ -188,7 +188,7 @@ class ReliableOut:
         self._heartbeat_at = now + self._pause()
 
     def _pause(self, silent: float = 0.0) -> float:
-        """Return how long to wait for an answer: longer than the last one took, and than a quarter of the silence."""
+        """Return the seconds to wait for an answer: more than the last round trip and a quarter of the silence."""
         slow = min(1.5 * self._round_trip, SLOW_PERIOD_S)
         return max(HEARTBEAT_PERIOD_S, slow, min(silent / 4, SILENT_PERIOD_S))
 
@@ -200,7 +200,7 @@ class ReliableOut:
             sequence = (first + i) & 0xFFFF
             before = self._repeated.get(sequence, NEVER)
             if missing >> i & 1 and now - before >= max(REPEAT_S, 0.8 * self._round_trip):
-                self._timed = None  # its acknowledgement comes with that of this one, or is for this one
+                self._timed = None  # its acknowledgement covers this message, or comes with this one's
                 again.append(message)
                 before = now
             repeated[sequence] = before
@@ -215,10 +215,10 @@ class ReliableOut:
         return self._round_trip or None
 
     def repeated_part(self) -> float:
-        """Return which part of the recent messages was sent again, 0 to 1; 0 for few messages."""
+        """Return the fraction of recent messages that were sent again, 0 to 1; 0 after few messages."""
         sent = self._numbered - self._recent + self._again
         part = self._again / sent if sent >= RELIABLE_WINDOW else 0.0
-        if sent >= MANY:  # what was long ago counts less
+        if sent >= MANY:  # old messages count less
             self._recent += (self._numbered - self._recent) // 2
             self._again //= 2
         return part
@@ -231,7 +231,7 @@ class ReliableOut:
         return self.probe()
 
     def probe(self) -> Heartbeat:
-        """Return a HEARTBEAT, also when there is nothing to repeat: a client answers with an ACKNACK."""
+        """Return a HEARTBEAT, even if there is nothing to repeat: a client answers it with an ACKNACK."""
         return Heartbeat(self._first(), (self._sequence - 1) & 0xFFFF, self.stream)
 
     def _first(self) -> int:
@@ -242,11 +242,11 @@ class ReliableOut:
         return (self._first() - 1) & 0xFFFF
 
     def undelivered(self) -> list[Kept]:
-        """Return what the client has not acknowledged completely, in order."""
+        """Return the samples that the client has not acknowledged completely, in order."""
         return [kept for _, kept, _ in self._kept]
 
     def _report(self) -> None:
-        """Report the stored bytes to the holder, in steps, since they change with each message."""
+        """Reserve the stored bytes at the holder, in steps, since they change with each message."""
         self._holder.add(self._bytes - self._reported)
         self._reported = self._bytes
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Messages for -v (one line each) and -vv (every submessage decoded by name, and all bytes), in both directions."""
+"""Log of messages in both directions: one line each for -v; all submessages decoded and all bytes for -vv."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from microros_gen.agent.wire.submessages import decode
 _HEXADECIMAL = ("object", "parent")
 _STREAMS = ("stream", "session")
 _LONGEST_BYTES = 32
-"""Of a payload shown with its submessage; all bytes follow."""
+"""Maximum bytes of a payload shown with its submessage; all bytes follow below."""
 
 
 class TracedTransport:
@@ -122,7 +122,7 @@ def _submessage(data: bytes, identifier: int, flags: int, start: int, end: int) 
 
 
 def _fields(value: Any) -> dict[str, Json]:
-    """Return the fields of a dataclass that say something, by name."""
+    """Return the fields of a dataclass other than None, by name; without the byte order."""
     found = ((field.name, getattr(value, field.name)) for field in fields(value))
     return {name: _value(value, name, item) for name, item in found if item is not None and name != "little"}
 
@@ -149,7 +149,7 @@ def _value(owner: Any, name: str, value: Any) -> Json:
 
 
 def _words(owner: Any, name: str) -> type[IntEnum] | None:
-    """Return the names of a field's numbers."""
+    """Return the enumeration of a field's values, or None."""
     if name == "kind":
         return ObjectKind if isinstance(owner, Create) else None
     if name == "format":

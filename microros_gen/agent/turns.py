@@ -2,7 +2,7 @@
 """Work of clients that does not finish within their turn: it pauses, and continues in their next turn.
 
 The work of a client is done in order: first its jobs (its entities are created or removed in steps), then its messages.
-Only clients whose turn was over are known here; all others were served at once.
+Only clients with postponed work are stored here; all others were served at once.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from microros_gen.agent.graph_work import GraphWork
 from microros_gen.agent.steps import finish
 
 PAUSE_S = 0.05
-"""Seconds until a job is tried again that may not change the ROS graph now."""
+"""Seconds until a job that may not change the ROS graph now is retried."""
 INBOX_BYTES = 65_536
-"""What may wait for the next turn of one client, beyond the message that it was stopped in."""
+"""Maximum bytes that wait for the next turn of one client, besides the message in which it was stopped."""
 
 
 class Turns:
-    """Which client continues next, and until when."""
+    """The order of clients with postponed work, and the length of their turns."""
 
     def __init__(
         self,
@@ -39,9 +39,9 @@ class Turns:
         self._processor = processor
         self.clock = clock
         self.end = 0.0
-        """When the turn that is under way is over."""
+        """When the current turn ends."""
         self.messages: Callable[[Client], None] = _nothing
-        """Process the messages that are ready of a client; the rest stays in its `ready`."""
+        """Function that processes ready messages of a client; the rest stays in its `ready`."""
         self._turn_s = turn_s
         self._fair = fair
         self._graph = graph
@@ -158,4 +158,4 @@ class Turns:
 
 
 def _nothing(_client: Client) -> None:
-    """There are no messages."""
+    """Ignore messages; the default."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the agent needs of ROS 2. Everything else of the agent works, and is tested, without ROS."""
+"""The interface between the agent and ROS 2. The rest of the agent works, and is tested, without ROS."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from microros_gen.records import dataclass
 
 
 class BridgeError(Exception):
-    """ROS 2 refused something; the text gives reason and remedy, `status` is sent to the client."""
+    """ROS 2 refused an operation; the text has reason and remedy, `status` is sent to the client."""
 
     def __init__(self, reason: str, status: Status = Status.DDS_ERROR) -> None:
         super().__init__(reason)
@@ -20,9 +20,9 @@ class BridgeError(Exception):
 
 
 class BusyError(BridgeError):
-    """DDS has no room for a sample now, since readers have not taken earlier ones; it may have later.
+    """DDS has no room for a sample now, because readers have not taken earlier ones; a retry may succeed.
 
-    `done`: how many samples of the same submessage it accepted before.
+    `done`: number of samples of the same submessage that it accepted before.
     """
 
     def __init__(self, reason: str, done: int = 0) -> None:
@@ -31,13 +31,16 @@ class BusyError(BridgeError):
 
 
 HashOf = Callable[[str], "str | None"]
-"""Gives the type hash (RIHS01_…, REP-2011) of a type, or None when it knows none. Types are named as in ROS:
-`pkg/msg/Type`; for services `pkg/srv/Type`, `pkg/srv/Type_Request` and `pkg/srv/Type_Response`; actions likewise."""
+"""Function that returns the hash (RIHS01_…, REP-2011) of a type, or None if it is unknown.
+
+Types are named as in ROS: `pkg/msg/Type`; for services `pkg/srv/Type`, `pkg/srv/Type_Request` and
+`pkg/srv/Type_Response`; actions likewise.
+"""
 
 
 @dataclass(frozen=True)
 class Matched:
-    """A publisher or subscription (`kind`) of a client's node has `count` counterparts now."""
+    """A publisher or subscription (`kind`) of a client's node has `count` matched endpoints now."""
 
     node: str
     kind: str
@@ -178,7 +181,7 @@ GraphReport = (
     | HashUnknown
     | OtherDomain
 )
-"""What a bridge tells about the ROS graph, from within `ready` and when an entity is made; its text is for people."""
+"""A report about the ROS graph, made within `ready` and on creation of an entity; its text is for people."""
 
 
 class Writer(Protocol):
@@ -191,8 +194,8 @@ class Writer(Protocol):
     def publish(self, serialized: bytes) -> None:
         """Publish a sample: encapsulation header, then CDR body.
 
-        BusyError, after a millisecond or so, when it may be taken later; then for some milliseconds at once, without
-        asking DDS. BridgeError when it never will be.
+        Raises BusyError, after about a millisecond, if a retry may succeed, and then for some milliseconds immediately,
+        without trying DDS. Raises BridgeError if it is refused for good.
         """
 
     def settled(self, wait_s: float = 0.0) -> bool:
@@ -206,12 +209,12 @@ class Source(Protocol):
     """An entity of a client that receives data from ROS 2: a reader, a replier or a requester.
 
     `take` of each returns the next item, or None when it is empty. `Bridge.ready` reports a source again only after it
-    was empty: whoever stops before None has to continue without a report.
+    was empty: a caller that stops before None has to continue without a report.
     """
 
     @property
     def label(self) -> str:
-        """Names and types on the ROS side, for the log."""
+        """Names and types in ROS 2, for the log."""
 
     def unread(self) -> int:
         """Return about how many items arrived since it was last empty; expensive."""
@@ -236,7 +239,7 @@ class Replier(Source, Protocol):
     def reply(self, identity: bytes, serialized: bytes) -> None:
         """Answer the request that had `identity`: encapsulation header, then CDR body. May raise BridgeError.
 
-        Never waits for who asked; a reply to one that is gone is dropped with a `NoClient`.
+        Never waits for the client; a reply to one that is gone is dropped with a `NoClient`.
         """
 
 
@@ -246,8 +249,8 @@ class Requester(Source, Protocol):
     def request(self, serialized: bytes) -> int:
         """Send a request (encapsulation header, then CDR body); return the number that its reply will have.
 
-        A request whose service is not there waits for it some seconds (XRCE clients cannot see whether it is), and is
-        then dropped with a `NoServer`: whoever calls does not learn of it.
+        A request whose service does not exist waits for it some seconds (XRCE clients cannot check whether it exists),
+        and is then dropped with a `NoServer`. The caller is not notified.
         """
 
     def take(self) -> tuple[int, bytes] | None:
@@ -263,19 +266,19 @@ class Node(Protocol):
 
     @property
     def domain(self) -> int:
-        """ROS domain that it is in."""
+        """Its ROS domain, 0 to 232."""
 
     def create_writer(self, topic: Topic, qos: Qos) -> Writer:
-        """Create a publisher; BridgeError when names or type are not possible."""
+        """Create a publisher. Raises BridgeError if the topic's name or type is invalid."""
 
     def create_reader(self, topic: Topic, qos: Qos) -> Reader:
-        """Create a subscription; BridgeError as above."""
+        """Create a subscription. Raises BridgeError if the topic's name or type is invalid."""
 
     def create_replier(self, service: Service) -> Replier:
-        """Create a service; BridgeError as above."""
+        """Create a service. Raises BridgeError if its name or type is invalid."""
 
     def create_requester(self, service: Service) -> Requester:
-        """Create a service client; BridgeError as above."""
+        """Create a service client. Raises BridgeError if its name or type is invalid."""
 
     def destroy(self) -> None:
         """Leave the ROS graph, after everything else of the node has."""
@@ -285,9 +288,9 @@ class Bridge(Protocol):
     """The way into ROS 2."""
 
     def create_node(self, name: str, domain: int, hash_of: HashOf | None = None) -> Node:
-        """Create a node; `name` is `node` or `namespace/node`, in any characters; may raise BridgeError.
+        """Create a node; `name` is `node` or `namespace/node`, of any characters. Raises BridgeError if that fails.
 
-        `hash_of` tells the types that this client was generated with (its manifest); default: what the bridge has.
+        `hash_of` returns the type hashes that this client was generated with (its manifest); default: the bridge's.
         """
 
     def fileno(self) -> int:

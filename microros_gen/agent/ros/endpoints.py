@@ -18,12 +18,11 @@ from microros_gen.ros.libraries import FAILURES, OK, SUBSCRIPTION_TAKE_FAILED, f
 from microros_gen.ros.raw_types import RawTypes
 
 FULL_S, LONGEST_FULL_S = 0.002, 0.064
-"""Seconds for which a writer that is full is not asked again, at first and at last: each time the agent waits a
-millisecond in DDS, and so does everybody else."""
+"""Shortest and longest seconds until a full writer is retried: each attempt blocks the agent for 1 ms in DDS."""
 
 
 class Ros:
-    """What all entities of a bridge share: libraries, wake-ups, and one buffer into which samples are taken."""
+    """Shared by all entities of a bridge: libraries, wake-ups, and one buffer into which samples are taken."""
 
     def __init__(self, types: RawTypes, report: Callable[[GraphReport], None], request_wait_s: float) -> None:
         self.report = report
@@ -72,7 +71,7 @@ class RawWriter(Entity):
         self._libraries = ros.libraries
         self._keeps_all = keeps_all
         self._full_s = 0.0
-        """How long DDS is not asked again; 0: it took the last sample."""
+        """Current interval until DDS is tried again, in seconds; 0: it accepted the last sample."""
         self._full_until = 0.0
 
     def publish(self, serialized: bytes) -> None:
@@ -96,7 +95,7 @@ class RawWriter(Entity):
         """See Writer."""
         if self._libraries.all_acknowledged(self._handle.pointer, round(wait_s * 1e9)) == OK:
             return True
-        self._libraries.error()  # forget it: it only says that time is over
+        self._libraries.error()  # clear the error, which is the expired time
         return False
 
 
@@ -107,7 +106,7 @@ class RawSource(Entity):
         self, handle: Any, ros: Ros, notify: Notify, events: Events, endpoints: tuple[Endpoint, ...]
     ) -> None:
         self._empty = True
-        """It was seen empty since it was last asked what is unread."""
+        """Whether it was empty at some time since the last call of `unread`."""
         self._arrived = 0
         self._pointer: int = handle.pointer
         self._libraries = ros.libraries

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What happens in the ROS graph around the entities of clients: who matches, who cannot, whose type is another one.
+"""Observation of the ROS graph around clients' entities: matched endpoints, incompatible QoS, different types.
 
-ROS 2 tells by events, so nothing is polled. A type hash is compared a moment after a match, since the name of the node
-that an endpoint belongs to comes later than the endpoint.
+It uses events of ROS 2, so nothing is polled. Type hashes are compared shortly after a match, since the name of a node
+is discovered later than its endpoints.
 """
 
 from __future__ import annotations
@@ -25,19 +25,19 @@ from microros_gen.agent.wire.constants import Status
 from microros_gen.ros.libraries import FAILURES, OK, Libraries
 
 LOOK_S, BETWEEN_S = 0.001, 0.02
-"""Seconds for comparisons before it is others' turn, and until they go on."""
+"""Seconds of comparisons in one turn, and seconds until they continue."""
 MOST_COMPARED = 128
-"""Endpoints of one topic in this agent up to which it is compared: to ask for very many takes as long as they are."""
+"""Maximum endpoints of a topic in this agent for comparisons: the time of a query grows with their number."""
 MOST_REPORTED = 64
-"""Differences that are told of one endpoint."""
+"""Maximum number of differences reported for one endpoint."""
 FEW, TOGETHER_S = 32, 0.05
-"""Endpoints of a node that are asked at once what happened; more are asked some time later, for all that happened."""
+"""Maximum endpoints of a node whose events are read at once; with more, they are read later, all together."""
 CHECK_AFTER_S = 0.5
-"""From a match to the comparison of hashes."""
+"""Seconds from a match to the comparison of hashes."""
 CHECKS = 20
-"""How often an endpoint is looked at whose node has no name yet, `CHECK_AFTER_S` apart."""
+"""Number of checks of an endpoint whose node has no name yet, `CHECK_AFTER_S` apart."""
 _UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
-"""What rmw calls a node whose name it does not know yet."""
+"""The name that rmw uses for a node whose name was not discovered yet."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +45,7 @@ class Endpoint:
     """A ROS endpoint of a client, as reports name it.
 
     `topic` and `type` are its names in the graph; with `mangled` those in DDS, as the two topics of a service have.
-    `hash` is None when nobody knows it.
+    `hash` is None if it is unknown.
     """
 
     node: str
@@ -59,7 +59,7 @@ class Endpoint:
 
 @dataclass(eq=False)
 class _Watched:
-    """Events of an endpoint, and what was seen of them: ROS 2's own changes start again when a callback is set."""
+    """Events of an endpoint with the last values: ROS 2 resets its own changes when a callback is set."""
 
     matched: Any
     refused: Any
@@ -72,8 +72,10 @@ class _Watched:
 
 
 class TopicTypes:
-    """The types of the agent's topics in one domain: all its clients there are one DDS participant, which has one type
-    for a topic. (rmw_fastrtps refuses another one too, with a text that says nothing of it.)"""
+    """The types of the agent's topics in one domain.
+
+    All its clients there share one DDS participant, which has one type for each topic. (rmw_fastrtps refuses another
+    one as well, with a text that does not say so.)"""
 
     def __init__(self) -> None:
         self._by_topic: dict[str, set[Endpoint]] = {}
@@ -96,7 +98,7 @@ class TopicTypes:
         return len(self._by_topic.get(topic, ()))
 
     def release(self, endpoint: Endpoint) -> None:
-        """Forget an endpoint."""
+        """Remove an endpoint."""
         left = self._by_topic.get(endpoint.topic, set())
         left.discard(endpoint)
         if not left:
@@ -122,12 +124,12 @@ class Comparison(Watcher):
         self._wakeups = wakeups
         self._report = report
         self._due: dict[_Place, dict[Endpoint, tuple[Any, int]]] = {}
-        """What is to be compared, with the handle of its node and how often a nameless other one is waited for."""
+        """Endpoints to compare, with the handle of their node and the remaining checks of nameless counterparts."""
         self._reported: dict[Endpoint, set[GraphReport]] = {}
         self._timer = wakeups.add_timer(self)
 
     def soon(self, node: Any, topics: TopicTypes, endpoint: Endpoint) -> None:
-        """Compare `endpoint` in a moment; `node` is the handle of its node, `topics` are those of its domain."""
+        """Compare `endpoint` shortly; `node` is the handle of its node, `topics` are those of its domain."""
         self._reported.setdefault(endpoint, set())
         if not self._due:
             self._wakeups.set_timer(self._timer, CHECK_AFTER_S)
@@ -145,7 +147,7 @@ class Comparison(Watcher):
         self._reported.pop(endpoint, None)
 
     def look(self) -> None:
-        """See Watcher. A topic is asked for once, however many endpoints it has here; then it is others' turn."""
+        """See Watcher. A topic is queried once, however many endpoints it has here, in turns of limited time."""
         end = time.monotonic() + LOOK_S
         again: dict[_Place, dict[Endpoint, tuple[Any, int]]] = {}
         while self._due and time.monotonic() < end:
@@ -161,7 +163,7 @@ class Comparison(Watcher):
             self._wakeups.set_timer(self._timer, wait_s)
 
     def _compare(self, place: _Place, due: dict[Endpoint, tuple[Any, int]]) -> bool:
-        """Compare the endpoints at a place with others there; return whether one of those has no name yet."""
+        """Compare the endpoints of a topic with others there; return whether one of those has a nameless node."""
         alike = {(endpoint.type, endpoint.hash) for endpoint in due}
         node, tries = next(iter(due.values()))
         last_try, nameless = tries <= 1, False
@@ -180,14 +182,14 @@ class Comparison(Watcher):
             self._report(report)
 
     def _others(self, node: Any, place: _Place) -> Iterator[dict[str, Any]]:
-        """Give all endpoints of the other direction, and of ours: who publishes with us may have another type too."""
+        """Yield all endpoints of the topic, of both directions: another publisher may have a different type, too."""
         for get in (
             self._handles.rclpy_get_publishers_info_by_topic,
             self._handles.rclpy_get_subscriptions_info_by_topic,
         ):
             try:
                 yield from get(node, place[1], place[2])
-            except FAILURES:  # the graph cannot be asked now: the next match compares again
+            except FAILURES:  # the graph cannot be queried now: the next match compares again
                 return
 
 
@@ -214,12 +216,12 @@ class Events(Watcher):
         self._watched: dict[Endpoint, _Watched] = {}
         self._descriptor = self._timer = -1
         self._look_from = 0.0
-        """When it is to be looked at; 0: nothing happened."""
+        """When its events are to be read; 0: none are pending."""
         self.entities: set[Destroyable] = set()
-        """What the node has."""
+        """The entities of the node."""
 
     def watch(self, endpoint: Endpoint, handle: Any) -> None:
-        """Report what happens to an endpoint until `release`; ROS 2 has events for publishers and subscriptions."""
+        """Report events of an endpoint until `release`; ROS 2 has them for publishers and subscriptions."""
         self.compare(endpoint)
         if endpoint.mangled:
             return
@@ -246,17 +248,17 @@ class Events(Watcher):
         self._look_at(endpoint, watched)  # once at what happened before
 
     def compare(self, endpoint: Endpoint) -> None:
-        """Compare the type of `endpoint` with that of others in a moment."""
+        """Compare the type of `endpoint` with that of others shortly."""
         self._comparison.soon(self._node, self.topics, endpoint)
 
     def readers(self, endpoint: Endpoint, size: int) -> set[bytes]:
-        """Return the first `size` bytes of the GUIDs of all readers that the graph has of the topic of `endpoint`."""
+        """Return the first `size` bytes of the GUIDs of all readers in the graph on the topic of `endpoint`."""
         get = self._handles.rclpy_get_subscriptions_info_by_topic
         found = get(self._node, endpoint.topic, endpoint.mangled)
         return {bytes(reader["endpoint_gid"][:size]) for reader in found}
 
     def release(self, endpoints: Iterable[Endpoint]) -> None:
-        """Forget endpoints before they are destroyed."""
+        """Stop reporting endpoints that will be destroyed."""
         for endpoint in endpoints:
             self._comparison.forget(self.topics, endpoint)
             self.topics.release(endpoint)
@@ -274,14 +276,15 @@ class Events(Watcher):
         self._descriptor = self._timer = -1
 
     def look(self) -> None:
-        """See Watcher. All endpoints of the node are asked, as it has one descriptor: if they are many, not at once."""
+        """See Watcher. Read the events of all endpoints of the node, which share a descriptor; later if they are
+        many."""
         if len(self._watched) > FEW and not self._is_time():
             return
         for endpoint, watched in list(self._watched.items()):
             self._look_at(endpoint, watched)
 
     def _is_time(self) -> bool:
-        """Return whether a node with many endpoints is to be looked at now; else it is in a moment."""
+        """Return whether the events of a node with many endpoints are due; otherwise set the timer."""
         now = time.monotonic()
         if not self._look_from:
             self._look_from = now + TOGETHER_S
@@ -314,7 +317,7 @@ class Events(Watcher):
 
 
 def _differs(type_name: str, type_hash: str | None, found: dict[str, Any]) -> bool:
-    """Return whether `found` has another type than one with this name and hash; quickly, for very many."""
+    """Return whether `found` has a different type name or hash; quickly, since there may be very many."""
     if found["topic_type"] != type_name:
         return True
     announced = found["topic_type_hash"]
@@ -326,7 +329,7 @@ def _differs(type_name: str, type_hash: str | None, found: dict[str, Any]) -> bo
 
 
 def _difference(endpoint: Endpoint, found: dict[str, Any]) -> GraphReport | None:
-    """Return what is different in `found`, an endpoint of the same topic, or None."""
+    """Return the difference of `found`, an endpoint of the same topic, or None."""
     other = f"{found['node_namespace'].rstrip('/')}/{found['node_name']}"
     if found["topic_type"] != endpoint.type:
         return TypeMismatch(endpoint.node, endpoint.label, other, found["topic_type"])

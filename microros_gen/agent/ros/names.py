@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ROS names of what clients name for DDS.
+"""Conversion of the DDS names that clients send to ROS names.
 
 Topics are `rt/…`, message types `pkg::msg::dds_::Type_`; a service has the topics `rq/…Request` and `rr/…Reply` with
 the types `pkg::srv::dds_::Type_Request_` and `…_Response_`. Those of an action (`…/_action/send_goal` and the like) are
@@ -20,9 +20,9 @@ from microros_gen.ros.names import ServiceName
 MAXIMUM_NAME = 255
 """Characters that ROS 2 allows in the name of a node."""
 MAXIMUM_TOPIC = 238
-"""Characters of a topic or service: with `rt` or the like and `Request` it must fit into DDS's 255."""
+"""Maximum characters of a topic or service; with `rt` or similar and `Request` it must fit into DDS's 255."""
 MAXIMUM_TYPE = 200
-"""Characters of package and type together; what is derived from them must fit into DDS's 255."""
+"""Maximum characters of package and type together; names derived from them must fit into DDS's 255."""
 _NAME = r"((?:/[A-Za-z_][A-Za-z0-9_]*)+)"
 _TOPIC = re.compile(f"rt{_NAME}", re.ASCII)
 _REQUEST = re.compile(f"rq{_NAME}Request", re.ASCII)
@@ -33,7 +33,7 @@ _WRONG = re.compile(r"[^A-Za-z0-9_]", re.ASCII)
 
 
 def ros_topic(dds_name: str) -> str:
-    """Return the absolute ROS name of a DDS topic; BridgeError for one that is no ROS topic."""
+    """Return the absolute ROS name of a DDS topic. Raises BridgeError if it is not a ROS topic."""
     match = _TOPIC.fullmatch(dds_name)
     if not match:
         raise BridgeError(
@@ -44,7 +44,7 @@ def ros_topic(dds_name: str) -> str:
 
 
 def ros_type(dds_name: str) -> TypeName:
-    """Return the ROS type of a DDS type name; BridgeError for one that is no ROS message."""
+    """Return the ROS type of a DDS type name. Raises BridgeError if it is not a ROS message."""
     match = _TYPE.fullmatch(dds_name)
     if not match:
         raise BridgeError(
@@ -57,9 +57,9 @@ def ros_type(dds_name: str) -> TypeName:
 
 
 def ros_service(service: Service) -> ServiceName:
-    """Return the ROS names of a service; BridgeError when its topics or types are not those of one ROS service.
+    """Return the ROS names of a service. Raises BridgeError if its topics or types are not those of one ROS service.
 
-    The topics decide; the service's own name stands in for those that are empty, with or without a leading slash.
+    The topics decide; for an empty one, the service's name is used, with or without a leading slash.
     """
     own = service.name if service.name.startswith("/") else f"/{service.name}"
     request = _service_topic(
@@ -77,8 +77,8 @@ def ros_service(service: Service) -> ServiceName:
 def ros_node(name: str) -> tuple[str, str]:
     """Return node name and namespace (absolute) for `name`: `node` or `namespace/node`.
 
-    Characters that ROS does not allow become `_`, a part that begins with a digit gets one in front; empty
-    parts are left out. BridgeError when nothing remains or a part is too long.
+    Characters that ROS does not allow become `_`, a part that begins with a digit gets a `_` in front, and empty parts
+    are omitted. Raises BridgeError if nothing remains or a part is too long.
     """
     parts = [_part(part) for part in name.split("/") if part]
     if not parts:

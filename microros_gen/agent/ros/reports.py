@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a bridge tells about the ROS graph, as events of the log."""
+"""Reports of a bridge about the ROS graph, as events of the log."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ _EVENTS = {
 
 
 def graph_reporter(log: EventLog) -> Callable[[GraphReport], None]:
-    """Return what writes reports to `log`: matches with -v, everything else always.
+    """Return a function that writes reports to `log`: matches with -v, all others always.
 
-    Of requests and replies that are dropped the first one of each endpoint is told; all are counted.
+    Of dropped requests and replies, the first one of each endpoint is reported; all are counted.
     """
 
     def report(graph_report: GraphReport) -> None:

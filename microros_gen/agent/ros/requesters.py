@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Service clients of clients. A client of ROS 2 sees whether its service is there and waits for it; an XRCE client
-cannot, so its requests wait here."""
+"""Service clients of clients. An XRCE client cannot check whether a service exists, so its requests wait here."""
 
 from __future__ import annotations
 
@@ -15,16 +14,18 @@ from microros_gen.agent.ros.services import Held, Patience, RawService, raw_mess
 from microros_gen.ros.libraries import OK
 
 SETTLE_S = 0.1
-"""From the discovery of a service to the first request: what is sent before the service has found its client too is
-only delivered with the writer's next heartbeat, 3 s later."""
+"""Seconds from the discovery of a service to the first request.
+
+A request that is sent before the service has discovered its client, too, is delivered only with the writer's next
+heartbeat, 3 s later."""
 UNANSWERED = 4_096
-"""Requests of a service client whose numbers are remembered; the core forgets them earlier."""
+"""Maximum number of open requests of a service client; the core abandons them earlier."""
 
 
 class RawRequester(RawService):
     """See Requester.
 
-    ROS 2 numbers what is sent; here every request has a number, also one that waits or is dropped.
+    ROS 2 numbers requests when they are sent; here every request has a number, even if it waits or is dropped.
     """
 
     def __init__(
@@ -42,9 +43,9 @@ class RawRequester(RawService):
         self._held = Held(patience)
         self._count = 0
         self._numbers: dict[int, int] = {}
-        """What was sent and is not answered: ROS 2's number and ours."""
+        """Requests that were sent and have no reply: ROS 2's number and ours."""
         self._lost = 0
-        """Requests that were dropped since the service was last there."""
+        """Number of requests dropped since the service was last available."""
 
     def request(self, serialized: bytes) -> int:
         """See Requester."""
@@ -66,7 +67,7 @@ class RawRequester(RawService):
         return None if message is None else (self._numbers.pop(self._info.request.number, 0), message)
 
     def find_server(self) -> bool:
-        """Return whether the service is there, and had time to find this client; then what is held is sent."""
+        """Return whether the service exists and had time to discover this client; if so, send the waiting requests."""
         if not self._handle.service_server_is_available():
             self._available, self._found = False, None
             return False
@@ -85,7 +86,7 @@ class RawRequester(RawService):
         return True
 
     def still_waits(self) -> bool:
-        """See Waiter. What waits for too long is dropped."""
+        """See Waiter. Requests that waited too long are dropped."""
         if self._descriptor < 0 or self.find_server():
             return False
         now = time.monotonic()

@@ -25,13 +25,13 @@ from microros_gen.ros.raw_types import ENCAPSULATION_BYTES
 IDENTITY_BYTES = 24
 """SampleIdentity of DDS-RPC: GUID, then the sequence number as signed high and unsigned low word."""
 WAIT_FOR_CLIENT_S = 5.0
-"""How long a reply waits for a client that the graph does not have yet."""
+"""Seconds that a reply waits for a client that is not in the graph yet."""
 HELD_CALLS, HELD_BYTES = 64, 262_144
-"""Requests of one service client, or replies of one service, that wait for the other side, and their size together."""
+"""Maximum number and bytes of waiting requests of one service client, or waiting replies of one service."""
 HELD_BYTES_OF_ALL = 16_777_216
-"""The same of all services and service clients of the agent."""
+"""Maximum bytes for all services and service clients of the agent."""
 DEAF_CLIENTS = 256
-"""Clients of a service that are remembered as in the graph, and not to be reached."""
+"""Maximum number of a service's clients remembered as present or as unreachable."""
 _LOOK_AGAIN_S = 0.05
 _GUID_BYTES = 16
 _NUMBER = struct.Struct("<iI")
@@ -41,7 +41,7 @@ class Waiter(Protocol):
     """Waits for a service or client to appear in the graph."""
 
     def still_waits(self) -> bool:
-        """Look for the other side, and continue when it is there; return whether to look again."""
+        """Look for the other side, and continue if it exists; return whether to look again."""
 
 
 class Patience(Watcher):
@@ -52,7 +52,7 @@ class Patience(Watcher):
         self._timer = wakeups.add_timer(self)
         self._waiting: set[Waiter] = set()
         self.held_bytes = 0
-        """What all that wait hold."""
+        """Bytes of all waiting calls."""
 
     def wait_for(self, waiter: Waiter) -> None:
         """Call `still_waits` of `waiter` repeatedly until it returns False."""
@@ -68,7 +68,7 @@ class Patience(Watcher):
 
 
 class Held:
-    """Calls that wait for the other side, each until a time (of the monotonic clock), the oldest first."""
+    """Calls that wait for the other side, each until a time of the monotonic clock, the oldest first."""
 
     def __init__(self, patience: Patience) -> None:
         self._patience = patience
@@ -79,7 +79,7 @@ class Held:
         return len(self._calls)
 
     def put(self, until: float, key: Any, serialized: bytes) -> bool:
-        """Hold a call; return False if it does not fit."""
+        """Store a call; return False if it does not fit."""
         size = len(serialized)
         if (
             len(self._calls) >= HELD_CALLS
@@ -109,8 +109,8 @@ class Held:
 class RawService(RawSource):
     """A service or a service client.
 
-    Taking one may give nothing although more is there: replies to other clients of the service come here as well, and
-    ROS 2 passes over them one by one. So as many are taken as were told of.
+    A take may return nothing although more are available: replies to other clients of the service arrive here as well,
+    and ROS 2 skips them one by one. The number of takes is therefore the number of notifications.
     """
 
     def __init__(
@@ -155,14 +155,14 @@ class RawService(RawSource):
         return self._reported
 
     def _compare(self) -> None:
-        """ROS 2 has no events of services: the first message shows that somebody is there to compare with."""
+        """Compare types on the first message, because ROS 2 has no events for matched services."""
         if not self._compared:
             self._compared = True
             for endpoint in self._endpoints:
                 self._events.compare(endpoint)
 
     def check_alive(self) -> None:
-        """Raise BridgeError when it was destroyed."""
+        """Raise BridgeError if it was destroyed."""
         if self._descriptor < 0:
             raise BridgeError(f"{self.label} is gone")
 
@@ -170,8 +170,8 @@ class RawService(RawSource):
 class RawReplier(RawService):
     """See Replier.
 
-    ROS 2 waits (100 ms, and delays the agent) for a client that it does not know, since it may be about to be
-    discovered. So it only gets replies to clients that the graph has; one to somebody else is held until it has.
+    For a client that it has not discovered, ROS 2 would block the agent for 100 ms. It therefore gets only replies to
+    clients in the graph; other replies wait until their client appears.
     """
 
     def __init__(
@@ -248,7 +248,7 @@ class RawReplier(RawService):
             self._deaf[guid] = None
             if len(self._deaf) > DEAF_CLIENTS:
                 del self._deaf[next(iter(self._deaf))]
-            self._libraries.error()  # forget it: it says less
+            self._libraries.error()  # clear the error, which says less
             self._lose()
         elif result != OK:
             raise self.failed("reply")

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How ROS 2's threads tell the agent's one thread that something was received, without Python.
+"""Notification of the agent's thread by ROS 2's threads that data was received, without Python.
 
-Each thing that is waited for has an eventfd; ROS 2 calls `eventfd_write(descriptor, count)` of the C library, whose two
-arguments are those of ROS 2's callbacks. One epoll descriptor watches all of them for edges, so that nothing has
-to be read: a write is an edge, also when the count was not 0.
+Each source has an eventfd. ROS 2 calls `eventfd_write(descriptor, count)` of the C library, whose two arguments are
+those of ROS 2's callbacks. One epoll descriptor watches all of them for edges, so nothing has to be read: every write
+is an edge, even if the count was not 0.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ Notify = Callable[[int, int | None, int | None], int]
 
 
 class Watcher:
-    """Something that is woken up and is no source of data."""
+    """An object that is woken up and is not a source of data."""
 
     def look(self) -> None:
-        """Check what has happened, and react."""
+        """React to the wake-up."""
         raise NotImplementedError
 
 
@@ -45,11 +45,11 @@ class Wakeups(Generic[T]):
         self._known: dict[int, T] = {}
 
     def fileno(self) -> int:
-        """Return the descriptor that is readable while `drain` has something."""
+        """Return the descriptor that is readable while `drain` would return objects."""
         return self._epoll.fileno()
 
     def add(self, what: T) -> int:
-        """Return a new eventfd that wakes `what`; BridgeError when the process has no descriptor left."""
+        """Return a new eventfd that wakes `what`. Raises BridgeError if the process has no descriptor left."""
         try:
             descriptor = os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC)
         except OSError as error:
@@ -66,7 +66,7 @@ class Wakeups(Generic[T]):
         self._epoll.register(descriptor, select.EPOLLIN | select.EPOLLET)
 
     def add_timer(self, what: T) -> int:
-        """Return a timer that wakes `what` and rests until `set_timer`; BridgeError as above."""
+        """Return a timer that wakes `what`, stopped until `set_timer`. Raises BridgeError without a free descriptor."""
         descriptor = int(_libc().timerfd_create(_CLOCK_MONOTONIC, os.O_NONBLOCK | os.O_CLOEXEC))
         if descriptor < 0:
             raise BridgeError("no file descriptor is left: raise the limit (ulimit -n)", Status.RESOURCES)
@@ -80,17 +80,17 @@ class Wakeups(Generic[T]):
         _libc().timerfd_settime(descriptor, 0, ctypes.byref(deadline), None)
 
     def remove(self, descriptor: int) -> None:
-        """Close an eventfd to which nothing writes any more."""
+        """Close an eventfd that has no writer any more."""
         self._epoll.unregister(descriptor)
         del self._known[descriptor]
         os.close(descriptor)
 
     def drain(self) -> list[T]:
-        """Return what was woken up since the last call, each once. Never waits."""
+        """Return the objects woken up since the last call, each once. Never waits."""
         return [self._known[descriptor] for descriptor, _ in self._epoll.poll(0)]
 
     def close(self) -> None:
-        """Close everything; nothing writes any more."""
+        """Close all descriptors, which must have no writer any more."""
         for descriptor in list(self._known):
             self.remove(descriptor)
         self._epoll.close()
