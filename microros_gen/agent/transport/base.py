@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the agent needs of a transport. A stream transport splits its stream into messages itself."""
+"""The interface of transports to the agent. A stream transport splits its stream into messages itself."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from typing import Protocol
 from microros_gen.agent.fairness import Account
 
 Receive = Callable[[bytes, Hashable, "Transport"], None]
-"""Takes one message, the address that it came from, and the transport."""
+"""Function that gets one message, its source address, and the transport."""
 
 
 class Transport(Protocol):
-    """One way to clients. Its addresses are hashable, and differ from those of other transports."""
+    """A transport. Its addresses are hashable and differ from those of other transports."""
 
     @property
     def label(self) -> str:
@@ -25,12 +25,12 @@ class Transport(Protocol):
 
     @property
     def forgeable(self) -> bool:
-        """Whether the sender of a message can be another one than its address says."""
+        """Whether the source address of a message can be forged."""
 
     def fileno(self) -> int:
         """Return the descriptor that is readable while `pump` has something to do.
 
-        It is the same as long as the transport lives: one with several descriptors returns an epoll descriptor.
+        It never changes; a transport with several descriptors returns an epoll descriptor.
         """
 
     def pump(self, receive: Receive) -> None:
@@ -40,19 +40,19 @@ class Transport(Protocol):
         """Do what is due at `now` (seconds, monotonic); called some ten times a second. Never raises."""
 
     def claim(self, address: Hashable, account: Account) -> None:
-        """Note that a client is in session at an address: its input is read in its turn. Never raises."""
+        """Register that a client is in session at an address, so that its input is read in its turn. Never raises."""
 
     def release(self, address: Hashable, moved: bool = False) -> None:
-        """Note that none is there any more; `moved`: it sends from elsewhere now, and what is unread is too old.
+        """Register that no client is in session at an address any more. Never raises.
 
-        Never raises.
+        `moved`: the client sends from another address now, and its unread input here is obsolete.
         """
 
     def send(self, data: bytes, address: Hashable) -> None:
         """Send one message without waiting; a message that cannot be sent is lost. Never raises."""
 
     def name_of(self, address: Hashable) -> str:
-        """Return an address as the log shows it."""
+        """Return an address as in the log."""
 
     def close(self) -> None:
         """Close every descriptor."""

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Multicast discovery (DDS-XRCE 1.0, 9.3): clients ask a group for agents, and are told where this one listens.
+"""Multicast discovery (DDS-XRCE 1.0, 9.3): clients search for agents in a group and get the addresses of this one.
 
-It answers GET_INFO, and nothing else, with an INFO that names the transports of the agent: to each who asks those
-that it can reach. Where all of them are on the loopback address, only clients on this machine are heard: their
-questions leave through the interface of the default route, and carry its address. It gives a stranger nothing beyond
-that, not more than `ANSWERS_PER_SECOND` times.
+It answers GET_INFO, and nothing else, with an INFO that lists the agent's transports that the client can reach. If all
+of them are on the loopback address, only clients on this machine get an answer: their requests leave through the
+interface of the default route and carry its address. At most `ANSWERS_PER_SECOND` requests are answered.
 """
 
 from __future__ import annotations
@@ -30,12 +29,12 @@ from microros_gen.diagnostics import Diagnostic, UserError
 
 GROUP = "239.255.0.2"
 PORT = 7400
-"""Where clients ask by default, as the public client does."""
+"""Default group and UDP port, those of the public client."""
 MOST_LOCATORS = 16
-"""What an answer holds, so that it fits the 512 bytes of the public client."""
+"""Maximum number of addresses in an answer, so that it fits the 512 bytes of the public client."""
 ANSWERS_PER_SECOND = 200
 REFRESH_S = 5.0
-"""Seconds between two looks for interfaces that came or went."""
+"""Seconds between two checks for new and removed interfaces."""
 _BATCH = 16
 _IP_MULTICAST_ALL = 49  # of Linux: 0 leaves out groups that other sockets of this machine joined
 _MEDIUM, _LARGE = 1, 2  # kinds of locators: IPv4, IPv6
@@ -44,7 +43,7 @@ SocketTransport = Udp | Tcp
 
 
 class Discovery:
-    """A socket in the multicast group; it answers by itself and delivers no message."""
+    """A socket in the multicast group; it answers by itself and delivers no messages."""
 
     def __init__(
         self,
@@ -53,7 +52,7 @@ class Discovery:
         port: int = PORT,
         addresses: Callable[[], Iterable[OwnAddress]] = own_addresses,
     ) -> None:
-        """Announce `transports`; raise UserError without any of them, or if the port is not available."""
+        """Announce `transports`. Raises UserError without transports, or if the port is not available."""
         if not transports:
             reason = "discovery needs a UDP or TCP transport"
             raise UserError(
@@ -100,7 +99,7 @@ class Discovery:
             self._refresh()
 
     def pump(self, receive: Receive) -> None:
-        """See Transport: answers what it takes."""
+        """See Transport: answers the requests itself."""
         for _ in range(_BATCH):
             try:
                 data, asker = self._socket.recvfrom(MAXIMUM_DATAGRAM)
@@ -134,7 +133,7 @@ class Discovery:
         self._socket.close()
 
     def locators(self, asker: Address) -> tuple[Locator, ...]:
-        """Return where the agent listens, as far as `asker` can get there: UDP before TCP, IPv4 before IPv6."""
+        """Return the agent's addresses that `asker` can reach: UDP before TCP, IPv4 before IPv6."""
         is_near = self._is_near(asker)
         found = dict.fromkeys(
             (address, transport.port)
@@ -146,11 +145,11 @@ class Discovery:
         return tuple(_locator(address, port) for address, port in ordered[:MOST_LOCATORS])
 
     def _is_near(self, asker: Address) -> bool:
-        """Return whether an address is this machine's. (From outside the kernel takes nothing that claims to be.)"""
+        """Return whether an address is this machine's. (The kernel drops packets from outside with such a source.)"""
         return asker.is_loopback or any(own.address == asker for own in self._own)
 
     def _reachable(self, host: Address, asker: Address) -> list[Address]:
-        """Return the addresses of `host`, first the one from which `asker` would be answered."""
+        """Return the addresses of `host`, first the one from which `asker` would get the answer."""
         if not host.is_unspecified:
             return [host]
         own = [o.address for o in self._own if o.address.version == host.version]
@@ -187,7 +186,7 @@ class Discovery:
             try:
                 self._socket.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, request)
             except OSError:
-                continue  # it takes no multicast now
+                continue  # it cannot receive multicast now
             self._joined.add(interface)
 
 
@@ -198,7 +197,7 @@ def _open(port: int) -> socket.socket:
         # Others share the port: DDS of domain 0 listens there to another group, and so do other agents.
         opened.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         opened.setsockopt(socket.IPPROTO_IP, _IP_MULTICAST_ALL, 0)
-        opened.bind((GROUP, port))  # not to every address: what is sent to this machine alone is no question
+        opened.bind((GROUP, port))  # not to all addresses: unicast datagrams are no requests
     except OSError as error:
         opened.close()
         reason = f"discovery at {GROUP}:{port} cannot be opened: {error.strerror or error}"
@@ -209,7 +208,7 @@ def _open(port: int) -> socket.socket:
 
 
 def _facing(asker: Address) -> Address | None:
-    """Return the own address from which datagrams to `asker` go out."""
+    """Return this machine's address from which datagrams to `asker` are sent."""
     family = socket.AF_INET if asker.version == 4 else socket.AF_INET6
     with socket.socket(family, socket.SOCK_DGRAM) as probe:
         try:

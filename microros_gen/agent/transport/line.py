@@ -18,25 +18,25 @@ from microros_gen.agent.transport.base import Receive
 from microros_gen.agent.transport.outbox import Outbox, is_sample
 
 READ_BYTES = 4_096
-"""Bytes that are read before the answers go out."""
+"""Bytes that are read before the answers are sent."""
 QUEUE_BYTES = 65_536
-"""What may wait for a line that is slower than its answers; frames beyond it are lost."""
+"""Maximum bytes of output that wait for a slow line; further frames are lost."""
 RETRY_S = 0.25
-"""Seconds between two looks for a device that is not there."""
+"""Seconds between two attempts to open a missing device."""
 
 Open = Callable[[], int]
-"""Opens the line: returns a descriptor that does not block; OSError if the line does not exist now."""
+"""Function that opens the line and returns a non-blocking descriptor. Raises OSError if it does not exist now."""
 
 
 class Line:
-    """One line, `name` by its path. While its device is missing, the line looks for it."""
+    """One line; `name` is its path. While its device is missing, the line keeps trying to open it."""
 
     def __init__(self, name: str, open_line: Open, log: EventLog) -> None:
         self._name = name
         self._open = open_line
         self._log = log
         self._fd = -1
-        self._epoll = select.epoll()  # its descriptor stays, whatever becomes of the line
+        self._epoll = select.epoll()  # its descriptor stays the same when the line is reopened
         self._retry_at = 0.0
         self._reported = ""
         self._was_open = False
@@ -61,7 +61,7 @@ class Line:
 
     @property
     def forgeable(self) -> bool:
-        """See Transport: what comes over a line comes from its other end."""
+        """See Transport: input can only come from the other end of the line."""
         return False
 
     def fileno(self) -> int:
@@ -88,7 +88,7 @@ class Line:
             receive(payload, (self.label, source), self)
 
     def claim(self, address: Hashable, account: Account) -> None:
-        """See Transport: who shares a line is read as it comes."""
+        """See Transport: the clients of a shared line are read in the order of their input."""
 
     def release(self, address: Hashable, moved: bool = False) -> None:
         """See Transport: likewise."""

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What waits for a stream that takes less than it is given: whole frames, not more than a limit.
+"""Output queue of a stream that is slower than its input: whole frames, up to a limit in bytes.
 
-Of best-effort samples only the newest wait: what is sent is not long past then, and acknowledgements, answers and
-reliable samples find room. Of those the newest are not taken, as whoever wants them comes again.
+Of best-effort samples, only the newest wait, so that sent samples are recent, and acknowledgements, answers and
+reliable samples find room. When the queue is full, new frames of these kinds are refused: their receivers request them
+again.
 """
 
 from __future__ import annotations
@@ -28,17 +29,16 @@ def is_sample(message: bytes) -> bool:
 
 
 class Outbox:
-    """Frames in order; a frame beyond the limit is refused as a whole, so the stream stays well-formed."""
+    """Queue of frames; a frame beyond the limit is refused as a whole, so the stream stays well-formed."""
 
     def __init__(self, limit: int, dropped: Callable[[], None], holder: Holder | None = None) -> None:
-        """Hold at most `limit` bytes, and what `holder` has room for; `dropped` is told of each sample that gives way
-        to a newer one."""
+        """Store at most `limit` bytes, within the budget of `holder`; call `dropped` for each replaced sample."""
         self._limit = limit
         self._holder = holder or Holder()
         self._dropped = dropped
         self._frames: deque[bytes] = deque()
         self._samples: deque[bool] = deque()
-        """Which of the frames are best-effort samples."""
+        """Whether each of the frames is a best-effort sample."""
         self._bytes = 0
         self._sample_bytes = 0
 
@@ -54,7 +54,7 @@ class Outbox:
             self._drop_oldest()
         if self._bytes + size > self._limit or (self._frames and not self._holder.has_room(size)):
             return False
-        self._holder.add(size)  # the first one always: it may be the rest of one that is on its way
+        self._holder.add(size)  # always for the first one, which may be the rest of a partly sent frame
         self._frames.append(frame)
         self._samples.append(sample)
         self._bytes += size
@@ -73,7 +73,7 @@ class Outbox:
             self._holder.add(-done)
             while done:
                 first = self._frames[0]
-                if self._samples[0]:  # on its way: it is not dropped any more
+                if self._samples[0]:  # partly sent, so it is not dropped any more
                     self._samples[0] = False
                     self._sample_bytes -= len(first)
                 if done < len(first):

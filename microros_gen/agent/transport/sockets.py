@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What UDP and TCP, over IPv4 and IPv6, share: opening a socket, names of addresses, and reasons of failure."""
+"""Common parts of UDP and TCP over IPv4 and IPv6: opening a socket, names of addresses, and reasons of failure."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.records import dataclass
 
 BUFFER_BYTES = 4 << 20
-"""Asked of the system for datagrams that wait; it may give less."""
+"""Requested receive buffer for datagrams in bytes; the system may grant less."""
 
 CLIENT_BUFFER_BYTES = 1 << 18
 """The same for the datagrams of one client in session."""

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""TCP over IPv4 or IPv6: messages after their length, many connections, none of which can delay another.
+"""TCP over IPv4 or IPv6: messages preceded by their length, over many connections that cannot delay each other.
 
-Each connection has a separate address. Its memory is bounded: one unfinished message of at most 64 KiB in,
-`TcpLimits.output_bytes` out, a time for its first message, for a message that it began, and for reading what it is
-sent. A client whose connection ended keeps its session until the agent's time-out, and goes on over another one.
+Each connection is an address. It is bounded in memory (one unfinished input message of at most 64 KiB,
+`TcpLimits.output_bytes` of output) and in the time for its first message, for completing a message, and for reading its
+output. A client whose connection ended keeps its session until the agent's time-out, and continues over another one.
 """
 
 from __future__ import annotations
@@ -26,22 +26,22 @@ from microros_gen.agent.transport.sockets import Protocol, open_socket, place_na
 from microros_gen.records import dataclass
 
 READ_BYTES = 4_096
-"""Bytes that are read from a connection before it is another one's turn."""
+"""Bytes that are read from a connection before the next one's turn."""
 ACCEPTS = 64
-"""Connections that are taken before it is the others' turn."""
+"""Connections that are accepted before other work gets its turn."""
 WAITING = 4_096
-"""Connections that may wait to be taken, if the system lets them (net.core.somaxconn); it makes who comes then try
-again later, after 1 s, 3 s, 7 s and so on: so there should always be room."""
+"""Requested backlog of connections, limited by net.core.somaxconn.
+
+If it is full, the system lets clients try again only after 1 s, 3 s, 7 s and so on, so there should always be room."""
 IDLE_S = 5.0
-"""A connection that was never answered, or on which nothing came for this long, may be replaced by a new one of the
-same host."""
+"""Seconds of silence after which a connection may be replaced by a new one of the same host."""
 CARE_S = 0.5
-"""Seconds between two looks for connections whose time is up."""
+"""Seconds between two checks for connections that exceeded a time."""
 SYSTEM_BUFFER_BYTES = 131_072
-"""Asked of the system for what a connection was sent and has not taken; it may double it."""
+"""Requested send buffer of a connection in bytes; the system may double it."""
 _NO_ROOM = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
 _KEEPALIVE = (("TCP_KEEPIDLE", 30), ("TCP_KEEPINTVL", 10), ("TCP_KEEPCNT", 3))
-"""A peer that vanished without a word is noticed after a minute (RFC 9293, 3.8.4)."""
+"""Keep-alive settings: a vanished peer is detected after a minute (RFC 9293, 3.8.4)."""
 
 
 @dataclass(frozen=True)
@@ -49,18 +49,19 @@ class TcpLimits:
     """Limits of connections; times in seconds."""
 
     connections: int = 256
-    """Connections of one port. One more takes the place of a silent one, or is refused."""
+    """Maximum connections of one port. One more replaces a silent one, or is refused."""
     output_bytes: int = 262_144
-    """What waits for a connection that reads slowly; messages beyond it are lost."""
+    """Maximum bytes of output that wait for a slow connection; further messages are lost."""
     connections_per_host: int = 128
-    """Connections from one address (IPv4), or from one network of 64 bits (IPv6)."""
+    """Maximum connections from one address (IPv4), or from one network of 64 bits (IPv6)."""
     patience_s: float = 30.0
-    """Until a connection is closed that sent no whole message, does not finish one, or takes nothing; and how long
-    one must have been silent before its place is given away."""
+    """Seconds until a connection is closed that has sent no complete message, does not finish one, or does not read.
+
+    A connection that was silent for this long may also be replaced."""
 
 
 class Connection:
-    """One connection, which is also the address of its client. It is equal to itself alone."""
+    """One connection, which is also the address of its client. It is equal only to itself."""
 
     def __init__(
         self,
@@ -75,24 +76,24 @@ class Connection:
         account: Account,
     ) -> None:
         self.account = account
-        """Who pays for what comes over it."""
+        """The account that its input is charged to."""
         self.host = host
         self.answered = False
-        """The agent has sent something to it: it said something that makes sense."""
+        """Whether the agent has sent it an answer, which means that it sent a valid message."""
         self.holder = holder
-        """Holds the message that it began."""
+        """Budget of its unfinished message."""
         self.socket = accepted
         self.descriptor = accepted.fileno()
         self.peer = peer
         self.decoder = LengthDecoder()
         self.outbox = Outbox(limit, partial(too_slow, peer), output)
         self.spoke = False
-        """A whole message came."""
+        """Whether a complete message was received."""
         self.last_received = now
         self.due_since: float | None = now
-        """Since when a message is owed: its first one, or the rest of one."""
+        """Since when a message is expected: its first one, or the rest of one."""
         self.stuck_since: float | None = None
-        """Since when it takes nothing of what waits for it."""
+        """Since when it has read nothing of its pending output."""
 
     @property
     def closed(self) -> bool:
@@ -178,7 +179,7 @@ class Tcp:
                 self._read(connection, receive)
             if time.monotonic() > began + TURN_S:
                 break
-        if arriving:  # last: a descriptor that was closed above may be another's afterwards
+        if arriving:  # last, because descriptors that were closed above are reused
             self._accept()
 
     def tick(self, now: float) -> None:
@@ -299,7 +300,7 @@ class Tcp:
                     text = "{transport} takes no connection: {why}"
                     self._log.count("tcp_refused", text, transport=self.label, why=error.strerror or "")
                     return
-                continue  # it was gone again
+                continue  # it was closed again
             host = host_of(peer[0])
             if self._make_room(host):
                 self._add(accepted, place_name(peer), host)
@@ -339,10 +340,10 @@ class Tcp:
         self._log.count("tcp_slow", text, transport=self.label, peer=peer)
 
     def _make_room(self, host: str) -> bool:
-        """Return whether there is room for one more from `host`; the one that matters least may have to go for it.
+        """Return whether there is room for one more connection from `host`, after closing another one if necessary.
 
-        Who was never answered matters less than who was, and who was silent for longer less than others. From a host
-        that has reached its limit, another of its connections is closed.
+        Connections that were never answered are closed first, then those that were silent for the longest time. If the
+        host has reached its limit, one of its connections is closed.
         """
         own = [connection for connection in self._connections.values() if connection.host == host]
         if len(own) >= self._limits.connections_per_host:
@@ -359,7 +360,7 @@ class Tcp:
         return True
 
     def _care(self, connection: Connection, since: float) -> None:
-        """Close a connection for which somebody waited from before `since` on."""
+        """Close a connection that has exceeded a time limit: something was due before `since`."""
         if connection.due_since is not None and connection.due_since < since:
             why = "a message was not finished" if connection.spoke else "no message came"
             self._fail(connection, "tcp_unfinished" if connection.spoke else "tcp_silent", why)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""UDP over IPv4 or IPv6: one message a datagram; an address is the transport and the peer's socket address.
+"""UDP over IPv4 or IPv6: one message per datagram; an address is the transport and the peer's socket address.
 
-A client in session has its own socket at the same port, connected to its address: the system hands its datagrams
-to that one, so each client has its own queue. One that sends too fast fills its own queue, and
-nobody else's; and whose queue is read next is decided by what each has cost.
+A client in session has its own socket at the same port, connected to its address. The system delivers its datagrams
+there, so each client has its own queue: one that sends too fast overflows only its own. The queue of the client with
+the lowest cost is read next.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from microros_gen.agent.transport.base import Receive
 from microros_gen.agent.transport.sockets import Protocol, open_connected, open_socket, place_name
 
 BATCH = 64
-"""Datagrams that are read from one socket before the answers go out."""
+"""Datagrams that are read from one socket before the answers are sent."""
 SHARE_S = 0.002
-"""Seconds after which it is the turn of others, if the datagrams of a batch are costly ones."""
+"""Seconds after which a batch of costly datagrams ends early."""
 LOOK_S = 0.001
-"""Seconds after which it is seen whether a client that cost less has something by now."""
+"""Seconds after which clients with a lower cost are checked for new input."""
 MAXIMUM_DATAGRAM = 65_535
 Peer = Any
 """A socket address of the system: host, port, and for IPv6 more."""
@@ -64,7 +64,7 @@ class Udp:
         self._queues: dict[int, Queue] = {self._socket.fileno(): self._everybody}
         self._by_peer: dict[Peer, Queue] = {}
         self._strays: deque[tuple[bytes, Peer]] = deque()
-        """What was read when a socket came or went."""
+        """Datagrams that were read when a socket was opened or closed."""
         self._epoll = select.epoll()
         self._epoll.register(self._socket, select.EPOLLIN)
 
@@ -118,8 +118,8 @@ class Udp:
         try:
             connected = open_connected(self._socket, peer)
         except OSError:
-            return  # no descriptor is left: it is read with everybody's
-        self._keep(self._socket)  # what it said before comes before what it says from now on
+            return  # no descriptor is left: the client shares the common socket
+        self._keep(self._socket)  # its earlier datagrams precede new ones
         self._keep(connected)
         queue = self._by_peer[peer] = self._queues[connected.fileno()] = Queue(connected, account, peer)
         self._epoll.register(queue.socket, select.EPOLLIN)
@@ -169,14 +169,14 @@ class Udp:
                 return
             except OSError:
                 if queue.socket.fileno() < 0:
-                    return  # its client went with the message before
+                    return  # its client left with the previous message
                 continue  # an ICMP error for something sent earlier
             receive(data, (self, peer), self)
             if account.busy or time.monotonic() > end:
                 return
 
     def _keep(self, ends: socket.socket) -> None:
-        """Keep what waits in a socket: of one that was just made, what came to it before it was connected."""
+        """Keep the datagrams in a socket; in a new one, those that arrived before it was connected."""
         for _ in range(BATCH):
             try:
                 self._strays.append(ends.recvfrom(MAXIMUM_DATAGRAM))
@@ -187,5 +187,5 @@ class Udp:
 def _send(connected: socket.socket, data: bytes) -> None:
     try:
         connected.send(data)
-    except ConnectionRefusedError:  # so it went with an earlier one, and this was not sent
+    except ConnectionRefusedError:  # the error of an earlier one was reported; this one was not sent
         connected.send(data)
