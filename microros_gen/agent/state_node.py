@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The view of clients in ROS 2: a topic with each change, and a service that lists all (microros_agent_msgs)."""
+"""The agent's view of its clients in ROS 2: a topic with each change, and a service that lists all of them."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ SERVICE = f"/{NODE}/list_clients"
 STATE_TYPE = "microros_agent_msgs/msg/ClientState"
 LIST_TYPE = "microros_agent_msgs/srv/ListClients"
 LOOK_S = 0.2
-"""Between two looks for changes: a state that changes more often is published once."""
+"""Seconds between two checks for changes: several changes of a state in between are published once."""
 
 
 class StateNode:
-    """Serves on the node of a peer, in the thread that calls `turn`."""
+    """The topic and the service, on the node of a peer; served in the thread that calls `turn`."""
 
     def __init__(
         self,
@@ -41,7 +41,7 @@ class StateNode:
         self._states = states
         self._report = report
         self._clock = clock
-        self._told: dict[str, Value] = {}
+        self._published: dict[str, Value] = {}
         self._look_at = clock()
         self._stop = False
         peer.serve(SERVICE, LIST_TYPE, lambda request: list_clients(self._states(), request))
@@ -64,12 +64,12 @@ class StateNode:
             self._report(str(error))
         if self._clock() >= self._look_at:
             self._look_at = self._clock() + LOOK_S
-            for value in changes(self._states(), self._told):
+            for value in changes(self._states(), self._published):
                 self._topic.publish(value)
 
 
-def changes(states: tuple[ClientState, ...], told: dict[str, Value]) -> list[Value]:
-    """Return the states that differ from those in `told`, and remember them there.
+def changes(states: tuple[ClientState, ...], published: dict[str, Value]) -> list[Value]:
+    """Return the states that differ from those in `published`, and remember them there.
 
     Times alone are no change: `silent` grows always, and the round trip is never twice the same.
     """
@@ -77,11 +77,11 @@ def changes(states: tuple[ClientState, ...], told: dict[str, Value]) -> list[Val
     for state in states:
         value = message_of(state)
         known = {key: part for key, part in value.items() if key not in ("silent", "round_trip")}
-        if told.get(state.key) != known:
-            told[state.key] = known
+        if published.get(state.key) != known:
+            published[state.key] = known
             changed.append(value)
-    for key in told.keys() - {state.key for state in states}:
-        del told[key]
+    for key in published.keys() - {state.key for state in states}:
+        del published[key]
     return changed
 
 

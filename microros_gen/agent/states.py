@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The agent's view of its clients: who is connected, silent or gone, what was lost, and how often they came again.
+"""The agent's view of its clients: connected, silent or gone; lost messages; reconnections.
 
-`ClientStates` records what happens to clients; a datagram costs nothing here. It keeps one record for each client in
-session, and those of the last clients that left, as many as the agent may have clients.
+`ClientStates` records what happens to clients, at no cost per datagram. It keeps one record for each client in
+session, and those of the last clients that left, up to the maximum number of clients.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from microros_gen.records import dataclass
 
 
 class Presence(IntEnum):
-    """Whether a client is there; the numbers are those of microros_agent_msgs/msg/ClientState."""
+    """Presence of a client; the numbers are those of microros_agent_msgs/msg/ClientState."""
 
     CONNECTED = 0
     SILENT = 1
@@ -31,7 +31,7 @@ class ClientState:
     key: str
     """Eight hexadecimal digits, as in the log."""
     presence: Presence
-    """SILENT: not heard for its time-out, so its entities are out of the ROS graph."""
+    """SILENT: silent for its time-out, so its entities have left the ROS graph."""
     transport: str
     address: str
     nodes: tuple[str, ...]
@@ -43,13 +43,13 @@ class ClientState:
     reconnects: int
     """Sessions after the first one."""
     silences: int
-    """How often it fell silent."""
+    """Number of time-outs after silence."""
     round_trip_s: float | None
-    """From a reliable message to its acknowledgement, as last measured; None: never."""
+    """Last measured seconds from a reliable message to its acknowledgement; None: not measured."""
     lost: int
-    """Messages from the client that did not arrive, came after later ones (best effort), or were abandoned."""
+    """Number of messages from the client that were lost, arrived after later ones (best effort), or were abandoned."""
     resent: int
-    """Reliable messages that were sent to it again."""
+    """Number of reliable messages that were sent to it again."""
     last_error: str
     """The last warning about it; empty: none."""
 
@@ -70,7 +70,7 @@ class _Record:
 
 
 LOOK_S = 0.25
-"""Seconds between two looks for other threads."""
+"""Seconds between two updates of `latest`."""
 _SESSIONS = ("client_connected", "client_again", "client_adopted")
 """Events that begin a session."""
 
@@ -79,17 +79,17 @@ class ClientStates:
     """Records of clients by key."""
 
     def __init__(self, clients: ClientTable, clock: Callable[[], float], most: int) -> None:
-        """Keep the records of `most` clients that are gone. `clock`: that of the agent, in seconds."""
+        """Keep the records of at most `most` clients that are gone. `clock`: that of the agent, in seconds."""
         self._clients = clients
         self._clock = clock
         self._most = most
         self._records: dict[str, _Record] = {}
         self._look_at = clock()
         self.latest: tuple[ClientState, ...] = ()
-        """What `look` saw; may be read in any thread."""
+        """The view of the last `look`; may be read in any thread."""
 
     def note(self, client: Client, event: str) -> None:
-        """Take note of an event of the log about a client's session."""
+        """Record an event of the log about a client's session."""
         record = self._records.get(client.name)
         if record is None:
             record = self._records[client.name] = _Record(client)
@@ -105,13 +105,13 @@ class ClientStates:
             self._forget_oldest()
 
     def fault(self, key: str, reason: str) -> None:
-        """Take note of a warning about a client."""
+        """Record a warning about a client."""
         record = self._records.get(key)
         if record is not None:
             record.last_error = reason
 
     def look(self, now: float) -> None:
-        """Bring `latest` up to date; a look at 100 clients takes a millisecond, so it is done some times a second."""
+        """Update `latest` if due; this takes a millisecond for 100 clients, so it is done some times a second."""
         if now >= self._look_at:
             self._look_at = now + LOOK_S
             self.latest = self.snapshot()
@@ -152,8 +152,8 @@ class ClientStates:
         )
 
     def _forget_oldest(self) -> None:
-        gone = [key for key, record in self._records.items() if record.presence is Presence.GONE]
-        for key in gone[: max(0, len(gone) - self._most)]:
+        closed = [key for key, record in self._records.items() if record.presence is Presence.GONE]
+        for key in closed[: max(0, len(closed) - self._most)]:
             del self._records[key]
 
 

@@ -27,19 +27,19 @@ STATE = ClientState(
 
 
 def test_a_state_is_published_once_and_times_alone_are_no_change() -> None:
-    told: dict[str, dict[str, Any]] = {}
-    (first,) = changes((STATE,), told)
+    published: dict[str, dict[str, Any]] = {}
+    (first,) = changes((STATE,), published)
     assert (first["key"], first["presence"], first["nodes"], first["round_trip"]) == (
         "A1B2C3D4",
         0,
         ["/a"],
         -1,
     )
-    assert changes((replace(STATE, silent_s=9.0, round_trip_s=0.1),), told) == []
-    (lost,) = changes((replace(STATE, lost=7),), told)
+    assert changes((replace(STATE, silent_s=9.0, round_trip_s=0.1),), published) == []
+    (lost,) = changes((replace(STATE, lost=7),), published)
     assert lost["lost"] == 7
-    assert changes((), told) == []
-    assert told == {}
+    assert changes((), published) == []
+    assert published == {}
 
 
 def test_pages_of_100_clients() -> None:
@@ -61,7 +61,7 @@ def test_pages_of_100_clients() -> None:
 
 
 @pytest.mark.ros
-def test_clients_that_come_and_go_are_seen_from_ros(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_connecting_and_leaving_clients_are_seen_from_ros(monkeypatch: pytest.MonkeyPatch) -> None:
     domain = own_domain()
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     states: list[dict[str, Any]] = []
