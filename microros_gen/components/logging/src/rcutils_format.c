@@ -200,7 +200,7 @@ static microros_conversion_t format_read(const char ** next, va_list * args)
   return how;
 }
 
-/* Puts a floating-point number, or its conversion as it stands (see microros/rcutils_format_float.h). */
+/* Puts a floating-point number, or its conversion unchanged (see microros/rcutils_format_float.h). */
 static void format_floating(
   microros_format_t * out, const microros_conversion_t * how, const char * first, const char * end,
   va_list * args)
@@ -227,7 +227,7 @@ static void format_character(microros_format_t * out, const microros_conversion_
   format_field(out, how, &character, 1);
 }
 
-/* Returns false for a conversion that is not known: what its argument is, and those after it, is not known either. */
+/* Returns false for an unknown conversion: the types of its argument and of all later ones are unknown, too. */
 static bool format_convert(
   microros_format_t * out, const microros_conversion_t * how, const char * first, const char * end,
   va_list * args)

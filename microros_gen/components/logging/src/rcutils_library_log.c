@@ -22,7 +22,7 @@ typedef struct library_seen_t {
 
 static library_seen_t library_seen = {.state = (uint8_t)XRCE_CLOSED};
 
-/* Returns how much a counter has grown, and notes it; a new context begins with 0. */
+/* Returns how much a counter has grown since the last call; a new context begins with 0. */
 static uint32_t library_growth(uint32_t * seen, uint32_t count)
 {
   const uint32_t growth = count >= *seen ? count - *seen : count;

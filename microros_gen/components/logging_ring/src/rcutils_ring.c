@@ -12,8 +12,9 @@
 enum { RING_HEADER = 4, RING_LINE_MAX = rcl_interfaces__msg__Log__MAX_ENCODED_SIZE };
 
 /*
- * Linker scripts of boards place this variable by its section, .bss.microros_log_kept, in memory that nobody clears. It
- * begins with any content, so everything is checked before it is used: the mark, the place, the checksum of each line.
+ * Linker scripts of boards place this variable by its section, .bss.microros_log_kept, in memory that is not cleared
+ * at the start. Its initial content is arbitrary, so everything is checked before it is used: the mark, the place,
+ * the checksum of each line.
  */
 typedef struct ring_kept_t {
   uint32_t mark;
@@ -83,7 +84,10 @@ static void ring_check(void)
   ring_before = ring_used();
 }
 
-/* Returns the size of the oldest line with its header. What is no line ends all: nobody knows where the next begins. */
+/*
+ * Returns the size of the oldest line with its header. An invalid line ends the list, because the start of the next
+ * one is unknown.
+ */
 static uint32_t ring_oldest(void)
 {
   const uint32_t used = ring_used();
@@ -105,7 +109,7 @@ bool microros_ring_takes(int severity)
   return severity >= (int)MICROROS_LOG_RING_LEVEL;
 }
 
-/* A reset on the way leaves the lines as they were, or without their oldest: the place changes before and after. */
+/* A reset meanwhile leaves the lines as they were, or without the oldest ones: the place changes before and after. */
 void microros_ring_put(const uint8_t * body, uint32_t size)
 {
   uint32_t sum = 0;
@@ -127,7 +131,7 @@ void microros_ring_put(const uint8_t * body, uint32_t size)
   ring_set(ring_first(), index + (uint32_t)RING_HEADER + size);
 }
 
-/* Copies the body of the oldest line; returns its size, 0 where it is damaged or is no line of this image. */
+/* Copies the body of the oldest line; returns its size, 0 if it is damaged or not a line of this image. */
 static uint32_t ring_copy(uint8_t * body)
 {
   const uint32_t whole = ring_oldest();

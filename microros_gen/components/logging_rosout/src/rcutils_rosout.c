@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Lines for /rosout: encoded when they are logged, so that nothing of a message is needed any longer, and kept until they
- * are sent. Never waits: a line without room is dropped and counted, and the next line says how many were.
+ * Lines for /rosout: encoded when they are logged, so that the message is no longer needed, and kept until they are
+ * sent. Never waits: a line without room is dropped and counted, and the next line reports the number.
  */
 #include "microros/cdr.h"
 #include "microros/lock.h"
@@ -68,7 +68,7 @@ static void rosout_text(rosout_line_t * line, const char * text, size_t size)
   rosout_text_end(line, &out);
 }
 
-/* Of a path that is too long, the end says more than the beginning. */
+/* Keeps the end of a path that is too long, which says more than the beginning. */
 static void rosout_path(rosout_line_t * line, const char * path)
 {
   const size_t size = microros_text_size(path);
@@ -94,7 +94,7 @@ static void rosout_begin(
   rosout_text(line, name, MICROROS_LOG_ROSOUT_NAME);
 }
 
-/* Puts where the message is from. */
+/* Puts file, function and line of the message. */
 static void rosout_end(rosout_line_t * line, const rcutils_log_location_t * location)
 {
   rosout_path(line, location == NULL ? "" : location->file_name);

@@ -5,7 +5,7 @@
 
 #include "microros/rcutils_format.h"
 
-/* Takes a floating-point argument; returns false, for its conversion is put as it stands. */
+/* Takes a floating-point argument; returns false, so that its conversion is printed unchanged. */
 static inline bool microros_format_floating(
   microros_format_t * out, const microros_conversion_t * how, va_list * args)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What rcl's users call around logging. Writers and levels are those of `logging:`; arguments do not change them. */
+/* Functions of rcl for logging. Writers and levels are those of `logging:`; arguments do not change them. */
 #ifndef MICROROS_RCL_LOGGING_H
 #define MICROROS_RCL_LOGGING_H
 
@@ -14,7 +14,7 @@ extern "C" {
 
 typedef rcutils_logging_output_handler_t rcl_logging_output_handler_t;
 
-/* Needs not be called. RCL_RET_INVALID_ARGUMENT for NULL. */
+/* Need not be called. RCL_RET_INVALID_ARGUMENT for NULL. */
 rcl_ret_t rcl_logging_configure(const rcl_arguments_t * global_args, const rcl_allocator_t * allocator);
 
 /* As above, and sets the output handler (rcutils_logging_set_output_handler). */

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Log messages, their levels and where they go. A message has a level, the name of its logger, a time (nanoseconds since
- * 1970) and a text. It goes to the writers that `logging:` of the application file lists, each with a separate level.
- * Loggers form a tree: a name without a level has that of the name before its last dot, and at last the default level.
- * Nothing here takes memory from a heap; a text longer than MICROROS_LOG_TEXT_SIZE ends with `...`.
+ * Log messages, their levels and where they go. A message has a level, the name of its logger, a time (nanoseconds
+ * since 1970) and a text. It goes to the writers that `logging:` of the application file lists, each with a separate
+ * level. Loggers form a tree: a name without a level has that of the name before its last dot, and at last the
+ * default level. Nothing here takes memory from a heap; a text longer than MICROROS_LOG_TEXT_SIZE ends with `...`.
  *
- * Formats: %d %i %u %x %X %o %c %s %p %%, with flags, width, precision and the lengths hh h l ll z j t; with the component
- * `logging_float` also %f %F %e %E %g %G. Other conversions of floating point are put out as they stand.
+ * Formats: %d %i %u %x %X %o %c %s %p %%, with flags, width, precision and the lengths hh h l ll z j t; with the
+ * component `logging_float` also %f %F %e %E %g %G. Other floating-point conversions are printed unchanged.
  *
  * Levels and the output handler are set before other tasks log. Not for interrupts.
  */
@@ -102,9 +102,10 @@ int rcutils_logging_get_logger_level(const char * name);
 int rcutils_logging_get_logger_leveln(const char * name, size_t name_length);
 
 /*
- * Sets the level of a logger and of those below it; UNSET removes it. The name is copied. RCUTILS_RET_INVALID_ARGUMENT
- * for NULL or for what is no level, RCUTILS_RET_NOT_ENOUGH_SPACE for a name of MICROROS_LOGGER_NAME_SIZE characters or more,
- * RCUTILS_RET_ERROR when MICROROS_LOGGERS_MAX loggers have a level. */
+ * Sets the level of a logger and of those below it; UNSET removes it. The name is copied.
+ * RCUTILS_RET_INVALID_ARGUMENT for NULL or an invalid level, RCUTILS_RET_NOT_ENOUGH_SPACE for a name of
+ * MICROROS_LOGGER_NAME_SIZE characters or more, RCUTILS_RET_ERROR when MICROROS_LOGGERS_MAX loggers have a level.
+ */
 rcutils_ret_t rcutils_logging_set_logger_level(const char * name, int level);
 
 /* Returns the level that holds for a logger; -1 for NULL. */
@@ -113,7 +114,10 @@ int rcutils_logging_get_logger_effective_level(const char * name);
 /* Returns whether a message is logged. NULL: without a logger. */
 bool rcutils_logging_logger_is_enabled_for(const char * name, int severity);
 
-/* Logs a message whose logger is enabled for it (rcutils_log_internal does not ask). `location` and `name` can be NULL. */
+/*
+ * Logs a message if its logger is enabled for the level (rcutils_log_internal does not check). `location` and `name`
+ * can be NULL.
+ */
 void rcutils_log(
   const rcutils_log_location_t * location, int severity, const char * name, const char * format, ...)
   RCUTILS_ATTRIBUTE_PRINTF_FORMAT(4, 5);
@@ -131,7 +135,7 @@ void rcutils_logging_console_output_handler(
   const rcutils_log_location_t * location, int severity, const char * name,
   rcutils_time_point_value_t timestamp, const char * format, va_list * args);
 
-/* Texts since the start that were cut off, and messages that a writer did not take. */
+/* Number of truncated texts and of messages that a writer dropped, since the start. */
 typedef struct rcutils_logging_counts_t {
   uint32_t truncated;
   uint32_t dropped;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What rcl's users call around /rosout. The publisher is opened and closed with the first node; a device has one for all
- * of its nodes, and each line has the name of its logger.
+ * Functions of rcl for /rosout. The publisher is opened and closed with the first node; a device has one for all of
+ * its nodes, and each line has the name of its logger.
  */
 #ifndef MICROROS_RCL_LOGGING_ROSOUT_H
 #define MICROROS_RCL_LOGGING_ROSOUT_H
@@ -19,8 +19,10 @@ extern "C" {
 rcl_ret_t rcl_logging_rosout_init(const rcl_allocator_t * allocator);
 rcl_ret_t rcl_logging_rosout_fini(void);
 
-/* Opens the publisher where it was closed, and closes it: lines wait then. RCL_RET_NODE_INVALID for a node that is not
- * open. Opening waits for the agent. */
+/*
+ * Open the publisher if it was closed, and close it; while it is closed, lines wait. RCL_RET_NODE_INVALID for a node
+ * that is not open. Opening waits for the agent.
+ */
 rcl_ret_t rcl_logging_rosout_init_publisher_for_node(rcl_node_t * node);
 rcl_ret_t rcl_logging_rosout_fini_publisher_for_node(rcl_node_t * node);
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Memory that keeps its content without power, in slots: pages of flash, an EEPROM, files. A slot is erased as a whole, then
- * written once at each offset: first what follows the header, at last the header at offset 0. Offsets and sizes are multiples
- * of 8 bytes. Called in the task that loads and saves.
+ * Memory that keeps its content without power, in slots: pages of flash, an EEPROM, files. A slot is erased as a
+ * whole, then written once at each offset: first the records, and the header at offset 0 last. Offsets and sizes are
+ * multiples of 8 bytes. Called in the task that loads and saves.
  */
 #ifndef MICROROS_PORT_STORAGE_H
 #define MICROROS_PORT_STORAGE_H
@@ -14,10 +14,10 @@
 extern "C" {
 #endif
 
-/* Erases a slot; its content is any afterwards that no write has made. Returns false if it cannot. */
+/* Erases a slot; its content is undefined until it is written. Returns false if that fails. */
 bool port_storage_erase(uint32_t slot);
 
-/* Writes `size` bytes, and returns when they are there. Returns false if they are not, or the slot ends before. */
+/* Writes `size` bytes and waits until they are stored. Returns false if that fails or they exceed the slot. */
 bool port_storage_write(uint32_t slot, uint32_t offset, const uint8_t * bytes, uint32_t size);
 
 /* Reads `size` bytes, whether or not they have been written. Returns false if the slot does not exist or is too short. */

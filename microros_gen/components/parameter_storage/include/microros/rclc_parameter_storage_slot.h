@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * One slot of the storage: a header of 24 bytes, and records. The header is written last, and has checksums of itself and of
- * the records, so a slot counts as a whole or not at all. Internal.
+ * One slot of the storage: a header of 24 bytes, and records. The header is written last, and has checksums of itself
+ * and of the records, so a slot is valid as a whole or not at all. Internal.
  */
 #ifndef MICROROS_RCLC_PARAMETER_STORAGE_SLOT_H
 #define MICROROS_RCLC_PARAMETER_STORAGE_SLOT_H
@@ -15,11 +15,11 @@ extern "C" {
 
 enum { STORAGE_VERSION = 1, STORAGE_UNIT = 8 };
 
-/* In the byte order of the processor, which the mark tells apart. */
+/* In the byte order of the processor, which `mark` reveals. */
 typedef struct storage_header_t {
   uint32_t mark;
   uint32_t version;
-  uint32_t sequence;         /* of the save; goes up, and wraps */
+  uint32_t sequence;         /* number of the save; it wraps */
   uint32_t size;             /* bytes of the records */
   uint32_t records_checksum; /* CRC-32 */
   uint32_t checksum;         /* of the members above */
@@ -32,29 +32,29 @@ typedef enum storage_state_t {
   STORAGE_GOOD
 } storage_state_t;
 
-/* Where records go: checksum and size of all, and a slot if they are written. */
+/* Output of records: size and checksum of all, and the slot if they are written. */
 typedef struct storage_out_t {
   uint32_t slot;
   uint32_t size;
   uint32_t checksum;
-  bool is_written; /* else they are only measured */
+  bool is_written; /* otherwise only measured */
   bool failed;
 } storage_out_t;
 
-/* CRC-32 (IEEE 802.3) of more bytes; begins with 0. */
+/* Returns the CRC-32 (IEEE 802.3) after more bytes; the first `checksum` is 0. */
 uint32_t microros_storage_checksum(uint32_t checksum, const uint8_t * bytes, uint32_t size);
 
-/* Reads and checks a slot as a whole. `room` is for any use meanwhile, of at least STORAGE_UNIT bytes. */
+/* Reads and checks a whole slot. `room` is a temporary buffer of at least STORAGE_UNIT bytes. */
 storage_state_t microros_storage_look(
   uint32_t slot, storage_header_t * header, uint8_t * room, uint32_t room_size);
 
-/* Adds bytes; the last unit is filled up with zeros. */
+/* Adds bytes; the last unit is padded with zeros. */
 void microros_storage_put(storage_out_t * out, const uint8_t * bytes, uint32_t size);
 
-/* Makes a slot count whose records are written. Returns false if the memory refuses. */
+/* Makes a slot valid, after its records were written. Returns false if the memory refuses. */
 bool microros_storage_commit(const storage_out_t * out, uint32_t sequence);
 
-/* Where the records begin. */
+/* Returns the offset of the first record in a slot. */
 uint32_t microros_storage_first(void);
 
 #ifdef __cplusplus

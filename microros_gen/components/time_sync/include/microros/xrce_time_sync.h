@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * TIMESTAMP and its reply (OMG DDS-XRCE 1.0, 8.3.5.14 and 8.3.5.15): the offset of the agent's clock to
- * the steady clock of the device, from four points in time.
+ * TIMESTAMP and its reply (OMG DDS-XRCE 1.0, 8.3.5.15 and 8.3.5.16): the offset of the agent's clock to the steady
+ * clock of the device, from four points in time.
  */
 #ifndef MICROROS_XRCE_TIME_SYNC_H
 #define MICROROS_XRCE_TIME_SYNC_H
