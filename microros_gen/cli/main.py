@@ -31,6 +31,7 @@ _COMMANDS = {
     "run": "Start a built image together with an agent.",
     "agent": "Connect XRCE clients to ROS 2.",
     "graph-server": "Answer queries of the ROS graph for firmware.",
+    "parameter-server": "Hold the parameters of firmware.",
 }
 
 

@@ -7,8 +7,10 @@ import ctypes
 import time
 from collections.abc import Callable, Mapping
 from ctypes import byref, c_char_p, c_int64, c_void_p
+from functools import partial
 from typing import Any
 
+from microros_gen.ros.codec import ENCAPSULATION_BYTES
 from microros_gen.ros.errors import RosError
 from microros_gen.ros.known_types import KnownType
 from microros_gen.ros.layout import RawMessage, RequestId, ServiceInfo
@@ -26,6 +28,8 @@ from microros_gen.ros.raw_types import RawTypes
 Value = dict[str, Any]
 Spin = Callable[[Callable[[], object], float], bool]
 """Spins until something is true, at most so many seconds; returns whether it is."""
+Respond = Callable[[Mapping[str, Any]], object]
+"""Sends the response to one request. Raises CodecError for an invalid value, RosError if the client is gone."""
 SETTLE_S = 0.1
 """From the discovery of a service to the first request: what is sent before the service has found its client too is
 delivered only with the writer's next heartbeat, 3 s later."""
@@ -119,6 +123,7 @@ class Client(_ServiceEnd):
         super().__init__(handle, known, name, types)
         self._spin = spin
         self._waiting: dict[int, Callable[[Value], object]] = {}
+        self._several: set[int] = set()
         self._settled = False
 
     def available(self) -> bool:
@@ -135,21 +140,29 @@ class Client(_ServiceEnd):
             self._settled = True
         return True
 
-    def send(self, request: Mapping[str, Any], done: Callable[[Value], object]) -> int:
+    def send(self, request: Mapping[str, Any], done: Callable[[Value], object], several: bool = False) -> int:
         """Send a request without waiting; return its sequence number.
 
-        `done` is called with the response by a later `spin_once`. Raises CodecError for an invalid value.
+        `done` is called with the response by a later `spin_once`; where `several` servers may answer, with each
+        response until the request is forgotten. Raises CodecError for an invalid value.
         """
         number = c_int64()
         data = self._codec.encode(self.name.request, request)
         result = self._libraries.send_request(self.handle.pointer, byref(_raw(data)), byref(number))
         self._check(result, "request")
         self._waiting[number.value] = done
+        if several:
+            self._several.add(number.value)
         return number.value
+
+    def size(self, request: Mapping[str, Any]) -> int:
+        """Return the bytes of an encoded request without its header. Raises CodecError for an invalid value."""
+        return len(self._codec.encode(self.name.request, request)) - ENCAPSULATION_BYTES
 
     def forget(self, number: int) -> None:
         """Ignore the response to the request with this number."""
         self._waiting.pop(number, None)
+        self._several.discard(number)
 
     def call(self, request: Mapping[str, Any], timeout_s: float = 5.0) -> Value | None:
         """Wait for a server, send a request and spin until the response arrives; return None after a time-out.
@@ -170,13 +183,18 @@ class Client(_ServiceEnd):
     def look(self) -> None:
         """Take at most one response; call back if its request is outstanding."""
         data = self._take(self._libraries.take_response)
-        done = None if data is None else self._waiting.pop(self._info.request.number, None)
-        if data is not None and done is not None:
+        if data is None:
+            return
+        number = self._info.request.number
+        done = self._waiting.get(number)
+        if number not in self._several:
+            self.forget(number)
+        if done is not None:
             done(self._codec.decode(self.name.response, data))
 
 
 class Server(_ServiceEnd):
-    """A service server; a function maps each request to its response."""
+    """A service server; a function gets each request and what sends its response, now or later."""
 
     kind = "service"
 
@@ -186,10 +204,10 @@ class Server(_ServiceEnd):
         known: KnownType,
         name: ServiceName,
         types: RawTypes,
-        answer: Callable[[Value], Mapping[str, Any]],
+        serve: Callable[[Value, Respond], object],
     ) -> None:
         super().__init__(handle, known, name, types)
-        self._answer = answer
+        self._serve = serve
         self._held: list[tuple[float, RequestId, bytes]] = []
 
     @property
@@ -198,12 +216,14 @@ class Server(_ServiceEnd):
         return bool(self._held)
 
     def look(self) -> None:
-        """Take at most one request and send its response. Raises RosError if its client cannot be reached."""
+        """Take at most one request and serve it. Raises RosError if its client cannot be reached."""
         data = self._take(self._libraries.take_request)
         if data is None:
             return
         request = RequestId.from_buffer_copy(self._info.request)
-        response = self._answer(self._codec.decode(self.name.request, data))
+        self._serve(self._codec.decode(self.name.request, data), partial(self._respond, request))
+
+    def _respond(self, request: RequestId, response: Mapping[str, Any]) -> None:
         encoded = self._codec.encode(self.name.response, response)
         self._send(time.monotonic() + UNDISCOVERED_S, request, encoded)
 

@@ -20,7 +20,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from microros_gen.ros.endpoints import Client, Publisher, Server, Subscription, Value
+from microros_gen.ros.endpoints import Client, Publisher, Respond, Server, Subscription, Value
 from microros_gen.ros.errors import RosError
 from microros_gen.ros.graph import Graph, GraphChanges
 from microros_gen.ros.known_types import KnownType, KnownTypes
@@ -113,9 +113,16 @@ class Peer:
 
     def serve(self, service: str, type_name: str, answer: Callable[[Value], Mapping[str, Any]]) -> Server:
         """Create a service server; `spin_once` replies with `answer(request)`. Errors as for `publisher`."""
+        return self.serve_later(service, type_name, lambda request, respond: respond(answer(request)))
+
+    def serve_later(self, service: str, type_name: str, serve: Callable[[Value, Respond], object]) -> Server:
+        """Create a service server; `spin_once` calls `serve` with each request and what sends its response, once.
+
+        Errors as for `publisher`.
+        """
         known = self._types.service(type_name)
         name = ServiceName(service, known.name)
-        server = Server(self._service(self._handles.Service, name, known), known, name, self._raw, answer)
+        server = Server(self._service(self._handles.Service, name, known), known, name, self._raw, serve)
         self._waited.append(server)
         return server
 

@@ -32,6 +32,8 @@ NOTHING = {
     "discovery_port": None,
     "graph_server": False,
     "client_state": False,
+    "no_parameter_server": False,
+    "parameter_file": None,
     "client_timeout": None,
     "max_clients": None,
     "limits": (),

@@ -23,9 +23,15 @@ from microros_gen.interfaces.types import Constant, Field, Message, TypeName
 
 SHARE = Path(sys.prefix) / "share"
 # Not in the wheels of ROS 2 on PyPI: written from what is publicly known of them, or of this project.
-ELSEWHERE = {"example_interfaces", "microros_agent_msgs", "microros_graph_msgs", "tf2_msgs"}
+ELSEWHERE = {
+    "example_interfaces",
+    "microros_agent_msgs",
+    "microros_graph_msgs",
+    "microros_parameter_msgs",
+    "tf2_msgs",
+}
 # Of this project, with its own comments.
-OWN = {"microros_agent_msgs", "microros_graph_msgs"}
+OWN = {"microros_agent_msgs", "microros_graph_msgs", "microros_parameter_msgs"}
 # For ROS 2's own tests, not for users.
 TESTS_OF_ROS = {"test_msgs", "test_interface_files"}
 FINDER = InterfaceFinder(shipped=shipped_folder())

@@ -28,11 +28,13 @@ ORDER = (
     "migrate",
     "ros",
     "graph_server",
+    "parameter_server",
     "agent",
     "cli",
 )
 MAY = {
     "graph_server": {"graph_server", "ros"},
+    "parameter_server": {"diagnostics", "parameter_server", "records", "ros"},
     "agent": {"agent", "diagnostics", "documents", "interfaces", "ros"},
     "cli": set(ORDER),
 }

@@ -63,6 +63,8 @@ class AgentFile:
     domain: int | None = None
     graph_server: bool = False
     client_state: bool = False
+    parameter_server: bool = True
+    parameter_file: str | None = None
     limits: tuple[tuple[str, float], ...] = ()
     references: tuple[NamedPath, ...] = ()
     entities: tuple[NamedPath, ...] = ()

@@ -53,6 +53,8 @@ def parse_agent_file(source: Source, diagnostics: Diagnostics) -> AgentFile:
         domain=int_of(child(tree, "domain")),
         graph_server=bool_of(child(tree, "graph_server")) or False,
         client_state=bool_of(child(tree, "client_state")) or False,
+        parameter_server=bool_of(child(tree, "parameter_server")) is not False,
+        parameter_file=text_of(child(tree, "parameter_file")),
         limits=_numbers(child(tree, "limits")),
         references=_paths(child(tree, "references")),
         entities=_paths(child(tree, "entities")),

@@ -56,12 +56,13 @@ def open_bridge(
     hash_of: HashOf | None = None,
     report: Callable[[GraphReport], None] | None = None,
     request_wait_s: float = 5.0,
+    on_type: Callable[[str], object] | None = None,
 ) -> Bridge:
     """Return the bridge; UserError when rclpy is missing, does not load, or is not the one that is needed.
 
     `domain` (0 to 232) puts every client into that ROS domain, whichever it asks for. `hash_of` knows type hashes;
     without one for a type, its endpoints announce none. `report` is told what happens in the ROS graph. A request waits
-    `request_wait_s` for its service.
+    `request_wait_s` for its service. `on_type` is called with the type of each endpoint of a client.
     """
     try:
         handles = load_rclpy()
@@ -70,11 +71,16 @@ def open_bridge(
         raise UserError([Diagnostic(f"the agent {error.reason}", hint=error.hint, id="MG-9427")]) from error
     types.libraries.hurry_writers()
     return RclpyBridge(
-        handles, Ros(types, report or _ignore, request_wait_s), maximum_domains, domain, hash_of
+        handles,
+        Ros(types, report or _ignore, request_wait_s),
+        maximum_domains,
+        domain,
+        hash_of,
+        on_type or _ignore,
     )
 
 
-def _ignore(_report: GraphReport) -> None:
+def _ignore(_report: object) -> None:
     pass
 
 
@@ -88,7 +94,9 @@ class RclpyBridge:
         maximum_domains: int,
         domain: int | None,
         hash_of: HashOf | None,
+        on_type: Callable[[str], object],
     ) -> None:
+        self._on_type = on_type
         self._handles = handles
         self._ros = ros
         self._domain = domain
@@ -173,6 +181,7 @@ class RclpyBridge:
 
     def _known_hash(self, type_name: str, hash_of: HashOf | None) -> str | None:
         """Return a type's hash from the client's manifest, else from the interface files; report a missing one once."""
+        self._on_type(type_name)
         for known in (hash_of, self._hash_of):
             found = known(type_name) if known else None
             if found is not None:

@@ -74,6 +74,19 @@ _COMMON = (
         " /microros_agent/client_states, and list them by service; in the domain of --domain, else ROS_DOMAIN_ID.",
     ),
     click.option(
+        "--no-parameter-server",
+        is_flag=True,
+        help="Do not hold the parameters of clients whose application file says `parameters: {at: agent}`; another"
+        " node does, as `microros-gen parameter-server`.",
+    ),
+    click.option(
+        "--parameter-file",
+        type=click.Path(path_type=Path, dir_okay=False),
+        metavar="FILE",
+        help="Where the values of such parameters are kept. Default: parameters-DOMAIN.json in"
+        " ~/.local/state/microros-gen (XDG_STATE_HOME).",
+    ),
+    click.option(
         "--client-timeout",
         type=click.FloatRange(min=0.1),
         metavar="SECONDS",
@@ -145,6 +158,8 @@ class AgentOptions:
     domain: int | None = None
     graph_server: bool = False
     client_state: bool = False
+    parameter_server: bool = True
+    parameter_file: Path | None = None
     limits: Limits = DEFAULTS
     references: tuple[Path, ...] = ()
     entities: tuple[Path, ...] = ()
@@ -174,6 +189,8 @@ class AgentOptions:
             domain=file.domain if options["domain"] is None else options["domain"],
             graph_server=options["graph_server"] or file.graph_server,
             client_state=options["client_state"] or file.client_state,
+            parameter_server=file.parameter_server and not options["no_parameter_server"],
+            parameter_file=options["parameter_file"] or _own_file(file, folder),
             limits=_limits(file, options),
             references=_paths(folder, file.references, options["references"]),
             entities=_paths(folder, file.entities, options["entities"]),
@@ -246,6 +263,10 @@ def _near(folder: Path, choice: TransportChoice) -> TransportChoice:
     if isinstance(choice, PtyChoice) and choice.link:
         return replace(choice, link=str(folder / choice.link))
     return choice
+
+
+def _own_file(file: AgentFile, folder: Path) -> Path | None:
+    return None if file.parameter_file is None else folder / file.parameter_file
 
 
 def _paths(folder: Path, of_file: Sequence[NamedPath], of_options: Sequence[Path]) -> tuple[Path, ...]:

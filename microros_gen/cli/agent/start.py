@@ -37,6 +37,7 @@ from microros_gen.agent.transport.sockets import PROTOCOLS
 from microros_gen.cli.agent.clients import client_state_node
 from microros_gen.cli.agent.graph import graph_server
 from microros_gen.cli.agent.options import AgentOptions, read_sources
+from microros_gen.cli.agent.parameters import ParametersOnDemand
 from microros_gen.cli.agent.types import ClientTypes, HashOf, TypeHashes, read_manifests
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
 from microros_gen.interfaces.type_hashes import type_hashes
@@ -61,9 +62,10 @@ def serve(options: AgentOptions) -> None:
     pool, budgets = InputPool(limits.input_bytes, limits.clients + streams), Budgets(limits, streams)
     shared = Shared(pool, budgets.output, Fairness(), Account())
     transports = open_transports(options.transports, options.discovery, log, shared)
+    parameters = ParametersOnDemand(options.parameter_server, options.parameter_file, options.domain, log)
     try:
         report, wait_s = graph_reporter(log), limits.request_wait_s
-        bridge = open_bridge(limits.domains, options.domain, files.hashes, report, wait_s)
+        bridge = open_bridge(limits.domains, options.domain, files.hashes, report, wait_s, parameters.on_type)
     except UserError:
         _close(transports)
         raise
@@ -95,6 +97,7 @@ def serve(options: AgentOptions) -> None:
     with (
         graph_server(options.graph_server, options.domain, log),
         client_state_node(options.client_state, agent, options.domain, limits.clients, log),
+        parameters.running(),
         stopped_by_signals(server),
     ):
         notify("READY=1")

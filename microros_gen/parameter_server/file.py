@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The file of a parameter server: JSON, written as a whole, so that the old or the new one is there at any time."""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import os
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.parameter_server.declared import Declared
+from microros_gen.parameter_server.node import Held, HeldNode
+from microros_gen.parameter_server.values import TYPE_NAMES, type_name, value_from_json
+
+FORMAT, VERSION = "microros-gen parameters", 1
+_TYPES = {
+    "description": str,
+    "constraints": str,
+    "read_only": bool,
+    "dynamic_typing": bool,
+    "size_max": int,
+}
+
+
+class ParameterFile:
+    """A file that one server at a time has; `close` gives it back."""
+
+    def __init__(self, path: Path) -> None:
+        """Raises UserError: the folder cannot be written, or another server has the file."""
+        self.path = path
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            self._lock = os.open(path.with_name(f"{path.name}.lock"), os.O_CREAT | os.O_RDWR, 0o644)
+        except OSError as error:
+            raise _error(
+                f"'{path}' cannot be written: {error.strerror}", "Name another file", "MG-9725"
+            ) from error
+        try:
+            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:
+            os.close(self._lock)
+            hint = "Stop it, or name another file"
+            raise _error(f"another parameter server has '{path}'", hint, "MG-9726") from error
+
+    def close(self) -> None:
+        """Let others have the file."""
+        os.close(self._lock)
+
+    def load(self, make: Callable[[str], HeldNode]) -> tuple[tuple[HeldNode, ...], str]:
+        """Return the nodes of the file, and what is wrong with it; what cannot be read is kept under another name.
+
+        Raises UserError for a file of a later version: nothing is read or written.
+        """
+        try:
+            data = self.path.read_bytes()
+        except FileNotFoundError:
+            return (), ""
+        except OSError as error:
+            raise _error(
+                f"'{self.path}' cannot be read: {error.strerror}", "Name another file", "MG-9729"
+            ) from error
+        try:
+            tree = json.loads(data)
+            if tree["format"] == FORMAT and isinstance(tree["version"], int) and tree["version"] > VERSION:
+                message = f"'{self.path}' is of version {tree['version']}; this program knows {VERSION}"
+                raise _error(message, "Use a later microros-gen, or name another file", "MG-9727")
+            if (tree["format"], tree["version"]) != (FORMAT, VERSION):
+                raise ValueError("another format")
+            return tuple(_node(name, entry, make(name)) for name, entry in tree["nodes"].items()), ""
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            kept = self._keep_damaged()
+            return (
+                (),
+                f"'{self.path}' is damaged ({error}): it is kept as '{kept.name}', and a new one begins",
+            )
+
+    def save(self, nodes: Iterable[HeldNode]) -> None:
+        """Write the nodes. Raises OSError; the file of before is there then."""
+        tree = {"format": FORMAT, "version": VERSION, "nodes": {node.name: _entry(node) for node in nodes}}
+        temporary = self.path.with_name(f"{self.path.name}.new")
+        with temporary.open("w", encoding="utf-8") as stream:
+            json.dump(tree, stream, indent=1, ensure_ascii=False)
+            stream.write("\n")
+            stream.flush()
+            os.fsync(stream.fileno())
+        temporary.replace(self.path)
+
+    def _keep_damaged(self) -> Path:
+        number = 1
+        while (kept := self.path.with_name(f"{self.path.name}.damaged-{number}")).exists():
+            number += 1
+        self.path.replace(kept)
+        return kept
+
+
+def _error(message: str, hint: str, name: str) -> UserError:
+    return UserError([Diagnostic(message, hint=hint, id=name)])
+
+
+def _entry(node: HeldNode) -> Mapping[str, Any]:
+    parameters = {name: _held_entry(held) for name, held in node.parameters.items()}
+    aside = {
+        name: [{"type": type_name(value.type), "value": value.to_json()} for value in values]
+        for name, values in node.aside.items()
+        if values
+    }
+    return {"parameters": parameters, **({"aside": aside} if aside else {})}
+
+
+def _held_entry(held: Held) -> Mapping[str, Any]:
+    declared = held.declared
+    entry: dict[str, Any] = {
+        "type": type_name(held.value.type),
+        "value": held.value.to_json(),
+        "written": held.written,
+        "pending": held.pending,
+        "declared": type_name(declared.type),
+    }
+    entry.update({key: getattr(declared, key) for key in _TYPES if getattr(declared, key)})
+    if declared.range is not None:
+        entry["range"] = list(declared.range)
+    if declared.one_of:
+        entry["one_of"] = list(declared.one_of)
+    return entry
+
+
+def _node(name: str, entry: Mapping[str, Any], node: HeldNode) -> HeldNode:
+    if not name.startswith("/"):
+        raise ValueError(f"'{name}' is no node")
+    for parameter, values in entry["parameters"].items():
+        node.parameters[parameter] = _held(parameter, values)
+    for parameter, values in entry.get("aside", {}).items():
+        node.aside[parameter] = [value_from_json(value["type"], value["value"]) for value in values]
+    return node
+
+
+def _held(name: str, entry: Mapping[str, Any]) -> Held:
+    value = value_from_json(entry["type"], entry["value"])
+    members = {key: entry[key] for key in _TYPES if key in entry}
+    for key, member in members.items():
+        if type(member) is not _TYPES[key]:
+            raise ValueError(f"{key} of '{name}'")
+    bounds = entry.get("range")
+    if bounds is not None and (len(bounds) != 3 or not all(isinstance(b, (int, float)) for b in bounds)):
+        raise ValueError(f"range of '{name}'")
+    declared = Declared(
+        name,
+        TYPE_NAMES.index(entry["declared"]),
+        range=None if bounds is None else (bounds[0], bounds[1], bounds[2]),
+        one_of=tuple(entry.get("one_of", ())),
+        **members,
+    )
+    if not isinstance(entry["pending"], bool) or not isinstance(entry["written"], (int, float)):
+        raise ValueError(f"times of '{name}'")
+    return Held(declared, value, entry["written"], entry["pending"])
