@@ -220,6 +220,7 @@ class NodeDecl:
 
     `parameter_file`: one of generate_parameter_library, relative to the folder of the application file; its
     parameters are among `parameters` once it was read, before those of the application file.
+    `parameters_at`: who holds their values, `device` or `agent`; None: nothing is said.
     `clock_topic`: where a rule of `remap:` puts /clock, to which a node subscribes by itself; empty: no rule.
     """
 
@@ -231,6 +232,7 @@ class NodeDecl:
     timers: tuple[TimerDecl, ...] = ()
     parameters: tuple[ParameterDecl, ...] = ()
     parameter_file: Named | None = None
+    parameters_at: Named | None = None
     executors: tuple[ExecutorDecl, ...] = ()
     name_span: Span | None = None
     given_name: str = ""

@@ -47,7 +47,20 @@ def parse_nodes(tree: YamlNode | None, diagnostics: Diagnostics) -> tuple[NodeDe
             diagnostics.error(
                 message, node.name_span, "Give each a different name or namespace", id="MG-3002"
             )
+    _check_holders(nodes, diagnostics)
     return nodes
+
+
+def _check_holders(nodes: tuple[NodeDecl, ...], diagnostics: Diagnostics) -> None:
+    """Report nodes whose parameters are held elsewhere than those of the nodes before."""
+    having = [node for node in nodes if node.parameters_at or node.parameters or node.parameter_file]
+    holders = [(node, node.parameters_at.name if node.parameters_at else "device") for node in having]
+    for node, holder in holders[1:]:
+        if holder != holders[0][1]:
+            first = holders[0][0].name
+            message = f"the parameters of '{node.name}' are held by the {holder}, those of '{first}' are not"
+            span = node.parameters_at.span if node.parameters_at else node.name_span
+            diagnostics.error(message, span, f"Write at: {holders[0][1]} at each node", id="MG-3080")
 
 
 def _node(item: YamlNode, diagnostics: Diagnostics) -> NodeDecl:
@@ -62,6 +75,7 @@ def _node(item: YamlNode, diagnostics: Diagnostics) -> NodeDecl:
         timers=tuple(_timer(t, diagnostics) for t in items(child(item, "timers"))),
         parameters=parse_declarations(child(item, "parameters"), diagnostics),
         parameter_file=named_of(child(child(item, "parameters"), "file")),
+        parameters_at=named_of(child(child(item, "parameters"), "at")),
         name_span=span_of(name) or item.span,
     )
     remap = child(item, "remap")

@@ -128,6 +128,6 @@ def _holds_double(value: float, low: float, high: float, step: float) -> bool:
     return _equal(value, low + steps * abs(step))
 
 
-def _equal(one: float, other: float) -> bool:
+def _equal(value: float, other: float) -> bool:
     """Compare as rclcpp does: 100 times the precision of the two together."""
-    return abs(one - other) <= sys.float_info.epsilon * abs(one + other) * 100
+    return abs(value - other) <= sys.float_info.epsilon * abs(value + other) * 100

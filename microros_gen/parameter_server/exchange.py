@@ -96,9 +96,9 @@ class Exchange:
         self._wants_begin = self._wants_changes = False
         self._retry_at, self._retry_s = 0.0, FIRST_RETRY_S
         self._ended: deque[float] = deque()
-        self._there_since: float | None = None
+        self._available_since: float | None = None
         self._other_board = 0
-        self._told_at = -_SAME_S
+        self._reported_at = -_SAME_S
 
     @property
     def is_open(self) -> bool:
@@ -132,9 +132,11 @@ class Exchange:
     def step(self) -> None:
         """Send what is due, and give up what was not answered."""
         now = self._clock()
-        there = self.board != 0 and self._line.available()
-        self._there_since = None if not there else now if self._there_since is None else self._there_since
-        if (self._sent is not None and now >= self._sent[2]) or (self._is_open and not there):
+        is_available = self.board != 0 and self._line.available()
+        self._available_since = (
+            None if not is_available else now if self._available_since is None else self._available_since
+        )
+        if (self._sent is not None and now >= self._sent[2]) or (self._is_open and not is_available):
             self._lose()
         if self.board and not (self._is_open or self._is_beginning) and now >= self._retry_at:
             self._wants_begin = True
@@ -146,7 +148,7 @@ class Exchange:
         if self._sent is not None:
             return self._sent[2]
         if self._wants_begin:
-            return self._clock() + (SETTLE_S if self._there_since is not None else _LOOK_S)
+            return self._clock() + (SETTLE_S if self._available_since is not None else _LOOK_S)
         return self._retry_at if self.board and not self._is_open else float("inf")
 
     @property
@@ -163,7 +165,7 @@ class Exchange:
 
     def _send_next(self, now: float) -> None:
         if self._wants_begin:
-            if self._there_since is None or now < self._there_since + SETTLE_S:
+            if self._available_since is None or now < self._available_since + SETTLE_S:
                 return
             self._wants_begin = self._wants_changes = False
             self.session = random.randrange(1, 1 << 32)
@@ -213,7 +215,7 @@ class Exchange:
             self._other_board = response["board"]
             return
         if self._other_board:
-            self._tell_of_two()
+            self._report_two_boards()
         self._line.forget(self._sent[0])
         self._sent = None
         if response["status"] != OK:
@@ -223,10 +225,10 @@ class Exchange:
             self._working(response)
         self.step()
 
-    def _tell_of_two(self) -> None:
+    def _report_two_boards(self) -> None:
         boards, self._other_board = f"0x{self.board:08X} and 0x{self._other_board:08X}", 0
-        if self._clock() >= self._told_at + _SAME_S:
-            self._told_at = self._clock()
+        if self._clock() >= self._reported_at + _SAME_S:
+            self._reported_at = self._clock()
             self._owner.log(f"two boards have this node: {boards}; the first is served, rename one")
 
     def _end_session(self) -> None:

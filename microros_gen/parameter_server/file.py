@@ -26,7 +26,7 @@ _TYPES = {
 
 
 class ParameterFile:
-    """A file that one server at a time has; `close` gives it back."""
+    """A file that one server at a time has; `close` releases it."""
 
     def __init__(self, path: Path) -> None:
         """Raises UserError: the folder cannot be written, or another server has the file."""
@@ -35,15 +35,14 @@ class ParameterFile:
             path.parent.mkdir(parents=True, exist_ok=True)
             self._lock = os.open(path.with_name(f"{path.name}.lock"), os.O_CREAT | os.O_RDWR, 0o644)
         except OSError as error:
-            raise _error(
-                f"'{path}' cannot be written: {error.strerror}", "Name another file", "MG-9725"
-            ) from error
+            message = f"'{path}' cannot be written: {error.strerror}"
+            raise UserError([Diagnostic(message, hint="Name another file", id="MG-9730")]) from error
         try:
             fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError as error:
             os.close(self._lock)
-            hint = "Stop it, or name another file"
-            raise _error(f"another parameter server has '{path}'", hint, "MG-9726") from error
+            message, hint = f"another parameter server has '{path}'", "Stop it, or name another file"
+            raise UserError([Diagnostic(message, hint=hint, id="MG-9726")]) from error
 
     def close(self) -> None:
         """Let others have the file."""
@@ -59,14 +58,14 @@ class ParameterFile:
         except FileNotFoundError:
             return (), ""
         except OSError as error:
-            raise _error(
-                f"'{self.path}' cannot be read: {error.strerror}", "Name another file", "MG-9729"
-            ) from error
+            message = f"'{self.path}' cannot be read: {error.strerror}"
+            raise UserError([Diagnostic(message, hint="Name another file", id="MG-9729")]) from error
         try:
             tree = json.loads(data)
             if tree["format"] == FORMAT and isinstance(tree["version"], int) and tree["version"] > VERSION:
                 message = f"'{self.path}' is of version {tree['version']}; this program knows {VERSION}"
-                raise _error(message, "Use a later microros-gen, or name another file", "MG-9727")
+                hint = "Use a later microros-gen, or name another file"
+                raise UserError([Diagnostic(message, hint=hint, id="MG-9727")])
             if (tree["format"], tree["version"]) != (FORMAT, VERSION):
                 raise ValueError("another format")
             return tuple(_node(name, entry, make(name)) for name, entry in tree["nodes"].items()), ""
@@ -94,10 +93,6 @@ class ParameterFile:
             number += 1
         self.path.replace(kept)
         return kept
-
-
-def _error(message: str, hint: str, name: str) -> UserError:
-    return UserError([Diagnostic(message, hint=hint, id=name)])
 
 
 def _entry(node: HeldNode) -> Mapping[str, Any]:

@@ -87,10 +87,6 @@ class ServedNode:
     def listed(self, items: Sequence[Mapping[str, Any]], complete: bool) -> None:
         """Bring together what is held and what the node has."""
         merged = self.held.merge(items, complete)
-        if complete:
-            self._holder.log(
-                f"{self.held.name}: {len(items)} parameters, {len(merged.push)} of them set by the server"
-            )
         if merged.has_event:
             self._holder.tell(self.held.name, merged)
         self._holder.keep()

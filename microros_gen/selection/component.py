@@ -54,7 +54,8 @@ class Implied:
 
     `name` is that of the topic or service; `{node}` and `{ns}` in it are replaced. `queue`: how many samples wait;
     None: follows from the depth. `limits` hold where the application has none for its type. `executed`: an executor
-    of the application runs it. `stored`: the library has storage for what it receives.
+    of the application runs it. `stored`: the library has storage for what it receives. `unless`: a component that opens
+    another one instead.
     """
 
     kind: str
@@ -66,6 +67,7 @@ class Implied:
     limits: tuple[LimitRule, ...] = ()
     executed: bool = False
     stored: bool = True
+    unless: str = ""
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from microros_gen.selection.xrce import OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
 LAYERS = ("micro-ROS", "middleware", "port")
 _REQUIRED = ("component", "summary", "layer", "status")
 _LISTS = ("needs", "asks", "xrce", "sends", "receives", "objects", "headers", "sources", "implies")
-_IMPLIED = ("type", "every_node", "queue", "qos", "limits", "executed", "storage")
+_IMPLIED = ("type", "every_node", "queue", "qos", "limits", "executed", "storage", "unless")
 _PROVISION = ("sources", "asks", "always")
 _STATUS = ("ready", "planned")
 
@@ -130,7 +130,8 @@ def _implies(node: MappingNode, diagnostics: Diagnostics) -> tuple[Implied, ...]
             bool_of(item_node.get("executed")) or False,
             text_of(item_node.get("storage")) != "none",
         )
-        found.append(Implied(kind, name, type_, qos, queue, every_node, limits, executed, stored))
+        unless = text_of(item_node.get("unless")) or ""
+        found.append(Implied(kind, name, type_, qos, queue, every_node, limits, executed, stored, unless))
     return tuple(found)
 
 

@@ -40,6 +40,17 @@ def declared_components(application: Application) -> Iterator[Demand]:
             yield Demand("executor", "an executor", executor.span)
 
 
+def holder_demands(application: Application) -> Iterator[Demand]:
+    """Yield the component by which another node holds the parameters, for each node that says so."""
+    for node in application.nodes:
+        if node.parameters_at is not None and node.parameters_at.name == "agent":
+            yield Demand(
+                "parameters_held",
+                f"parameters: {{at: agent}}{at(node.parameters_at.span)}",
+                node.parameters_at.span,
+            )
+
+
 def stream_demands(application: Application, selected: frozenset[str], entities: str) -> Iterator[Demand]:
     """Yield the streams that entities and their creation need, for the components that are `selected`.
 

@@ -62,7 +62,7 @@ def _endpoints(
         _endpoint(implied, changes.get(implied.name))
         for chosen in selection.components
         for implied in chosen.component.implies
-        if implied.every_node == every_node
+        if implied.every_node == every_node and not (implied.unless and selection.has(implied.unless))
     )
 
 

@@ -26,7 +26,7 @@ class World:
         self.board = Board(lambda: self.now, board_key)
         self.others: list[Board] = []
         self.logged: list[str] = []
-        self.lost = lambda: False
+        self.lost: Callable[[], bool] = lambda: False
         self.there = True
         self.requests: list[Value] = []
         self._waiting: dict[int, Callable[[Value], object]] = {}
@@ -127,7 +127,7 @@ def test_a_board_that_appears_is_listed_in_pages(world: World) -> None:
     assert not world.board.has_news
 
 
-def test_a_set_goes_to_the_board_and_its_veto_comes_back(world: World) -> None:
+def test_a_set_goes_to_the_board_and_its_veto_to_the_caller(world: World) -> None:
     world.board.veto = lambda name, value: bool(value.value == 3.0)
     refused, taken = world.set("gain", ParameterValue(DOUBLE, 3.0)), []
     world.run(1)
@@ -180,7 +180,7 @@ def test_a_board_that_does_not_answer_is_away(world: World) -> None:
 def test_the_last_writer_wins(world: World, first: str, winner: float) -> None:
     world.there = False
     world.run(1)
-    writes = [
+    writes: list[Callable[[], object]] = [
         lambda: world.board.set("gain", 9.0),
         lambda: world.set("gain", ParameterValue(DOUBLE, 5.0)),
     ]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The file: what is read is what was written, whatever becomes of it."""
+"""The file: it is read as it was written, whatever becomes of it."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ def test_a_write_that_fails_leaves_the_file(file: ParameterFile, monkeypatch: py
     assert file.path.read_bytes() == before
 
 
-def test_a_folder_that_is_none(tmp_path: Path) -> None:
+def test_a_folder_that_is_a_file(tmp_path: Path) -> None:
     (tmp_path / "a").write_text("", encoding="utf-8")
     with pytest.raises(UserError, match="cannot be written"):
         ParameterFile(tmp_path / "a/b.json")

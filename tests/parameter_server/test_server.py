@@ -16,6 +16,7 @@ from typing import Any
 
 import pytest
 
+from microros_gen.parameter_server.node import parameter
 from microros_gen.parameter_server.served import HELD
 from microros_gen.parameter_server.server import NOTICES_QOS, NOTICES_TOPIC
 from microros_gen.parameter_server.values import (
@@ -167,13 +168,14 @@ def test_reading_services(domain: int, tmp_path: Path) -> None:
         (gain,) = ask.call("describe_parameters", "DescribeParameters", names=["gain"])["descriptors"]
         assert gain["floating_point_range"] == [{"from_value": 0.0, "to_value": 10.0, "step": 0.0}]
         assert (gain["description"], gain["read_only"]) == ("How strong.", False)
-        both = [{"name": name, "value": value} for name, value in (("gain", 5.0), ("count", 7))]
-        both[0]["value"] = ParameterValue(DOUBLE, 5.0).message()
-        both[1]["value"] = ParameterValue(INTEGER, 7).message()
+        both = [
+            parameter("gain", ParameterValue(DOUBLE, 5.0)),
+            parameter("count", ParameterValue(INTEGER, 7)),
+        ]
         result = ask.call("set_parameters_atomically", "SetParametersAtomically", parameters=both)["result"]
         assert result["reason"] == "Parameter {count} doesn't comply with integer range."
         assert board.value("gain") == 1.0
-        both[1]["value"] = ParameterValue(INTEGER, 5).message()
+        both[1] = parameter("count", ParameterValue(INTEGER, 5))
         result = ask.call("set_parameters_atomically", "SetParametersAtomically", parameters=both)["result"]
         assert result == {"successful": True, "reason": ""}
         assert (board.value("gain"), board.value("count")) == (5.0, 5)

@@ -6,11 +6,8 @@ tests/e2e/test_parameters.py has rclpy.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from contextlib import ExitStack
-from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -21,9 +18,15 @@ from microros_gen.interfaces.closure import resolve_interfaces
 from microros_gen.interfaces.find import InterfaceFinder, shipped_folder
 from microros_gen.ros.codec import ENCAPSULATION_BYTES, Codec
 from tests.support.runtime.driver import Client, Result
-from tests.support.runtime.harness import Tree, build
+from tests.support.runtime.parameter_program import (
+    IDENTITY_SIZE,
+    STEP_MS,
+    WRAP_MS,
+    Program,
+    is_acknowledgement,
+    program_of,
+)
 from tests.support.runtime.serving_agent import ServingAgent, identity
-from tests.support.runtime.surface import write_application
 
 MANY = """\
 version: 1
@@ -51,11 +54,7 @@ SERVICES = {
 EVENT = "rcl_interfaces/msg/ParameterEvent"
 INTEGER = 2
 LARGE = "the request is too large, none of it was set"
-IDENTITY_SIZE = 24
 COUNT_WRITER, EVENT_WRITER = 1, 0
-WRAP_MS = 256
-"""port_fake.c begins so long before the milliseconds wrap."""
-STEP_MS = 20
 MOST = 65535
 
 
@@ -64,23 +63,6 @@ def codec() -> Codec:
     names = tuple(Named(f"rcl_interfaces/srv/{name}", None) for name in SERVICES.values())
     finder = InterfaceFinder.from_environment((shipped_folder(),))
     return Codec(resolve_interfaces((*names, Named(EVENT, None)), finder, Diagnostics()))
-
-
-@dataclass(frozen=True)
-class Program:
-    """The program of an application, and the largest message that it takes."""
-
-    path: Path
-    input_size: int
-
-
-def program_of(folder: Path, text: str) -> Program:
-    tree = write_application(folder, text)
-    sources = tuple(s for s in tree.sources if not s.parent.name.startswith("port_posix"))
-    path = build(Tree(tree.folder, sources), ["port_fake.c", "client_parameters.c"], "parameters")
-    config = (tree.include / "microros_config.h").read_text()
-    (size,) = re.findall(r"MICROROS_INPUT_SIZE (\d+)u", config)
-    return Program(path, int(size))
 
 
 class Device:
@@ -160,10 +142,6 @@ def started(programs: dict[str, Program], stack: ExitStack, codec: Codec, text: 
 @pytest.fixture
 def device(programs: dict[str, Program], stack: ExitStack, codec: Codec) -> Device:
     return started(programs, stack, codec)
-
-
-def is_acknowledgement(datagram: bytes) -> bool:
-    return datagram[4] == 0x0A and datagram[-1] == 0x80
 
 
 def test_two_sets_of_a_request_where_the_stream_has_two_slots(device: Device) -> None:

@@ -53,8 +53,14 @@ SHARED = (
     "selection/xrce.py",
 )
 """Files outside its folder that name `parameters`: the keys of the application file, and the list of D1.4."""
-_OTHER_FILES = {"documents/schema_words.py", "migrate/c_program.py"}
-"""Say what to write for `qos: parameters`; have the parameters of C functions."""
+_OTHER_FILES = {
+    "documents/schema_words.py",
+    "migrate/c_program.py",
+    "parameter_server/exchange.py",
+    "parameter_server/file.py",
+    "parameter_server/served.py",
+}
+"""Say what to write for `qos: parameters`; have the parameters of C functions, or those in messages and in a file."""
 MENTIONS = {
     "cdr": 1,
     "cdr_decode": 1,
@@ -69,6 +75,7 @@ MENTIONS = {
     "multithread": 3,
     "node": 1,
     "parameters": 1,
+    "parameters_held": 1,
     "publish": 6,
     "read": 1,
     "services": 5,

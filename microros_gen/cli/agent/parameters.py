@@ -74,21 +74,21 @@ class ParametersOnDemand:
 
     def _wait_for_others(self) -> None:
         """Return when no other server has been there for a while."""
-        told = False
+        is_reported = False
         with parameter_peer(_LOOKING_NODE, self._domain) as peer:
             graph, free_since = peer.graph(), time.monotonic()
             while not self._stopped.is_set() and time.monotonic() - free_since < _DISCOVERY_S:
                 peer.spin_once(_LOOK_S)
                 if f"/{NODE}" in graph.nodes():
                     free_since = time.monotonic()
-                    if not told:
+                    if not is_reported:
                         self._log.emit(
                             Level.INFO,
                             "parameter_server_other",
                             "parameters are held by another /{node}",
                             node=NODE,
                         )
-                    told = True
+                    is_reported = True
 
     def _serve(self) -> None:
         with closing(ParameterFile(self._file)) as kept, parameter_peer(NODE, self._domain) as peer:

@@ -20,7 +20,7 @@ _REASON = 104
 """Bytes of the longest words of rclc_parameter_reason.c, the types of two values included."""
 _SHORTEST_PARAMETER = 48
 """Bytes of an rcl_interfaces/msg/Parameter in CDR at least."""
-_PACKAGE = "rcl_interfaces"
+_PACKAGE, _HELD = "rcl_interfaces", "microros_parameter_msgs"
 _NAMES = {"GetParameters": "values", "GetParameterTypes": "types", "DescribeParameters": "descriptors"}
 """Services that are asked for names, and the list of their response."""
 _SETS = ("SetParameters", "SetParametersAtomically")
@@ -60,7 +60,7 @@ class ParametersPlan:
     `string_size`: a value; 0 where none is a string. `array_size`: the elements of a value; 0 where none is an array.
     `strings_max`, `array_string_size`: of an array of strings.
     `request_size`: the largest request of all services; `outcomes_max`: how many parameters one can have at most.
-    `servers` has one entry for each node.
+    `held`: by a server elsewhere. `servers` has one entry for each node.
     """
 
     max: int
@@ -73,6 +73,7 @@ class ParametersPlan:
     array_string_size: int
     request_size: int
     outcomes_max: int
+    held: bool = False
     servers: tuple[ServerPlan, ...] = ()
 
     @property
@@ -89,14 +90,20 @@ class ParametersPlan:
     @property
     def handles(self) -> int:
         """Handles of all servers: RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES each."""
-        return 6 * len(self.servers)
+        return (1 if self.held else 6) * len(self.servers)
 
 
 def plan(context: PlanContext, diagnostics: Diagnostics) -> ParametersPlan:
     """Return the sizes; those of requests follow from the limits of their types."""
     application = context.application
     refuse_own_limits(context, "parameters", diagnostics)
+    held = context.selection.has("parameters_held")
+    if held and not _is_held(application):
+        message = "the component 'parameters_held' is for nodes whose parameters a server elsewhere holds"
+        hint = "Write `parameters: {at: agent}` at each node"
+        diagnostics.error(message, application.spans.get("components"), hint, id="MG-7046")
     requests = [TypeName(_PACKAGE, "srv", f"{name}_Request") for name in (*_NAMES, *_SETS, "ListParameters")]
+    requests = [TypeName(_HELD, "srv", "Exchange_Request")] if held else requests
     largest = max(context.types[name].max_encoded_size for name in requests)
     return ParametersPlan(
         max=max(pool(application, "parameters", _count(application), diagnostics), _declared(application)),
@@ -109,6 +116,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> ParametersPlan:
         array_string_size=_array_string(application) + 1 if _elements(application, "string[]") else 0,
         request_size=largest,
         outcomes_max=largest // _SHORTEST_PARAMETER + 1,
+        held=held,
         servers=tuple(_servers(application)),
     )
 
@@ -135,6 +143,7 @@ def record(part: ParametersPlan) -> object:
         "max": part.max,
         "sizes": [part.name_size, part.text_size, part.string_size, part.request_size, part.outcomes_max],
         **({"one_of": True} if part.one_of else {}),
+        **({"held": True} if part.held else {}),
         **(
             {"arrays": [part.array_size, part.strings_max, part.array_string_size]} if part.array_size else {}
         ),
@@ -147,13 +156,6 @@ def limits(application: Application) -> tuple[LimitRule, ...]:
     name, text = _longest(application, "name"), _longest(application, "description")
     node = max((len(node.namespace) + 1 + len(node.name) for node in application.nodes), default=1)
     rules = [
-        *(_rule(f"srv/{service}_Request", "names", name, count) for service in _NAMES),
-        *(_rule(f"srv/{service}_Response", part, None, count) for service, part in _NAMES.items()),
-        *(_rule(f"srv/{service}_Request", "parameters", None, count) for service in _SETS),
-        _rule("srv/SetParameters_Response", "results", None, count),
-        _rule("msg/SetParametersResult", "reason", _REASON + name),
-        _rule("srv/ListParameters_Request", "prefixes", name, count),
-        *(_rule("msg/ListParametersResult", part, name, count) for part in ("names", "prefixes")),
         _rule("msg/ParameterDescriptor", "name", name),
         *(_rule("msg/ParameterDescriptor", part, text) for part in ("description", "additional_constraints")),
         _rule("msg/Parameter", "name", name),
@@ -163,14 +165,55 @@ def limits(application: Application) -> tuple[LimitRule, ...]:
             for kind in _ARRAYS
         ),
         _strings_rule(application),
+    ]
+    if _is_held(application):
+        rules += _held_rules(application, name, node, count)
+    else:
+        rules += _served_rules(name, node, count)
+    configured = {rule.path for rule in application.limits}
+    return tuple(rule for rule in rules if rule.path not in configured)
+
+
+def _served_rules(name: int, node: int, count: int) -> tuple[LimitRule, ...]:
+    """Return the limits of the six services and of the event."""
+    return (
+        *(_rule(f"srv/{service}_Request", "names", name, count) for service in _NAMES),
+        *(_rule(f"srv/{service}_Response", part, None, count) for service, part in _NAMES.items()),
+        *(_rule(f"srv/{service}_Request", "parameters", None, count) for service in _SETS),
+        _rule("srv/SetParameters_Response", "results", None, count),
+        _rule("msg/SetParametersResult", "reason", _REASON + name),
+        _rule("srv/ListParameters_Request", "prefixes", name, count),
+        *(_rule("msg/ListParametersResult", part, name, count) for part in ("names", "prefixes")),
         _rule("msg/ParameterEvent", "node", node),
         # An event has no more parameters than the server, whatever it says of each.
         _rule("msg/ParameterEvent", "new_parameters", None, 1),
         _rule("msg/ParameterEvent", "changed_parameters", None, count),
         _rule("msg/ParameterEvent", "deleted_parameters", None, 1),
-    ]
-    configured = {rule.path for rule in application.limits}
-    return tuple(rule for rule in rules if rule.path not in configured)
+    )
+
+
+def _is_held(application: Application) -> bool:
+    return any(node.parameters_at and node.parameters_at.name == "agent" for node in application.nodes)
+
+
+def _held_rules(application: Application, name: int, node: int, count: int) -> tuple[LimitRule, ...]:
+    """Return the limits of what is exchanged with a server that holds the values; a page has at least a parameter."""
+    declared = [p for n in application.nodes for p in n.parameters]
+
+    def most(kind: str) -> int:
+        return max((len(p.one_of) for p in declared if p.type == kind), default=0)
+
+    longest = max((len(str(text).encode()) for p in declared for text in p.one_of), default=0)
+    strings = longest if most("string") else 0
+    return (
+        _rule("srv/Exchange_Request", "parameters", None, count, _HELD),
+        _rule("srv/Exchange_Response", "parameters", None, 1, _HELD),
+        _rule("srv/Exchange_Response", "reason", _REASON + name, None, _HELD),
+        _rule("msg/HeldParameter", "integers", None, most("integer"), _HELD),
+        _rule("msg/HeldParameter", "doubles", None, most("double"), _HELD),
+        LimitRule((f"{_HELD}/msg/HeldParameter", "strings"), strings, most("string")),
+        _rule("msg/Notice", "node", node, None, _HELD),
+    )
 
 
 def _declared(application: Application) -> int:
@@ -236,9 +279,11 @@ def _strings_rule(application: Application) -> LimitRule:
     return LimitRule(_STRINGS, _array_string(application) if count else 0, count)
 
 
-def _rule(name: str, member: str, string: int | None, sequence: int | None = None) -> LimitRule:
+def _rule(
+    name: str, member: str, string: int | None, sequence: int | None = None, package: str = _PACKAGE
+) -> LimitRule:
     """Return the limits of a member; one number for a sequence says nothing of what its elements have."""
-    path = (f"{_PACKAGE}/{name}", member)
+    path = (f"{package}/{name}", member)
     return (
         LimitRule(path, string, sequence)
         if string is not None

@@ -4,10 +4,14 @@
 
 #include "microros/port.h"
 
+#include <microros_config.h>
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
 #include <rclc/executor.h>
 #include <rclc/rclc.h>
+#if MICROROS_PARAMETERS_HELD
+#include <rclc_parameter/held_parameters.h>
+#endif
 #include <rclc_parameter/rclc_parameter.h>
 #include <rmw_microros/rmw_microros.h>
 #include <std_msgs/msg/int32.h>
@@ -119,6 +123,23 @@ static rcl_ret_t text(char * name)
 }
 #endif
 
+#if MICROROS_PARAMETERS_HELD
+/* write NAME VALUE */
+static rcl_ret_t write(const char * arguments)
+{
+  char name[64] = "";
+  int value = 0;
+
+  return sscanf(arguments, "%63s %d", name, &value) == 2 ? rclc_parameter_set_int(&server, name, value) : -1;
+}
+
+static rcl_ret_t check_held(void)
+{
+  printf("overruled %" PRIu32 "\n", rclc_parameter_count_overruled(&server));
+  return rclc_parameter_check_held(&server);
+}
+#endif
+
 static rcl_ret_t print_statistics(void)
 {
   rmw_uros_statistics_t s;
@@ -143,6 +164,12 @@ static rcl_ret_t call(const char * line)
       (void)strncpy(copy, name, sizeof(copy) - 1u);
       return text(copy);
     }
+#endif
+#if MICROROS_PARAMETERS_HELD
+    case 'w': /* write NAME VALUE */
+      return write(name);
+    case 'h': /* held */
+      return check_held();
 #endif
     case 'i': /* init */
       return start();

@@ -656,9 +656,9 @@ _NODES = {
         _in_node("parameters: {at: device, declare: [{name: a, type: bool}]}"),
         lambda a: _node(a).parameters[0].name,
         "a",
-        _in_node("parameters: {at: agent}"),
+        _in_node("parameters: {at: cloud}"),
         "3:22",
-        "'nodes[0].parameters.at' must be device; it is the text 'agent'",
+        "'nodes[0].parameters.at' must be device or agent; it is the text 'cloud'",
     ),
     "nodes[].parameters.file": KeyCase(
         _in_node("parameters: {file: motor.yaml}"),

@@ -162,6 +162,9 @@ class Board:
     def _set(self, parameters: list[Value]) -> Value:
         wanted = [(p["name"], value_of(p["value"])) for p in parameters]
         for name, value in wanted:
+            if name not in self.places:
+                reason = f"parameter '{name}' cannot be set because it was not declared"
+                return {"successful": False, "reason": reason}
             reason = self.places[name].declared.refusal_of_request(value)
             reason = reason or ("rejected by the callback" if self.veto(name, value) else "")
             if reason:

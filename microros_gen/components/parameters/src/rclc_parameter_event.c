@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/port.h"
+#include "microros/rclc_parameter_descriptor.h"
 #include "microros/rclc_parameter_out.h"
 #include "microros/rclc_parameters.h"
 #include "microros/rmw_parameters.h"
-#include "microros/text.h"
 
 #include <stddef.h>
 
@@ -15,18 +15,6 @@ static void event_out_stamp(parameter_out_t * out)
 
   rclc_parameter_out_4(out, (uint32_t)seconds);
   rclc_parameter_out_4(out, (uint32_t)nanoseconds);
-}
-
-/* The fully qualified name: the namespace ends with the only slash where it is "/". */
-static void event_out_node(parameter_out_t * out, const rcl_node_t * node)
-{
-  const char * namespace_ = rcl_node_get_namespace(node);
-  const char * name = rcl_node_get_name(node);
-  const uint32_t size = (uint32_t)microros_text_size(namespace_);
-  const parameter_text_t parts[3] = {
-    {namespace_, size}, {"/", size > 1u ? 1u : 0u}, {name, (uint32_t)microros_text_size(name)}};
-
-  rclc_parameter_out_parts(out, parts, 3u);
 }
 
 /* Writes the parameters of which the event says `what`. */
@@ -52,7 +40,7 @@ static uint32_t event_encode(const void * message, uint8_t * body, cdr_fault_t *
   parameter_out_t out = {body, 0, rcl_interfaces__msg__ParameterEvent__MAX_ENCODED_SIZE, false};
 
   event_out_stamp(&out);
-  event_out_node(&out, server->node);
+  rclc_parameter_out_node(&out, server->node);
   event_out_list(&out, server, (uint8_t)PARAMETER_EVENT_NEW);
   event_out_list(&out, server, (uint8_t)PARAMETER_EVENT_CHANGED);
   event_out_list(&out, server, (uint8_t)PARAMETER_EVENT_DELETED);

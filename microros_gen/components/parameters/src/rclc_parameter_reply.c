@@ -2,6 +2,7 @@
 /* Replies, written into the stream from the store and the request that the server has. */
 #include "microros/rclc_parameter_reply.h"
 
+#include "microros/rclc_parameter_descriptor.h"
 #include "microros/rclc_parameter_out.h"
 #include "microros/rclc_parameter_reason.h"
 #include "microros/rclc_parameters.h"
@@ -28,37 +29,6 @@ static uint32_t reply_end(parameter_out_t * out, bool known)
   return out->position;
 }
 
-static void reply_out_ranges(parameter_out_t * out, const rclc_parameter_place_t * place)
-{
-  const bool integers = place != NULL && place->has_range && place->type == (uint8_t)RCLC_PARAMETER_INT;
-  const bool numbers = place != NULL && place->has_range && place->type == (uint8_t)RCLC_PARAMETER_DOUBLE;
-
-  rclc_parameter_out_4(out, numbers ? 1u : 0u);
-  if (numbers) {
-    rclc_parameter_out_8(out, &place->range.floating_point.from_value);
-    rclc_parameter_out_8(out, &place->range.floating_point.to_value);
-    rclc_parameter_out_8(out, &place->range.floating_point.step);
-  }
-  rclc_parameter_out_4(out, integers ? 1u : 0u);
-  if (integers) {
-    rclc_parameter_out_8(out, &place->range.integer.from_value);
-    rclc_parameter_out_8(out, &place->range.integer.to_value);
-    rclc_parameter_out_8(out, &place->range.integer.step);
-  }
-}
-
-static void reply_out_descriptor(
-  parameter_out_t * out, const parameter_text_t * name, const rclc_parameter_place_t * place)
-{
-  rclc_parameter_out_parts(out, name, 1u);
-  rclc_parameter_out_1(out, place != NULL ? place->type : (uint8_t)RCLC_PARAMETER_NOT_SET);
-  rclc_parameter_out_text(out, place != NULL ? place->description : "");
-  rclc_parameter_out_text(out, place != NULL ? place->additional_constraints : "");
-  rclc_parameter_out_1(out, place != NULL && place->read_only ? 1u : 0u);
-  rclc_parameter_out_1(out, place != NULL && place->dynamic_typing ? 1u : 0u);
-  reply_out_ranges(out, place);
-}
-
 /* What a reply has for each name of its request. */
 typedef enum reply_part_t { REPLY_VALUE, REPLY_TYPE, REPLY_DESCRIPTOR } reply_part_t;
 
@@ -82,7 +52,7 @@ static uint32_t reply_of_names(const void * message, uint8_t * body, uint32_t ro
     } else if (part == REPLY_TYPE) {
       rclc_parameter_out_1(&out, place != NULL ? place->type : (uint8_t)RCLC_PARAMETER_NOT_SET);
     } else {
-      reply_out_descriptor(&out, &name, place);
+      rclc_parameter_out_descriptor(&out, &name, place);
     }
   }
   return reply_end(&out, known);

@@ -4,6 +4,9 @@
 #include "microros/rclc_parameters.h"
 #include "microros/rmw_parameters.h"
 #include "microros/rmw_service.h"
+#if MICROROS_PARAMETERS_HELD
+#include "microros/rclc_parameter_held.h"
+#endif
 #include "rclc/publisher.h"
 #include "rclc/service.h"
 
@@ -20,6 +23,17 @@ rcl_ret_t rclc_parameter_server_init_default(rclc_parameter_server_t * parameter
   return rclc_parameter_server_init_with_option(parameter_server, node, &options);
 }
 
+typedef struct server_service_t {
+  const rosidl_service_type_support_t * type;
+  const char * name;
+  rclc_service_callback_with_context_t callback;
+} server_service_t;
+
+#if MICROROS_PARAMETERS_HELD
+static const server_service_t server_offers[RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES] = {
+  {&rclc_parameter_exchange_type, "~/exchange_parameters", rclc_parameter_exchange},
+};
+#else
 /* Replies are written from the store, by the encoders of their types. */
 static void server_reply(const void * request, void * response, void * context)
 {
@@ -42,12 +56,6 @@ static void server_set_all(const void * request, void * response, void * context
   rclc_parameter_set_all(context);
 }
 
-typedef struct server_service_t {
-  const rosidl_service_type_support_t * type;
-  const char * name;
-  rclc_service_callback_with_context_t callback;
-} server_service_t;
-
 static const server_service_t server_offers[RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES] = {
   {&rclc_parameter_describe_type, "~/describe_parameters", server_reply},
   {&rclc_parameter_get_types_type, "~/get_parameter_types", server_reply},
@@ -56,6 +64,7 @@ static const server_service_t server_offers[RCLC_EXECUTOR_PARAMETER_SERVER_HANDL
   {&rclc_parameter_set_type, "~/set_parameters", server_set_each},
   {&rclc_parameter_set_atomically_type, "~/set_parameters_atomically", server_set_all},
 };
+#endif
 
 static rcl_ret_t server_open(rclc_parameter_server_t * server, const rcl_node_t * node)
 {
@@ -66,14 +75,20 @@ static rcl_ret_t server_open(rclc_parameter_server_t * server, const rcl_node_t 
     if (result != RCL_RET_OK) {
       return result;
     }
+#if !MICROROS_PARAMETERS_HELD
     rmw_parameters_answer_large(rcl_service_get_rmw_handle(&server->services[i]), true);
+#endif
   }
+#if MICROROS_PARAMETERS_HELD
+  return rclc_parameter_held_open(server, node);
+#else
   if (!server->notify_changed_over_dds) {
     return RCL_RET_OK;
   }
   return rclc_publisher_init(
     &server->event_publisher, node, &rclc_parameter_event_type, "/parameter_events",
     &rmw_qos_profile_parameter_events);
+#endif
 }
 
 /* Closes what is open; a service or publisher that is not stays as it is. Returns the first result that is no RCL_RET_OK. */
@@ -84,9 +99,11 @@ static rcl_ret_t server_close(rclc_parameter_server_t * server, rcl_node_t * nod
   for (uint32_t i = 0; i < (uint32_t)RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES; ++i) {
     rcl_ret_t result;
 
+#if !MICROROS_PARAMETERS_HELD
     if (rcl_service_is_valid(&server->services[i])) {
       rmw_parameters_answer_large(rcl_service_get_rmw_handle(&server->services[i]), false);
     }
+#endif
     result = rcl_service_fini(&server->services[i], node);
     first = first == RCL_RET_OK ? result : first;
   }
@@ -141,11 +158,15 @@ static rclc_handle_kind_t server_kind; /* that of a service, which also sends wh
 /* As that of a service, which is not called here: a call by its pointer would be one that might come back. */
 static rcl_ret_t server_look(const rclc_executor_handle_t * handle, bool * is_ready, int64_t * look_again_ns)
 {
-  (void)look_again_ns;
   if (!rcl_service_is_valid(handle->service)) {
     return microros_error_refuse(RCL_RET_SERVICE_INVALID, "service");
   }
   rclc_parameter_publish(handle->callback_context);
+#if MICROROS_PARAMETERS_HELD
+  rclc_parameter_held_look(handle->callback_context, look_again_ns);
+#else
+  (void)look_again_ns;
+#endif
   *is_ready = rmw_replier_is_ready(handle->service->impl);
   return RCL_RET_OK;
 }
@@ -178,6 +199,9 @@ rcl_ret_t rclc_executor_add_parameter_server_with_context(
   }
   if (result == RCL_RET_OK) {
     server_watch(executor);
+#if MICROROS_PARAMETERS_HELD
+    rclc_parameter_held_begin(parameter_server);
+#endif
   }
   return result;
 }

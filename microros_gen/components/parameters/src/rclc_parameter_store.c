@@ -2,6 +2,9 @@
 #include "microros/rclc_parameters.h"
 
 #include "microros/rclc_parameter_array.h"
+#if MICROROS_PARAMETERS_HELD
+#include "microros/rclc_parameter_held.h"
+#endif
 #include "microros/text.h"
 
 #include <string.h>
@@ -40,8 +43,12 @@ rclc_parameter_place_t * rclc_parameter_place(
 
 void rclc_parameter_note(rclc_parameter_server_t * server, rclc_parameter_place_t * place, uint32_t event)
 {
-  place->event = (uint8_t)event;
   ++server->revision;
+#if MICROROS_PARAMETERS_HELD
+  rclc_parameter_held_note(server, place, event);
+#else
+  place->event = (uint8_t)event;
+#endif
 }
 
 void rclc_parameter_remove(rclc_parameter_server_t * server, const rclc_parameter_place_t * place)

@@ -20,8 +20,9 @@
 #include "rcl/types.h"
 #include "rcl_interfaces/msg/parameter.h"
 #include "rcl_interfaces/msg/parameter_descriptor.h"
-#include "rcl_interfaces/msg/parameter_event.h"
 #include "rcl_interfaces/msg/parameter_value.h"
+#if !MICROROS_PARAMETERS_HELD
+#include "rcl_interfaces/msg/parameter_event.h"
 #include "rcl_interfaces/msg/set_parameters_result.h"
 #include "rcl_interfaces/srv/describe_parameters.h"
 #include "rcl_interfaces/srv/get_parameter_types.h"
@@ -29,6 +30,7 @@
 #include "rcl_interfaces/srv/list_parameters.h"
 #include "rcl_interfaces/srv/set_parameters.h"
 #include "rcl_interfaces/srv/set_parameters_atomically.h"
+#endif
 #include "rclc/executor.h"
 #include "rclc/rclc.h"
 #include "rclc_parameter/visibility_control.h"
@@ -39,6 +41,7 @@
 extern "C" {
 #endif
 
+#if !MICROROS_PARAMETERS_HELD
 typedef rcl_interfaces__srv__GetParameters_Request GetParameters_Request;
 typedef rcl_interfaces__srv__GetParameters_Response GetParameters_Response;
 typedef rcl_interfaces__srv__GetParameterTypes_Request GetParameterTypes_Request;
@@ -52,15 +55,20 @@ typedef rcl_interfaces__srv__DescribeParameters_Request DescribeParameters_Reque
 typedef rcl_interfaces__srv__DescribeParameters_Response DescribeParameters_Response;
 typedef rcl_interfaces__srv__ListParameters_Request ListParameters_Request;
 typedef rcl_interfaces__srv__ListParameters_Response ListParameters_Response;
+typedef rcl_interfaces__msg__ParameterEvent ParameterEvent;
+#endif
 typedef rcl_interfaces__msg__Parameter Parameter;
 typedef rcl_interfaces__msg__ParameterValue ParameterValue;
 typedef rcl_interfaces__msg__Parameter__Sequence Parameter__Sequence;
 typedef rcl_interfaces__msg__ParameterDescriptor ParameterDescriptor;
 typedef rcl_interfaces__msg__ParameterDescriptor__Sequence ParameterDescriptor__Sequence;
-typedef rcl_interfaces__msg__ParameterEvent ParameterEvent;
 
 /* Handles of an executor that a server takes. */
+#if MICROROS_PARAMETERS_HELD
+#define RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES 1
+#else
 #define RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES 6
+#endif
 /* The callback refused the value. */
 #define RCLC_PARAMETER_MODIFICATION_REJECTED 4001
 /* The parameter has another type. */
@@ -144,7 +152,11 @@ typedef struct rclc_parameter_place_t {
   bool read_only;
   bool dynamic_typing; /* created by a set request */
   bool has_range;
-  uint8_t event; /* what the next event says of it */
+  uint8_t event; /* what the next event says of it, or what the server that holds it does not know */
+#if MICROROS_PARAMETERS_HELD
+  uint32_t own_revision; /* of the last change by the node */
+  int64_t changed_ns;    /* when that was, by the steady clock */
+#endif
 #if MICROROS_PARAMETER_ONE_OF
   const void * one_of; /* the values that are accepted; NULL: all */
   size_t one_of_count;
@@ -162,6 +174,29 @@ typedef struct rclc_parameter_place_t {
   char description[MICROROS_PARAMETER_TEXT_SIZE];
   char additional_constraints[MICROROS_PARAMETER_TEXT_SIZE];
 } rclc_parameter_place_t;
+
+#if MICROROS_PARAMETERS_HELD
+/* What a device and the server that holds its values said to each other. The members are the library's. */
+typedef struct rclc_parameter_held_t {
+  uint8_t what; /* of the request that is being answered */
+  uint8_t status;
+  uint32_t board;
+  uint32_t session;
+  uint32_t number;
+  uint32_t first;
+  uint32_t acknowledged;
+  bool is_setting;
+  bool notice_is_due;
+  bool has_begun;        /* it is added to an executor */
+  uint32_t own_session;  /* with the server; 0: none since the node started */
+  uint32_t own_number;   /* of its last request */
+  uint32_t own_revision; /* changes by the node */
+  uint32_t overruled;    /* of them, those that another writer overruled */
+  uint32_t reconnects;   /* of the session with the agent, when a notice was due last */
+  int64_t noticed_ns;    /* when the last notice was published */
+  int64_t requested_ns;      /* when the server asked last, or the node started */
+} rclc_parameter_held_t;
+#endif
 
 /* A server and its parameters. The members are the library's; the struct stays where it was initialized. */
 typedef struct rclc_parameter_server_t {
@@ -182,6 +217,9 @@ typedef struct rclc_parameter_server_t {
   size_t max_params;
   size_t count;
   uint32_t revision; /* goes up with each change */
+#if MICROROS_PARAMETERS_HELD
+  rclc_parameter_held_t held;
+#endif
   rclc_parameter_place_t places[MICROROS_PARAMETERS_MAX];
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
   char string_new[MICROROS_PARAMETER_STRING_SIZE]; /* what the callback is asked about */

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What the store and its server call where another node holds the values (parameters_held). Internal. */
+#ifndef MICROROS_RCLC_PARAMETER_HELD_H
+#define MICROROS_RCLC_PARAMETER_HELD_H
+
+#include <stdint.h>
+
+#include "microros/rclc_parameters.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The type of the service whose message is the server, and its callback. */
+extern const rosidl_service_type_support_t rclc_parameter_exchange_type;
+void rclc_parameter_exchange(const void * request, void * response, void * context);
+
+/* Opens the publisher of notices. */
+rcl_ret_t rclc_parameter_held_open(rclc_parameter_server_t * server, const rcl_node_t * node);
+
+/* From here on a value that the node sets is a change; those of before are declared. */
+void rclc_parameter_held_begin(rclc_parameter_server_t * server);
+
+/* Notes a change of a place. */
+void rclc_parameter_held_note(
+  rclc_parameter_server_t * server, rclc_parameter_place_t * place, uint32_t event);
+
+/* Publishes a notice again while the server has not asked; lowers *look_again_ns to when the next one is due. */
+void rclc_parameter_held_look(rclc_parameter_server_t * server, int64_t * look_again_ns);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCLC_PARAMETER_HELD_H */

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Parameters that the agent holds: rclpy's parameter client sees what it sees of an rclpy node, board or no board."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.support.agent.process import AgentProcess, running_agent
+from tests.support.e2e.images import C_FILES, SANITIZE, Images, ends_well, started
+from tests.support.e2e.parameter_calls import (
+    BOTH,
+    DEVICE,
+    NAMES,
+    events,
+    lists,
+    reads,
+    sets,
+    sets_atomically,
+)
+from tests.support.e2e.parameter_peer import ParameterPeer, parameter_peer
+from tests.support.e2e.relay import Relay
+from tests.support.parameter_server.process import parameter_server
+from tests.support.patience import deadline
+
+pytestmark = pytest.mark.ros
+
+APPLICATION = """\
+version: 1
+profiles: [pure_sender]
+components: [+parameters]
+nodes: [{name: device, namespace: /arm, parameters: {at: agent}}]
+"""
+STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror")
+HELD = "held until the node is back"
+
+
+@pytest.fixture(scope="module")
+def program(images: Images, image_port: Relay, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    image = images.build(image_port.port, APPLICATION, "gcc", SANITIZE)
+    folder = tmp_path_factory.mktemp("held")
+    return image.application(C_FILES / "parameters.c", folder / "parameters", *STRICT)
+
+
+def until(answer: Callable[[], Any], wanted: Any) -> None:
+    """Ask until that is the answer."""
+    end = deadline(30)
+    while (found := answer()) != wanted:
+        assert time.monotonic() < end, found
+        time.sleep(0.1)
+
+
+def await_line(process: subprocess.Popen[str], beginning: str) -> None:
+    """Read until a line begins so."""
+    assert process.stdout is not None
+    for line in process.stdout:
+        if line.startswith(beginning):
+            return
+    raise AssertionError(f"the program ended without '{beginning}'")
+
+
+def values(peer: ParameterPeer, *names: str) -> list[Any]:
+    return [value for _, value in peer.call(DEVICE, "get_parameters", names)["values"]]
+
+
+def set_steps(peer: ParameterPeer, value: int) -> tuple[bool, str]:
+    (result,) = peer.call(DEVICE, "set_parameters", [("motor.steps", value)])["results"]
+    return result["successful"], result["reason"]
+
+
+def wait_for_server(agent: AgentProcess) -> None:
+    ready = "parameter server ready: /microros_parameters"
+    if not any(ready in line for line in agent.log):
+        agent.wait_for(ready)
+
+
+def test_as_an_rclpy_node_and_without_the_board(
+    program: Path, relay: Relay, domain: int, tmp_path: Path
+) -> None:
+    file = tmp_path / "p.json"
+    options = ("--domain", str(domain), "--parameter-file", str(file))
+    with parameter_peer(domain) as peer:
+        with running_agent(domain, *options) as agent:
+            relay.connect(agent.port)
+            with started(program) as process:
+                await_line(process, "ready")
+                wait_for_server(agent)
+                for node in BOTH:
+                    peer.wait(node)
+                until(lambda: values(peer, *NAMES), [False, 10, 0.5, 1.25])
+                for node in BOTH:
+                    peer.events(node)
+                reads(peer)
+                lists(peer)
+                sets(peer)
+                sets_atomically(peer)
+                events(peer)
+            until(lambda: set_steps(peer, 40), (True, HELD))
+            assert set_steps(peer, 41)[1] == "Parameter {motor.steps} doesn't comply with integer range."
+            assert values(peer, *NAMES[:2]) == [True, 40]
+            with started(program) as process:
+                await_line(process, "changed motor.steps 40")
+                until(lambda: set_steps(peer, 42), (True, ""))
+                await_line(process, "changed motor.steps 42")
+            until(lambda: set_steps(peer, 66), (True, HELD))
+            assert agent.stop() == 0
+        assert json.loads(file.read_text())["nodes"][DEVICE]["parameters"]["motor.steps"]["value"] == 66
+        with running_agent(domain, *options) as agent:  # another agent, the same file; the board refuses 66
+            relay.connect(agent.port)
+            with started(program) as process:
+                await_line(process, "ready")
+                wait_for_server(agent)
+                peer.wait(DEVICE)
+                agent.wait_for(
+                    "/arm/device: motor.steps: the node refuses 66 (rejected by the callback) and keeps 10"
+                )
+                until(lambda: values(peer, *NAMES[:2]), [True, 10])
+                set_steps(peer, 120)
+                ends_well(process)
+
+
+def test_a_server_of_its_own_that_restarts(program: Path, relay: Relay, domain: int, tmp_path: Path) -> None:
+    """The agent leaves it the parameters; while it is away nothing is lost."""
+    file = tmp_path / "own.json"
+    options = ("--domain", str(domain), "--parameter-file", str(tmp_path / "agent.json"))
+    with parameter_peer(domain) as peer, running_agent(domain, *options) as agent:
+        relay.connect(agent.port)
+        with parameter_server(domain, file), started(program) as process:
+            await_line(process, "ready")
+            agent.wait_for("parameters are held by another /microros_parameters")
+            peer.wait(DEVICE)
+            until(lambda: set_steps(peer, 30), (True, ""))
+            await_line(process, "changed motor.steps 30")
+        with parameter_server(domain, file), started(program) as process:
+            await_line(process, "changed motor.steps 30")
+            until(lambda: set_steps(peer, 120), (True, ""))
+            ends_well(process)
+    assert not (tmp_path / "agent.json").exists()
