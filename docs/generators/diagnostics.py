@@ -29,6 +29,7 @@ _SUBJECTS = {
     "compiler": "The command as a whole",
     "migrate": "init",
     "ros": "ROS 2",
+    "parameter_server": "The parameter server",
     "agent": "The agent",
     "components": "Components",
     "cli": "The command line",

@@ -138,6 +138,9 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "      - {name: label, type: string, default: left, size: 8}\n"
         + "profiles: [pure_sender]\ncomponents: [+parameters]\n",
         "parameters-every": _BUSY + EVERY_PARAMETER + "profiles: [pure_sender]\ncomponents: [+parameters]\n",
+        "parameters-held": _BUSY
+        + "    parameters: {at: agent, declare: [{name: mode, type: integer, one_of: [0, 5]}]}\n"
+        + "profiles: [pure_sender]\ncomponents: [+parameters]\nlogging: callback\nerrors: code\n",
         "graph": _BUSY
         + "profiles: [pure_sender]\ncomponents: [+graph]\nmemory: {arena: 4096}\nerrors: code\n",
         "parameter-storage": _BUSY
