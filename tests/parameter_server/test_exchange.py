@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sessions with a board that loses messages and its power, with a made clock; no ROS."""
+"""Sessions with a board that loses messages and its power, with a created clock; no ROS."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class World:
         self.others: list[Board] = []
         self.logged: list[str] = []
         self.lost: Callable[[], bool] = lambda: False
-        self.there = True
+        self.reachable = True
         self.requests: list[Value] = []
         self._waiting: dict[int, Callable[[Value], object]] = {}
         self._arriving: list[tuple[int, Value]] = []
@@ -45,7 +45,7 @@ class World:
         self._next += 1
         self._waiting[self._next] = done
         self.requests.append(request)
-        if self.there and not self.lost():
+        if self.reachable and not self.lost():
             for board in [self.board, *self.others]:
                 if not self.lost():
                     self._arriving.append((self._next, board.answer(request)))
@@ -55,7 +55,7 @@ class World:
         self._waiting.pop(number, None)
 
     def available(self) -> bool:
-        return self.there
+        return self.reachable
 
     def size(self, request: Value) -> int:
         return sum(90 + len(item["name"]) for item in request["parameters"])
@@ -83,7 +83,7 @@ class World:
         """Let time pass; the board publishes while it has news."""
         end = self.now + seconds
         while self.now < end:
-            if self.there and round(self.now * 20) % 20 == 0 and self.board.has_news and not self.lost():
+            if self.reachable and round(self.now * 20) % 20 == 0 and self.board.has_news and not self.lost():
                 notice = self.board.notice()
                 self.exchange.notice(notice["board"], notice["session"], notice["revision"])
             arriving, self._arriving = self._arriving, []
@@ -115,10 +115,10 @@ class World:
 
 @pytest.fixture
 def world() -> World:
-    made = World()
-    made.run(3)
-    assert made.exchange.is_open
-    return made
+    created = World()
+    created.run(3)
+    assert created.exchange.is_open
+    return created
 
 
 def test_a_board_that_appears_is_listed_in_pages(world: World) -> None:
@@ -154,12 +154,12 @@ def test_what_the_board_changes_arrives(world: World) -> None:
 
 
 def test_a_value_is_held_while_the_board_is_away(world: World) -> None:
-    world.there = False
+    world.reachable = False
     world.run(0.1)
     assert world.set("gain", ParameterValue(DOUBLE, 7.0)) == [None]
     world.run(100)
     assert world.board.value("gain") == 1.0
-    world.there = True
+    world.reachable = True
     world.run(40)
     assert world.board.value("gain") == 7.0
     assert world.held.pending() == []
@@ -178,7 +178,7 @@ def test_a_board_that_does_not_answer_is_away(world: World) -> None:
 
 @pytest.mark.parametrize(("first", "winner"), [("server", 9.0), ("board", 5.0)])
 def test_the_last_writer_wins(world: World, first: str, winner: float) -> None:
-    world.there = False
+    world.reachable = False
     world.run(1)
     writes: list[Callable[[], object]] = [
         lambda: world.board.set("gain", 9.0),
@@ -187,7 +187,7 @@ def test_the_last_writer_wins(world: World, first: str, winner: float) -> None:
     for write in writes if first == "board" else reversed(writes):
         write()
         world.run(30)
-    world.there = True
+    world.reachable = True
     world.run(40)
     assert world.values["gain"] == world.board.value("gain") == winner
     (line,) = [line for line in world.logged if "overruled" in line]
@@ -220,11 +220,11 @@ def test_a_server_that_restarts_goes_on(world: World) -> None:
 
 
 def test_a_held_value_that_the_board_refuses_is_reported(world: World) -> None:
-    world.there = False
+    world.reachable = False
     world.run(0.1)
     world.set("gain", ParameterValue(DOUBLE, 7.0))
     world.board.veto = lambda name, value: True
-    world.there = True
+    world.reachable = True
     world.run(5)
     assert world.values["gain"] == world.board.value("gain") == 1.0
     assert "/arm: gain: the node refuses 7.0 (rejected by the callback) and keeps 1.0" in world.logged
@@ -255,15 +255,15 @@ def test_a_request_that_the_board_cannot_receive_is_refused(world: World) -> Non
 
 
 def test_two_boards_with_one_node_are_reported(world: World) -> None:
-    twin = Board(lambda: world.now, 0xB2)
-    world.others = [twin]
-    world.exchange.notice(twin.key, 0, 0)
+    second = Board(lambda: world.now, 0xB2)
+    world.others = [second]
+    world.exchange.notice(second.key, 0, 0)
     world.run(3)
     (line,) = [line for line in world.logged if "two boards" in line]
     assert line == "two boards have this node: 0x000000A1 and 0x000000B2; the first is served, rename one"
     world.set("gain", ParameterValue(DOUBLE, 7.0))
     world.run(1)
-    assert (world.board.value("gain"), twin.value("gain")) == (7.0, 1.0)
+    assert (world.board.value("gain"), second.value("gain")) == (7.0, 1.0)
 
 
 def test_a_board_takes_the_place_of_another(world: World) -> None:
@@ -296,7 +296,7 @@ def test_both_sides_agree_whatever_is_lost(seed: int) -> None:
     for _ in range(120):
         event = draw.randrange(8)
         if event == 0:
-            world.there = not world.there
+            world.reachable = not world.reachable
         elif event == 1:
             world.board.start()
         elif event == 2:
@@ -306,7 +306,7 @@ def test_both_sides_agree_whatever_is_lost(seed: int) -> None:
         elif world.held.parameters:
             world.set("count", ParameterValue(INTEGER, 5 * draw.randrange(20)))
         world.run(draw.random() * 4)
-    world.there, world.lost = True, lambda: False
+    world.reachable, world.lost = True, lambda: False
     world.run(70)
     last = 5 * draw.randrange(20)
     world.set("count", ParameterValue(INTEGER, last))

@@ -24,16 +24,16 @@ def node(name: str) -> HeldNode:
 
 
 def full() -> HeldNode:
-    made = node("/ns/arm")
+    created = node("/ns/arm")
     for kind, value in enumerate(VALUES[1:], 1):
         declared = Declared(f"p{kind}", kind, "what", "how", kind == 1, kind == 2)
-        made.parameters[declared.name] = Held(declared, ParameterValue(kind, value), 1.5 * kind, kind == 3)
-    made.parameters["gain"] = Held(
+        created.parameters[declared.name] = Held(declared, ParameterValue(kind, value), 1.5 * kind, kind == 3)
+    created.parameters["gain"] = Held(
         Declared("gain", 3, range=(0.0, 1.0, 0.5), size_max=0), ParameterValue(3, 0.5), 7.0
     )
-    made.parameters["mode"] = Held(Declared("mode", 2, one_of=(1, 2)), ParameterValue(2, 1), 7.0)
-    made.aside["old"] = [ParameterValue(2, 1), ParameterValue(4, "x")]
-    return made
+    created.parameters["mode"] = Held(Declared("mode", 2, one_of=(1, 2)), ParameterValue(2, 1), 7.0)
+    created.aside["old"] = [ParameterValue(2, 1), ParameterValue(4, "x")]
+    return created
 
 
 @pytest.fixture

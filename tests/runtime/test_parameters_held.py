@@ -131,10 +131,10 @@ def empty_device(program: Path, codec: Codec) -> Iterator[Device]:
     agent = ServingAgent(mtu=200)
     with Client(program, agent) as client:
         client.ok("init")
-        made = Device(client, agent, codec)
+        created = Device(client, agent, codec)
         client.ok("open")
-        made.spin(12)
-        yield made
+        created.spin(12)
+        yield created
 
 
 @pytest.fixture

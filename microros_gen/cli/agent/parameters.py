@@ -82,12 +82,8 @@ class ParametersOnDemand:
                 if f"/{NODE}" in graph.nodes():
                     free_since = time.monotonic()
                     if not is_reported:
-                        self._log.emit(
-                            Level.INFO,
-                            "parameter_server_other",
-                            "parameters are held by another /{node}",
-                            node=NODE,
-                        )
+                        text = "parameters are held by another /{node}"
+                        self._log.emit(Level.INFO, "parameter_server_other", text, node=NODE)
                     is_reported = True
 
     def _serve(self) -> None:
@@ -95,13 +91,8 @@ class ParametersOnDemand:
             self._server = ParameterServer(peer, self._report, kept)
             if self._stopped.is_set():
                 return
-            self._log.emit(
-                Level.INFO,
-                "parameter_server_ready",
-                "parameter server ready: {node}, values in {file}",
-                node=peer.name,
-                file=str(self._file),
-            )
+            text, file = "parameter server ready: {node}, values in {file}", str(self._file)
+            self._log.emit(Level.INFO, "parameter_server_ready", text, node=peer.name, file=file)
             self._server.run()
 
     def _report(self, line: str) -> None:

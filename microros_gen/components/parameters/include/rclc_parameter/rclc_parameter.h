@@ -194,7 +194,7 @@ typedef struct rclc_parameter_held_t {
   uint32_t overruled;    /* of them, those that another writer overruled */
   uint32_t reconnects;   /* of the session with the agent, when a notice was due last */
   int64_t noticed_ns;    /* when the last notice was published */
-  int64_t requested_ns;      /* when the server asked last, or the node started */
+  int64_t requested_ns;  /* when the server asked last, or the node started */
 } rclc_parameter_held_t;
 #endif
 
