@@ -142,3 +142,40 @@ def test_a_server_of_its_own_that_restarts(program: Path, relay: Relay, domain: 
             until(lambda: set_steps(peer, 120), (True, ""))
             ends_well(process)
     assert not (tmp_path / "agent.json").exists()
+
+
+def asked(peer: ParameterPeer, service: str, *arguments: Any) -> Any:
+    """Call a service that may not be there yet; return None without a response."""
+    return peer.ask(node=DEVICE, service=service, arguments=arguments, timeout=5)
+
+
+def steps_of(peer: ParameterPeer) -> Any:
+    response = asked(peer, "get_parameters", ["motor.steps"])
+    return response and [value for _, value in response["values"]]
+
+
+def set_steps_of(peer: ParameterPeer, value: int) -> Any:
+    response = asked(peer, "set_parameters", [("motor.steps", value)])
+    return response and [result["reason"] for result in response["results"]]
+
+
+def test_a_short_script_instead_of_the_server(
+    program: Path, relay: Relay, domain: int, tmp_path: Path
+) -> None:
+    """It has the contract of the page and nothing else of this tool's server."""
+    script = ("-m", "tests.support.parameter_server.short_server")
+    with (
+        parameter_peer(domain) as peer,
+        running_agent(domain, "--domain", str(domain), "--no-parameter-server") as agent,
+        parameter_server(domain, tmp_path / "none.json", script),
+    ):
+        relay.connect(agent.port)
+        with started(program) as process:
+            await_line(process, "ready")
+            until(lambda: steps_of(peer), [10])
+            until(lambda: set_steps_of(peer, 66), ["rejected by the callback"])
+            until(lambda: set_steps_of(peer, 30), [""])
+            await_line(process, "changed motor.steps 30")
+        with started(program) as process:  # it has lost its values
+            await_line(process, "changed motor.steps 30")
+            until(lambda: steps_of(peer), [30])
