@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, TypeVar
 
 from microros_gen.ros.endpoints import Value
@@ -14,6 +15,7 @@ from microros_gen.ros.graph import Graph, GraphEndpoint, Names
 OK, UNKNOWN_NODE, INVALID = 0, 1, 2
 """`status` of both services."""
 NODES, TOPICS, SERVICES, PUBLISHERS_OF, SUBSCRIPTIONS_OF, SERVICES_OF, CLIENTS_OF = range(7)
+DDS_TOPICS, DDS_PUBLISHERS_OF, DDS_SUBSCRIPTIONS_OF = range(7, 10)
 """`what` of microros_graph_msgs/srv/ListNames."""
 PUBLISHERS, SUBSCRIPTIONS, SERVERS, CLIENTS = range(4)
 """`what` of microros_graph_msgs/srv/ListEndpoints."""
@@ -56,7 +58,7 @@ def list_endpoints(graph: Graph, request: Value, version: int) -> Value:
         found = graph.publishers(name) if what == PUBLISHERS else graph.subscriptions(name)
         if node:
             others = graph.subscriptions(name) if what == PUBLISHERS else graph.publishers(name)
-            found = _matched(what, found, [other for other in others if other.node == node])
+            found = _matched(what, found, _meant([other for other in others if other.node == node], request))
     except RosError:  # a name too long
         return {"status": INVALID, "version": version}
     if found is None:
@@ -84,20 +86,28 @@ def match(publisher: GraphEndpoint, subscription: GraphEndpoint) -> bool:
 
 def _names(graph: Graph, what: int, node: str) -> Names | int:
     """Return what is listed, or the status of a request that cannot be answered."""
-    of_node = {
+    of_node: dict[int, Callable[[str], Names | None]] = {
         PUBLISHERS_OF: graph.publishers_of,
         SUBSCRIPTIONS_OF: graph.subscriptions_of,
         SERVICES_OF: graph.services_of,
         CLIENTS_OF: graph.clients_of,
+        DDS_PUBLISHERS_OF: partial(graph.publishers_of, demangle=False),
+        DDS_SUBSCRIPTIONS_OF: partial(graph.subscriptions_of, demangle=False),
     }
     if what in of_node:
         found = of_node[what](node)
         return UNKNOWN_NODE if found is None else found
     if what == NODES:
         return tuple((name, ()) for name in graph.nodes())
-    if what == TOPICS:
-        return graph.topics()
+    if what in (TOPICS, DDS_TOPICS):
+        return graph.topics(demangle=what == TOPICS)
     return graph.services() if what == SERVICES else INVALID
+
+
+def _meant(own: Sequence[GraphEndpoint], request: Value) -> Sequence[GraphEndpoint]:
+    """Return the endpoints of a node that have the QoS of the request; all, if none has or it names none."""
+    wanted = request["reliability"], request["durability"], request["deadline"]
+    return [end for end in own if (end.reliability, end.durability, end.deadline) == wanted] or own
 
 
 def _matched(

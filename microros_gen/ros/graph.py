@@ -52,22 +52,26 @@ class Graph:
         found = self._node.get_node_names_and_namespaces()
         return tuple(sorted(full_name(name, namespace) for name, namespace in found))
 
-    def topics(self) -> Names:
-        """Return all topics that have an endpoint."""
-        return _names(self._handles.rclpy_get_topic_names_and_types(self._node, False))
+    def topics(self, demangle: bool = True) -> Names:
+        """Return all topics that have an endpoint; not demangled as DDS has them, those of services too."""
+        return _names(self._handles.rclpy_get_topic_names_and_types(self._node, not demangle))
 
     def services(self) -> Names:
         """Return all services that have a server or a client."""
         return _names(self._handles.rclpy_get_service_names_and_types(self._node))
 
-    def publishers_of(self, node: str) -> Names | None:
-        """Return the topics that the node publishes; None if no such node exists."""
-        ask = functools.partial(self._handles.rclpy_get_publisher_names_and_types_by_node, self._node, False)
+    def publishers_of(self, node: str, demangle: bool = True) -> Names | None:
+        """Return the topics that the node publishes, as `topics` does; None if no such node exists."""
+        ask = functools.partial(
+            self._handles.rclpy_get_publisher_names_and_types_by_node, self._node, not demangle
+        )
         return self._of_node(ask, node)
 
-    def subscriptions_of(self, node: str) -> Names | None:
-        """Return the topics that the node subscribes to; None if no such node exists."""
-        ask = functools.partial(self._handles.rclpy_get_subscriber_names_and_types_by_node, self._node, False)
+    def subscriptions_of(self, node: str, demangle: bool = True) -> Names | None:
+        """Return the topics that the node subscribes to, as `topics` does; None if no such node exists."""
+        ask = functools.partial(
+            self._handles.rclpy_get_subscriber_names_and_types_by_node, self._node, not demangle
+        )
         return self._of_node(ask, node)
 
     def services_of(self, node: str) -> Names | None:

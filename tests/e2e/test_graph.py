@@ -122,6 +122,7 @@ def compare_names(device: Device, peer: LineProcess) -> None:
     for what, part in (
         ("topics", "/arm/count std_msgs/msg/Int32"),
         ("services", "/arm/set std_srvs/srv/SetBool"),
+        ("mangled", "rt/arm/count std_msgs::msg::dds_::Int32_"),
     ):
         alike(
             partial(device.sorted, f"names {what}"),

@@ -30,10 +30,10 @@ class Fixed(Graph):
     def nodes(self) -> tuple[str, ...]:
         return NODES
 
-    def topics(self) -> Names:
+    def topics(self, demangle: bool = True) -> Names:
         return self._topics
 
-    def publishers_of(self, node: str) -> Names | None:
+    def publishers_of(self, node: str, demangle: bool = True) -> Names | None:
         return TOPICS[:2] if node in NODES else None
 
     def publishers(self, topic: str) -> tuple[GraphEndpoint, ...]:
@@ -63,6 +63,9 @@ def endpoints(graph: Graph, **request: Any) -> dict[str, Any]:
         "what": answers.PUBLISHERS,
         "name": "/t",
         "matched_by": "",
+        "reliability": 0,
+        "durability": 0,
+        "deadline": 0,
         "first": 0,
         "endpoints_max": 9,
         "name_size": 0,
@@ -137,7 +140,7 @@ def test_lengths_are_bytes() -> None:
 
 
 def test_what_cannot_be_answered_has_a_status() -> None:
-    assert names(Fixed(), what=9) == {"status": answers.INVALID, "version": 7}
+    assert names(Fixed(), what=10) == {"status": answers.INVALID, "version": 7}
     unknown = names(Fixed(), what=answers.PUBLISHERS_OF, node="/nobody")
     assert unknown == {"status": answers.UNKNOWN_NODE, "version": 7}
     assert names(Fixed(), what=answers.PUBLISHERS_OF, node=NODES[0])["total"] == 2

@@ -30,12 +30,14 @@ nodes:
     subscriptions: [{topic: order, type: std_msgs/msg/Int32}]
     clients: [{name: set, type: std_srvs/srv/SetBool, limits: {message: 8}, storage: none}]
 """
-OK, ERROR, TIMEOUT, UNSUPPORTED, BAD_ALLOC, INVALID, NO_NODE = 0, 1, 2, 3, 10, 11, 203
+OK, ERROR, TIMEOUT, BAD_ALLOC, INVALID, NO_NODE = 0, 1, 2, 10, 11, 203
 INT32, SET_BOOL = "std_msgs/msg/Int32", "std_srvs/srv/SetBool"
 BETWEEN_MS = 1000
 """What a query waits for a server: create_timeout."""
 TOPICS = tuple((f"/topic_{number}", (INT32,)) for number in range(5))
 NODE = (("/arm/count", (INT32,)),)
+DDS_TOPICS = (("rq/setRequest", ("std_srvs::srv::dds_::SetBool_Request_",)), ("rt/a", ("a::msg::dds_::A_",)))
+FOREVER = 9223372036854775807
 
 
 def endpoint(node: str, number: int = 1, **changed: Any) -> GraphEndpoint:
@@ -91,7 +93,13 @@ def device(program: Path) -> Iterator[Device]:
         node_names=("/arm/device", "/a/b/deep", "/root"),
         topic_names=TOPICS,
         service_names=(("/set", (SET_BOOL,)), ("/two", (SET_BOOL, "a/srv/B"))),
-        of_node={("publishers", "/arm/device"): NODE, ("clients", "/root"): ()},
+        dds_names=DDS_TOPICS,
+        of_node={
+            ("publishers", "/arm/device"): NODE,
+            ("clients", "/root"): (),
+            ("dds publishers", "/root"): DDS_TOPICS[:1],
+            ("dds subscriptions", "/root"): DDS_TOPICS[1:],
+        },
         publishing={"/arm/order": (endpoint("/root"),), "/arm/count": (endpoint("/arm/device"),)},
         subscribing={"/arm/count": (endpoint("/root", 1), endpoint("/a/b/deep", 2))},
         servers={"/arm/set": 2},
@@ -160,9 +168,34 @@ def test_counts_of_own_endpoints(device: Device) -> None:
     assert device.count("count matched_publishers") == 1
 
 
+def test_counts_are_those_of_the_endpoint_and_not_of_its_node(device: Device) -> None:
+    """The device publishes /arm/count reliable, volatile, without deadline; its node has others of this topic."""
+    forever, transient, late = {"deadline": FOREVER}, {"durability": 1, "deadline": FOREVER}, {"deadline": 9}
+    graph = device.agent.graph
+    graph.publishing["/arm/count"] = tuple(
+        endpoint("/arm/device", i, **qos) for i, qos in enumerate((transient, forever, late))
+    )
+    for qos, expected in ((forever, 1), (transient, 0), (late, 0), ({"reliability": 2, **forever}, 1)):
+        graph.subscribing["/arm/count"] = (endpoint("/root", **qos),)
+        assert device.count("count matched_subscriptions") == expected, qos
+    request = device.agent.requests[-1][1]
+    assert (request["reliability"], request["durability"], request["deadline"]) == (1, 2, FOREVER)
+    graph.publishing["/arm/count"] = graph.publishing["/arm/count"][:1]
+    graph.subscribing["/arm/count"] = (endpoint("/root", **transient),)
+    assert device.count("count matched_subscriptions") == 1, (
+        "an agent that announces another QoS: all are meant"
+    )
+
+
+def test_names_of_dds(device: Device) -> None:
+    items = [f"{name} {types[0]}" for name, types in DDS_TOPICS]
+    assert device.items("names mangled") == items
+    assert device.items("names mangled_publishers_of root /") == items[:1]
+    assert device.items("names mangled_subscriptions_of root /") == items[1:]
+
+
 def test_wrong_names_and_what_is_not_supported(device: Device) -> None:
     assert "not_absolute" in device.fails("count publishers not_absolute", INVALID)
-    assert "no_demangle" in device.fails("names mangled", UNSUPPORTED)
     long = "/" + "x" * 95
     assert "more than 95 bytes" in device.fails(f"count publishers {long}", ERROR)
     assert "more than 95 bytes" in device.fails(f"names services_of {long[1:]} /", ERROR)

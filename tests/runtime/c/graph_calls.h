@@ -128,6 +128,10 @@ static rcl_ret_t calls_names(const char * what, const char * name, const char * 
     result = rcl_get_topic_names_and_types(&node, &allocator, true, &found);
   } else if (strcmp(what, "services") == 0) {
     result = rcl_get_service_names_and_types(&node, &allocator, &found);
+  } else if (strcmp(what, "mangled_publishers_of") == 0) {
+    result = rcl_get_publisher_names_and_types_by_node(&node, &allocator, true, name, namespace_, &found);
+  } else if (strcmp(what, "mangled_subscriptions_of") == 0) {
+    result = rcl_get_subscriber_names_and_types_by_node(&node, &allocator, true, name, namespace_, &found);
   } else if (strcmp(what, "publishers_of") == 0) {
     result = rcl_get_publisher_names_and_types_by_node(&node, &allocator, false, name, namespace_, &found);
   } else if (strcmp(what, "subscriptions_of") == 0) {

@@ -44,8 +44,8 @@ class _Peer:
             "services_of": self._node.get_service_names_and_types_by_node,
             "clients_of": self._node.get_client_names_and_types_by_node,
         }
-        if what == "topics":
-            found = self._node.get_topic_names_and_types()
+        if what in ("topics", "mangled"):
+            found = self._node.get_topic_names_and_types(no_demangle=what == "mangled")
         elif what == "services":
             found = self._node.get_service_names_and_types()
         else:

@@ -27,6 +27,7 @@ class MadeGraph:
 
     node_names: tuple[str, ...] = ()
     topic_names: Names = ()
+    dds_names: Names = ()
     service_names: Names = ()
     of_node: dict[tuple[str, str], Names] = field(default_factory=dict)
     publishing: dict[str, tuple[GraphEndpoint, ...]] = field(default_factory=dict)
@@ -37,17 +38,17 @@ class MadeGraph:
     def nodes(self) -> tuple[str, ...]:
         return self.node_names
 
-    def topics(self) -> Names:
-        return self.topic_names
+    def topics(self, demangle: bool = True) -> Names:
+        return self.topic_names if demangle else self.dds_names
 
     def services(self) -> Names:
         return self.service_names
 
-    def publishers_of(self, node: str) -> Names | None:
-        return self.of_node.get(("publishers", node))
+    def publishers_of(self, node: str, demangle: bool = True) -> Names | None:
+        return self.of_node.get(("publishers" if demangle else "dds publishers", node))
 
-    def subscriptions_of(self, node: str) -> Names | None:
-        return self.of_node.get(("subscriptions", node))
+    def subscriptions_of(self, node: str, demangle: bool = True) -> Names | None:
+        return self.of_node.get(("subscriptions" if demangle else "dds subscriptions", node))
 
     def services_of(self, node: str) -> Names | None:
         return self.of_node.get(("services", node))

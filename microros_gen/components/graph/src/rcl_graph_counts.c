@@ -3,28 +3,34 @@
 #include "microros/rcl_graph.h"
 #include "microros/rmw_node.h"
 #include "microros/rmw_publisher.h"
+#include "microros/rmw_qos.h"
 #include "microros/rmw_service.h"
 #include "microros/rmw_subscription.h"
 #include "microros/xrce_client.h"
 
 #include <string.h>
 
-/* `matched_by`: only endpoints that match one of this node, or NULL. */
-static rcl_ret_t counts_ask(uint8_t what, char * name, char * matched_by, size_t * count)
+static void counts_request(
+  uint8_t what, char * name, microros_graph_msgs__srv__ListEndpoints_Request * request)
 {
-  microros_graph_msgs__srv__ListEndpoints_Request request;
+  (void)memset(request, 0, sizeof(*request));
+  request->what = what;
+  rcl_graph_lend(&request->name, name);
+  rcl_graph_lend(&request->matched_by, NULL);
+}
+
+/* Asks for the number of endpoints of `name`. */
+static rcl_ret_t counts_ask(
+  const microros_graph_msgs__srv__ListEndpoints_Request * request, const char * name, size_t * count)
+{
   microros_graph_msgs__srv__ListEndpoints_Response response;
   rcl_ret_t result = rcl_graph_begin();
 
   if (result != RCL_RET_OK) {
     return result;
   }
-  (void)memset(&request, 0, sizeof(request));
   (void)memset(&response, 0, sizeof(response)); /* has no endpoints: none are requested */
-  request.what = what;
-  rcl_graph_lend(&request.name, name);
-  rcl_graph_lend(&request.matched_by, matched_by);
-  result = rcl_graph_ask(&rcl_graph_endpoints_client, &request, &response, NULL);
+  result = rcl_graph_ask(&rcl_graph_endpoints_client, request, &response, NULL);
   rcl_graph_end();
   if (result == RCL_RET_OK) {
     result = rcl_graph_status(response.status, "an endpoint of the own node on", name);
@@ -38,10 +44,15 @@ static rcl_ret_t counts_ask(uint8_t what, char * name, char * matched_by, size_t
 rcl_ret_t rcl_graph_count(uint8_t what, const char * name, size_t * count)
 {
   const rmw_name_t parts = {{name, "", "", ""}};
+  microros_graph_msgs__srv__ListEndpoints_Request request;
   char full[MICROROS_GRAPH_NAME_SIZE];
   const rcl_ret_t result = rcl_graph_write_name(&parts, full);
 
-  return result == RCL_RET_OK ? counts_ask(what, full, NULL, count) : result;
+  if (result != RCL_RET_OK) {
+    return result;
+  }
+  counts_request(what, full, &request);
+  return counts_ask(&request, full, count);
 }
 
 static rcl_ret_t counts_of_name(const rcl_node_t * node, uint8_t what, const char * name, size_t * count)
@@ -83,7 +94,7 @@ rcl_ret_t rcl_count_services(const rcl_node_t * node, const char * service_name,
   return counts_of_name(node, what, service_name, count);
 }
 
-/* Counts what matches an own endpoint. */
+/* Counts what matches an own endpoint. DDS decides by QoS, so that names it among those of its node. */
 static rcl_ret_t counts_matched(uint8_t what, const xrce_endpoint_t * own, size_t * count)
 {
   const xrce_participant_t * participant = &own->client->participants[own->participant];
@@ -91,13 +102,21 @@ static rcl_ret_t counts_matched(uint8_t what, const xrce_endpoint_t * own, size_
   const rmw_name_t topic = {{own->name, "", "", ""}};
   char topic_full[MICROROS_GRAPH_NAME_SIZE];
   char node_full[MICROROS_GRAPH_NAME_SIZE];
+  microros_graph_msgs__srv__ListEndpoints_Request request;
+  rmw_qos_profile_t qos;
   rcl_ret_t result = rcl_graph_write_name(&topic, topic_full);
 
   if (result == RCL_RET_OK) {
     result = rcl_graph_write_name(&node, node_full);
   }
   if (result == RCL_RET_OK) {
-    result = counts_ask(what, topic_full, node_full, count);
+    rmw_qos_actual(own, &qos);
+    counts_request(what, topic_full, &request);
+    rcl_graph_lend(&request.matched_by, node_full);
+    request.reliability = (uint8_t)qos.reliability;
+    request.durability = (uint8_t)qos.durability;
+    request.deadline = (uint64_t)rmw_time_total_nsec(qos.deadline);
+    result = counts_ask(&request, topic_full, count);
   }
   return result == RCL_RET_NODE_NAME_NON_EXISTENT ? RCL_RET_ERROR : result; /* not discovered yet */
 }

@@ -123,19 +123,14 @@ static rcl_ret_t names_read(
   return rcl_graph_read(&reader, &list);
 }
 
-static rcl_ret_t names_refuse_mangled(void)
-{
-  return microros_error_named(RCL_RET_UNSUPPORTED, microros_error_graph, "no_demangle is not supported");
-}
-
 rcl_ret_t rcl_get_topic_names_and_types(
   const rcl_node_t * node, rcl_allocator_t * allocator, bool no_demangle,
   rcl_names_and_types_t * topic_names_and_types)
 {
-  const uint8_t what = (uint8_t)microros_graph_msgs__srv__ListNames_Request__TOPICS;
+  const uint8_t what = no_demangle ? (uint8_t)microros_graph_msgs__srv__ListNames_Request__DDS_TOPICS
+                                   : (uint8_t)microros_graph_msgs__srv__ListNames_Request__TOPICS;
 
-  return no_demangle ? names_refuse_mangled()
-                     : names_read(node, allocator, what, NULL, topic_names_and_types);
+  return names_read(node, allocator, what, NULL, topic_names_and_types);
 }
 
 rcl_ret_t rcl_get_service_names_and_types(
@@ -169,20 +164,22 @@ rcl_ret_t rcl_get_publisher_names_and_types_by_node(
   const rcl_node_t * node, rcl_allocator_t * allocator, bool no_demangle, const char * node_name,
   const char * node_namespace, rcl_names_and_types_t * topic_names_and_types)
 {
-  const uint8_t what = (uint8_t)microros_graph_msgs__srv__ListNames_Request__PUBLISHERS_OF_NODE;
+  const uint8_t what = no_demangle
+                         ? (uint8_t)microros_graph_msgs__srv__ListNames_Request__DDS_PUBLISHERS_OF_NODE
+                         : (uint8_t)microros_graph_msgs__srv__ListNames_Request__PUBLISHERS_OF_NODE;
 
-  return no_demangle ? names_refuse_mangled()
-                     : names_of_node(node, allocator, what, node_name, node_namespace, topic_names_and_types);
+  return names_of_node(node, allocator, what, node_name, node_namespace, topic_names_and_types);
 }
 
 rcl_ret_t rcl_get_subscriber_names_and_types_by_node(
   const rcl_node_t * node, rcl_allocator_t * allocator, bool no_demangle, const char * node_name,
   const char * node_namespace, rcl_names_and_types_t * topic_names_and_types)
 {
-  const uint8_t what = (uint8_t)microros_graph_msgs__srv__ListNames_Request__SUBSCRIPTIONS_OF_NODE;
+  const uint8_t what = no_demangle
+                         ? (uint8_t)microros_graph_msgs__srv__ListNames_Request__DDS_SUBSCRIPTIONS_OF_NODE
+                         : (uint8_t)microros_graph_msgs__srv__ListNames_Request__SUBSCRIPTIONS_OF_NODE;
 
-  return no_demangle ? names_refuse_mangled()
-                     : names_of_node(node, allocator, what, node_name, node_namespace, topic_names_and_types);
+  return names_of_node(node, allocator, what, node_name, node_namespace, topic_names_and_types);
 }
 
 rcl_ret_t rcl_get_service_names_and_types_by_node(

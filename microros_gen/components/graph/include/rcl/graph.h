@@ -10,7 +10,7 @@
  * RCL_RET_TIMEOUT: no answer of a server. RCL_RET_BAD_ALLOC: the list has no room. RCL_RET_ERROR: a name is
  * longer than `limits` of microros_graph_msgs, the session is lost, or the graph changes faster than it is
  * read. RCL_RET_INVALID_ARGUMENT: an argument is NULL, an output is not zero-initialized, or a name is not
- * a fully qualified one. RCL_RET_UNSUPPORTED: `no_demangle` or `no_mangle` is true.
+ * a fully qualified one. RCL_RET_UNSUPPORTED: `no_mangle` is true.
  * RCL_RET_NODE_NAME_NON_EXISTENT: the graph has no such node.
  */
 #ifndef MICROROS_RCL_GRAPH_H
