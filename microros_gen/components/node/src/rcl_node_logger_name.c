@@ -7,8 +7,6 @@
 
 #include <stddef.h>
 
-static char node_logger_names[MICROROS_NODES_MAX][MICROROS_NODE_LOGGER_NAME_SIZE];
-
 /* Writes `namespace.name`, of a namespace that begins with a slash; one `/` separates others. */
 static void logger_name_write(char * text, const char * namespace_, const char * name)
 {
@@ -29,6 +27,7 @@ static void logger_name_write(char * text, const char * namespace_, const char *
 
 const char * rcl_node_get_logger_name(const rcl_node_t * node)
 {
+  static char names[MICROROS_NODES_MAX][MICROROS_NODE_LOGGER_NAME_SIZE];
   char * text = NULL;
 
   if (!rcl_node_is_valid(node)) {
@@ -38,7 +37,7 @@ const char * rcl_node_get_logger_name(const rcl_node_t * node)
     return node->impl->name;
   }
   microros_lock();
-  text = node_logger_names[rmw_node_index(node->impl)];
+  text = names[rmw_node_index(node->impl)];
   logger_name_write(text, node->impl->namespace_, node->impl->name);
   microros_unlock();
   return text;
