@@ -33,7 +33,7 @@ static uint32_t digits_divide(microros_digits_t * digits, uint32_t size)
   uint32_t remainder = 0;
 
   for (uint32_t i = size; i != 0u; --i) {
-    const uint32_t value = remainder << LIMB_BITS | digits->whole[i - 1u];
+    const uint32_t value = remainder << (uint32_t)LIMB_BITS | digits->whole[i - 1u];
 
     digits->whole[i - 1u] = (uint16_t)(value / (uint32_t)GROUP);
     remainder = value % (uint32_t)GROUP;
@@ -64,13 +64,13 @@ static void digits_group(microros_digits_t * digits)
   if (first == (uint32_t)MICROROS_DIGITS_GROUPS) { /* the one group of a number below 1 */
     --first;
   }
-  digits->place = (int32_t)((MICROROS_DIGITS_GROUPS - first) * (uint32_t)GROUP_DIGITS) - 1;
+  digits->place = (MICROROS_DIGITS_GROUPS - (int32_t)first) * GROUP_DIGITS - 1;
 }
 
 void microros_digits_begin(microros_digits_t * digits, uint64_t bits)
 {
-  const uint32_t exponent = (uint32_t)(bits >> MANTISSA_BITS) & EXPONENT_MASK;
-  const uint64_t mantissa = bits & (((uint64_t)1 << MANTISSA_BITS) - 1u);
+  const uint32_t exponent = (uint32_t)(bits >> (uint32_t)MANTISSA_BITS) & (uint32_t)EXPONENT_MASK;
+  const uint64_t mantissa = bits & (((uint64_t)1 << (uint32_t)MANTISSA_BITS) - 1u);
   const int32_t weight = exponent == 0u ? WEIGHT_LEAST : WEIGHT_LEAST - 1 + (int32_t)exponent;
 
   (void)memset(digits, 0, sizeof(*digits));
@@ -110,7 +110,7 @@ static uint32_t digits_shift(microros_digits_t * digits)
     const uint32_t value = digits->part[i - 1u] * 10u + carry;
 
     digits->part[i - 1u] = (uint16_t)(value & 0xffffu);
-    carry = value >> LIMB_BITS;
+    carry = value >> (uint32_t)LIMB_BITS;
   }
   while (digits->used != 0u && digits->part[digits->used - 1u] == 0u) {
     --digits->used;

@@ -6,7 +6,13 @@
 
 #include <string.h>
 
-enum { PRECISION_DEFAULT = 6, FIXED_LEAST = -4, FLOAT_EXPONENT_BITS = 11, FLOAT_MANTISSA_BITS = 52 };
+enum {
+  PRECISION_DEFAULT = 6,
+  FIXED_LEAST = -4,
+  EXPONENT_SIZE = 4,
+  FLOAT_EXPONENT_BITS = 11,
+  FLOAT_MANTISSA_BITS = 52
+};
 
 /* The digits of a number that are shown. Where rounding has carried over all of them, they are 1 and zeros. */
 typedef struct float_shown_t {
@@ -178,11 +184,15 @@ static void float_put_exponent(microros_format_t * out, char letter, int32_t exp
 
 static int32_t float_size(const float_shown_t * shown, const float_layout_t * layout)
 {
-  const int32_t hundreds = shown->first > 99 || shown->first < -99 ? 1 : 0;
-  const int32_t exponent = layout->scientific ? 4 + hundreds : 0;
-  const int32_t extra = (layout->point ? 1 : 0) + (layout->sign != '\0' ? 1 : 0);
+  int32_t size = layout->before + layout->after;
 
-  return layout->before + layout->after + exponent + extra;
+  size += layout->point ? 1 : 0;
+  size += layout->sign != '\0' ? 1 : 0;
+  if (layout->scientific) {
+    size += EXPONENT_SIZE;
+    size += shown->first > 99 || shown->first < -99 ? 1 : 0;
+  }
+  return size;
 }
 
 static void float_put(
@@ -202,7 +212,7 @@ static void float_put(
   }
   float_put_digits(out, digits, shown, layout);
   if (layout->scientific) {
-    float_put_exponent(out, (char)('E' | (how->kind & 0x20)), shown->first);
+    float_put_exponent(out, how->kind < 'a' ? 'E' : 'e', shown->first);
   }
   if (how->minus) {
     microros_format_repeat(out, ' ', fill);
@@ -213,7 +223,7 @@ static void float_put(
 static void float_put_word(
   microros_format_t * out, const microros_conversion_t * how, bool infinite, char sign)
 {
-  const bool upper = (how->kind & 0x20) == 0;
+  const bool upper = how->kind < 'a';
   const char * const word = infinite ? (upper ? "INF" : "inf") : (upper ? "NAN" : "nan");
   const int32_t fill = how->width - (sign != '\0' ? 4 : 3);
 
@@ -238,7 +248,8 @@ static char float_sign(const microros_conversion_t * how, bool negative)
 
 bool microros_format_floating(microros_format_t * out, const microros_conversion_t * how, va_list * args)
 {
-  const uint64_t infinity = (((uint64_t)1 << FLOAT_EXPONENT_BITS) - 1u) << FLOAT_MANTISSA_BITS;
+  const uint64_t infinity = (((uint64_t)1 << (uint32_t)FLOAT_EXPONENT_BITS) - 1u)
+                            << (uint32_t)FLOAT_MANTISSA_BITS;
   const double value = how->length == 'L' ? (double)va_arg(*args, long double) : va_arg(*args, double);
   float_layout_t layout = {0, 0, false, false, '\0'};
   uint64_t bits = 0;
