@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 
 from microros_gen.application.kinds import KIND
 from microros_gen.application.model import Application, EndpointDecl, NodeDecl
 from microros_gen.application.names import expand_topic_name
-from microros_gen.diagnostics import Span
+from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.records import dataclass
 from microros_gen.selection.profiles import at
 
@@ -16,6 +16,7 @@ STREAM_BEST_EFFORT = "stream_best_effort"
 STREAM_BEST_EFFORT_INPUT = "stream_best_effort_input"
 STREAM_RELIABLE = "stream_reliable"
 STREAM_RELIABLE_INPUT = "stream_reliable_input"
+_HELD = "parameters_held"
 
 
 @dataclass(frozen=True)
@@ -45,10 +46,18 @@ def holder_demands(application: Application) -> Iterator[Demand]:
     for node in application.nodes:
         if node.parameters_at is not None and node.parameters_at.name == "agent":
             yield Demand(
-                "parameters_held",
+                _HELD,
                 f"parameters: {{at: agent}}{at(node.parameters_at.span)}",
                 node.parameters_at.span,
             )
+
+
+def check_holder(application: Application, selected: Container[str], diagnostics: Diagnostics) -> None:
+    """Report the component of held parameters where it is selected, but no node says that its own are held."""
+    if _HELD in selected and not any(holder_demands(application)):
+        message = f"the component '{_HELD}' is for nodes whose parameters a server elsewhere holds"
+        hint = "Write `parameters: {at: agent}` at each node"
+        diagnostics.error(message, application.spans.get("components"), hint, id="MG-4090")
 
 
 def stream_demands(application: Application, selected: frozenset[str], entities: str) -> Iterator[Demand]:

@@ -115,6 +115,7 @@ def test_ros_time_is_one_of_them() -> None:
         "logger_services",
         "logging_rosout",
         "parameters",
+        "parameters_held",
     ]
 
 

@@ -98,10 +98,6 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> ParametersPlan:
     application = context.application
     refuse_own_limits(context, "parameters", diagnostics)
     held = context.selection.has("parameters_held")
-    if held and not _is_held(application):
-        message = "the component 'parameters_held' is for nodes whose parameters a server elsewhere holds"
-        hint = "Write `parameters: {at: agent}` at each node"
-        diagnostics.error(message, application.spans.get("components"), hint, id="MG-7046")
     requests = [TypeName(_PACKAGE, "srv", f"{name}_Request") for name in (*_NAMES, *_SETS, "ListParameters")]
     requests = [TypeName(_HELD, "srv", "Exchange_Request")] if held else requests
     largest = max(context.types[name].max_encoded_size for name in requests)
