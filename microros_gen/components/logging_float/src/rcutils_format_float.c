@@ -131,19 +131,23 @@ static float_shown_t float_general(
   return layout->scientific ? shown : float_fixed(digits, bits, most - 1 - shown.first);
 }
 
+static float_shown_t float_choose(
+  microros_digits_t * digits, char kind, uint64_t bits, int32_t precision, float_layout_t * layout)
+{
+  layout->scientific = kind == 'e';
+  if (kind == 'g') {
+    return float_general(digits, bits, precision, layout);
+  }
+  return kind == 'e' ? float_scientific(digits, bits, precision) : float_fixed(digits, bits, precision);
+}
+
 static float_shown_t float_read(
   microros_digits_t * digits, const microros_conversion_t * how, uint64_t bits, float_layout_t * layout)
 {
   const char kind = (char)(how->kind | 0x20); /* in lower case */
   const int32_t precision = how->precision < 0 ? PRECISION_DEFAULT : how->precision;
-  float_shown_t shown = {0, 0, 0, 0, 0, false, false};
+  const float_shown_t shown = float_choose(digits, kind, bits, precision, layout);
 
-  layout->scientific = kind == 'e';
-  if (kind == 'g') {
-    shown = float_general(digits, bits, precision, layout);
-  } else {
-    shown = kind == 'e' ? float_scientific(digits, bits, precision) : float_fixed(digits, bits, precision);
-  }
   layout->before = layout->scientific ? 1 : shown.first + 1;
   layout->after = shown.count - layout->before;
   if (kind == 'g' && !how->alternative) {
