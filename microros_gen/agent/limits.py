@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What one agent lets its clients use: nothing that comes over the wire makes it grow beyond this."""
+"""Limits of an agent: no input from the network makes it grow beyond these."""
 
 from __future__ import annotations
 
@@ -13,62 +13,62 @@ class Limits:
     clients: int = 256
     """Clients of the agent, sleeping ones included."""
     newcomers: int = 4_096
-    """Senders that opened a session over UDP and said nothing in it yet: they take no client's place."""
+    """Senders that opened a session over UDP and have sent nothing in it yet; they do not count as clients."""
     objects: int = 512
     """Objects (participants, topics, publishers, writers, …)."""
     streams: int = 8
     """Streams of each kind (best effort, reliable) and each direction."""
     message_bytes: int = 262_144
-    """Largest message that comes in fragments; also what a stream holds after a gap."""
+    """Bytes of the largest fragmented message; also the bytes that a stream stores after a gap."""
     memory_bytes: int = 268_435_456
-    """Memory of the agent's process; near it nothing more is made, and beyond it the client that takes most is sent
-    away. The pools below have to fit."""
+    """Bytes of the agent's process. Near it no objects are created, and above it the client with the most memory is
+    removed. The pools below have to fit."""
     history_bytes: int = 33_554_432
-    """What histories of writers and readers of all clients together take in DDS."""
+    """Bytes of the DDS histories of all clients' writers and readers."""
     client_history_bytes: int = 16_777_216
     """The same of one client."""
     object_history_bytes: int = 8_388_608
     """The same of one writer or reader: 512 bytes for each sample of its depth, and the size of its largest sample."""
     object_bytes: int = 50_331_648
-    """What objects of all clients together take, those in ROS 2 included (a reader: 70 kB)."""
+    """Bytes of all clients' objects, including their ROS 2 entities (a reader: 70 kB)."""
     output_bytes: int = 16_777_216
-    """What waits for all clients together: reliable messages that they have not acknowledged, and TCP connections that
-    read slowly."""
+    """Bytes of output that waits for all clients: unacknowledged reliable messages, and data for slow TCP
+    connections."""
     call_bytes: int = 8_388_608
-    """What open requests of all clients together take, 256 bytes each."""
+    """Bytes of all clients' open requests, 256 each."""
     input_bytes: int = 33_554_432
-    """What comes from all clients together and waits: pieces of messages, what is after a gap or waits for DDS."""
+    """Bytes of waiting input of all clients: fragments, messages after a gap, messages that wait for DDS."""
     backlog_bytes: int = 65_536
-    """What waits for a reliable stream to the client, beyond the window of 16 messages."""
+    """Bytes that wait for a reliable stream to the client, beyond the window of 16 messages."""
     requests: int = 1_024
-    """Requests without a reply of each requester and replier; the oldest is forgotten for one more."""
+    """Requests without a reply of each requester and replier; one more replaces the oldest."""
     request_wait_s: float = 5.0
-    """Seconds that a request waits for its service to be there; then it is dropped, counted and told."""
+    """Seconds that a request waits for its service to appear; then it is dropped, counted and reported."""
     messages_per_second: int = 50_000
-    """Messages that are taken from one client in a second; further ones are dropped and counted."""
+    """Messages accepted from one client per second; further ones are dropped and counted."""
     operations_per_second: int = 100
     """Objects that one client creates or deletes in a second, and messages outside of its session; ten seconds' worth
     may come at once. On a reliable stream further ones wait, others are refused."""
     turn_ms: float = 2.0
-    """Milliseconds of work for one client before others have their turn; it goes on in its next one."""
+    """Milliseconds of work for one client before the next client's turn; it continues in its next turn."""
     graph_ms_per_second: float = 200.0
     """Milliseconds of processor in a second in which nodes and endpoints of all clients come and go; one alone gets at
     most half, and three seconds' worth may come at once. Further CREATE and DELETE wait."""
     strangers_per_second: int = 2_000
-    """Messages outside of any session that are answered in a second, of all senders together."""
+    """Messages outside of any session that are answered per second, for all senders together."""
     log_bytes_per_second: int = 16_384
-    """Bytes of log in a second, in the long run; 1 MiB may come at once. Lines of -v are not counted."""
+    """Bytes of log per second on average; 1 MiB may be written at once. Lines of -v are not counted."""
     minimum_mtu: int = 32
     """Smallest message size in bytes that a client may announce; a STATUS has to fit."""
     domains: int = 16
     """ROS domains of the agent that are open at one time."""
     client_timeout_s: float = 30.0
-    """Seconds after which a client that was not heard leaves the ROS graph."""
+    """Seconds after which a silent client leaves the ROS graph."""
     keep_s: float = 60.0
     """Seconds for which samples are kept that a client's reliable readers did not get, when it timed out or opens its
     session again; 0: nothing is. What may have arrived comes again."""
     sleep_timeout_s: float = 86_400.0
-    """Seconds until a client that left the graph is forgotten; heard before that, its entities return."""
+    """Seconds until a client that left the graph is removed; a message before that restores its entities."""
     stop_s: float = 1.0
     """Seconds for which a stopping agent waits for readers to acknowledge samples."""
     adopt_after_s: float = 5.0
@@ -77,4 +77,4 @@ class Limits:
 
 
 PROBES = 5
-"""A silent client is asked for a sign of life this often before its time-out ends."""
+"""Number of probes of a silent client before its time-out ends."""

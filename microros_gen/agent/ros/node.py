@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A ROS node of a client, and how it makes what the client creates."""
+"""A ROS node of a client, and the creation of its entities."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from microros_gen.ros.qos import c_profile
 
 Entity = TypeVar("Entity", RawWriter, RawReader, RawReplier, RawRequester)
 SERVICE_DEPTH = 1000
-"""Requests, and replies, that wait for a client that takes none; ROS 2's default of 10 loses those of a burst."""
+"""Queue depth of requests and of replies for a slow client; ROS 2's default of 10 loses those of a burst."""
 
 
 class RawNode:
@@ -124,7 +124,7 @@ class RawNode:
             raise BridgeError(f"{endpoints[0].kind} {endpoints[0].label}: {first_line(error)}") from error
 
     def _attach(self, handle: Any, endpoints: tuple[Endpoint, ...], make: Callable[[], Entity]) -> Entity:
-        """Watch the endpoints of a new handle and make its entity; nothing of it stays when that fails."""
+        """Watch the endpoints of a new handle and create its entity; undo everything if that fails."""
         try:
             for endpoint in endpoints:
                 self._events.watch(endpoint, handle)
@@ -140,7 +140,7 @@ class RawNode:
 
 @contextmanager
 def _translated() -> Iterator[None]:
-    """Report the error of a type that is not available to the client."""
+    """Convert the error for an unavailable type to BridgeError."""
     try:
         yield
     except TypeLimitError as error:

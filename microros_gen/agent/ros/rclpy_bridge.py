@@ -40,9 +40,9 @@ from microros_gen.ros.loading import load_rclpy
 from microros_gen.ros.raw_types import MAXIMUM_HANDLES, raw_types
 
 MAXIMUM_DOMAIN = 232
-"""Largest ROS domain id: the ports of larger ones do not exist (RTPS 2.2, 9.6.1)."""
+"""Largest ROS domain id: larger ones would need UDP ports above 65,535 (RTPS 2.2, 9.6.1)."""
 DOMAIN_OF_AGENT = 255
-"""Clients that ask for this domain (a convention of the public client) get the agent's own, ROS_DOMAIN_ID."""
+"""Clients that request this domain (a convention of the public client) get the agent's own, ROS_DOMAIN_ID."""
 OWN_NODE = "_microros_agent"
 """Start of the name of the agent's own node in a domain; `ros2 node list` leaves out names with an underscore."""
 TRIM_AFTER, TRIM_EVERY_S = 64, 30.0
@@ -58,7 +58,7 @@ def open_bridge(
     request_wait_s: float = 5.0,
     on_type: Callable[[str], object] | None = None,
 ) -> Bridge:
-    """Return the bridge; UserError when rclpy is missing, does not load, or is not the one that is needed.
+    """Return the bridge. Raises UserError if rclpy is missing, does not load, or has the wrong version.
 
     `domain` (0 to 232) puts every client into that ROS domain, whichever it asks for. `hash_of` knows type hashes;
     without one for a type, its endpoints announce none. `report` is told what happens in the ROS graph. A request waits
@@ -85,7 +85,7 @@ def _ignore(_report: object) -> None:
 
 
 class RclpyBridge:
-    """Contexts by domain; one that no node uses stays open until its place is needed."""
+    """The bridge: contexts by domain; an unused one stays open until its place is needed."""
 
     def __init__(
         self,
@@ -140,7 +140,7 @@ class RclpyBridge:
         )
 
     def _report_domain(self, node: str, domain: int) -> None:
-        """Tell once of each domain that is not the one of this shell, unless somebody chose it for all clients."""
+        """Report each domain other than ROS_DOMAIN_ID once, unless `domain` was set for all clients."""
         own = _own_domain()
         set_here = bool(os.environ.get("ROS_DOMAIN_ID", "").strip())
         if self._domain is None and set_here and domain != own and domain not in self._reported_domains:
