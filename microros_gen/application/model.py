@@ -197,6 +197,21 @@ class ParameterDecl:
 
 
 @dataclass(frozen=True)
+class ParameterClientDecl:
+    """Another node, by its fully qualified name, and what is done with its parameters: get, set, …, watch.
+
+    At most `parameters` in a call or event; `string`: bytes of a string, without its terminator; `elements` of an array.
+    """
+
+    node: str
+    operations: tuple[str, ...] = ("get", "set")
+    parameters: int = 4
+    string: int = 49
+    elements: int = 0
+    span: Span | None = None
+
+
+@dataclass(frozen=True)
 class ExecutorDecl:
     """An executor and what it runs: names of timers, topics and services of the node, in this order.
 
@@ -233,6 +248,7 @@ class NodeDecl:
     parameters: tuple[ParameterDecl, ...] = ()
     parameter_file: Named | None = None
     parameters_at: Named | None = None
+    parameter_clients: tuple[ParameterClientDecl, ...] = ()
     executors: tuple[ExecutorDecl, ...] = ()
     name_span: Span | None = None
     given_name: str = ""

@@ -18,6 +18,7 @@ from microros_gen.application.names import (
     substitute,
     topic_fault,
 )
+from microros_gen.application.parameter_clients import parse_parameter_clients
 from microros_gen.application.parameters import parse_declarations
 from microros_gen.application.qos import endpoint_qos
 from microros_gen.application.remap import rename_endpoints, rename_node
@@ -80,10 +81,16 @@ def _node(item: YamlNode, diagnostics: Diagnostics) -> NodeDecl:
     )
     remap = child(item, "remap")
     node = rename_node(node, remap, diagnostics)
-    node = replace(node, endpoints=tuple(_endpoints(item, node, diagnostics)))
+    clients = parse_parameter_clients(
+        child(item, "parameter_clients"), node.name, node.namespace, diagnostics
+    )
+    node = replace(
+        node, endpoints=tuple(_endpoints(item, node, diagnostics)), parameter_clients=tuple(clients)
+    )
     executors = tuple(_executor(e, node, diagnostics) for e in items(child(item, "executors")))
     for kind, named in (("timer", node.timers), ("parameter", node.parameters), ("executor", executors)):
         check_unique(kind, [(n.name, n.span) for n in named], diagnostics)
+    check_unique("parameter client", [(c.node, c.span) for c in node.parameter_clients], diagnostics)
     return rename_endpoints(replace(node, executors=executors), remap, diagnostics)
 
 

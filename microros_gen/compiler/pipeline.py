@@ -21,7 +21,7 @@ from microros_gen.client.plan.declared import (
     node_name,
     type_name,
 )
-from microros_gen.client.plan.features import with_limits
+from microros_gen.client.plan.features import with_endpoints, with_limits
 from microros_gen.client.plan.project import Project, plan_project
 from microros_gen.client.plan.service_limits import service_roots
 from microros_gen.client.plan.stream_budget import check_stream_budget
@@ -113,7 +113,8 @@ def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
         application = replace(application, interfaces=(Named(DEFAULT_INTERFACE),))
     _check_interfaces_have_a_use(application, selection, diagnostics)
     diagnostics.check()
-    application = with_limits(with_implied(application, selection, diagnostics), selection)
+    application = with_endpoints(with_implied(application, selection, diagnostics), selection)
+    application = with_limits(application, selection)
     request = replace(request, application=with_clock(application, selection, diagnostics))
     diagnostics.check()
     return Resolved(request, own, catalogue, selection)

@@ -71,6 +71,8 @@ HOOK_POINTS: Mapping[str, HookPoint] = MappingProxyType(
         "node_opened": HookPoint(("node",), value=True),
         "node_closing": HookPoint(("node",)),
         "pumped": HookPoint(()),
+        "round_begins": HookPoint(("executor",)),
+        "round_ends": HookPoint(("executor",)),
         "clock_jump": HookPoint(("clock", "jump", "before_jump")),
         # after a sleep: xrce_sleep.c
         "woken": HookPoint(("client", "now")),

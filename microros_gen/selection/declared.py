@@ -37,6 +37,10 @@ def declared_components(application: Application) -> Iterator[Demand]:
             yield Demand("timers", "a timer", timer.span)
         for parameter in node.parameters:
             yield Demand("parameters", "a parameter", parameter.span)
+        for client in node.parameter_clients:
+            yield Demand("parameter_client", "a client of parameters", client.span)
+            if "watch" in client.operations:
+                yield Demand("subscribe", "a client that watches parameters", client.span)
         for executor in node.executors:
             yield Demand("executor", "an executor", executor.span)
 

@@ -7,12 +7,12 @@ Only components that ship with the tool have one; nothing from outside is import
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from importlib import import_module
 from typing import Any, Protocol, cast
 
-from microros_gen.application.model import Application, LimitRule
+from microros_gen.application.model import Application, EndpointDecl, LimitRule, NodeDecl
 from microros_gen.client.plan.feature_slices import NO_FEATURES, Features, FeatureSlice
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.diagnostics import Diagnostics
@@ -55,14 +55,52 @@ class Limiting(Protocol):
         """Return rules for what they exchange, without those that the application has itself."""
 
 
+class Opening(Protocol):
+    """What a plan.py has as well, where the component opens endpoints that the application file describes otherwise."""
+
+    def endpoints(self, node: NodeDecl) -> Iterable[EndpointDecl]:
+        """Return the endpoints of a node."""
+
+
+def with_endpoints(application: Application, selection: Selection) -> Application:
+    """Return the application with the endpoints that selected components plan, before those of each node."""
+    opening = [cast(Opening, feature) for feature in _features(selection) if hasattr(feature, "endpoints")]
+    if not opening:
+        return application
+    nodes = (
+        replace(node, endpoints=(*(e for part in opening for e in part.endpoints(node)), *node.endpoints))
+        for node in application.nodes
+    )
+    return replace(application, nodes=tuple(nodes))
+
+
 def with_limits(application: Application, selection: Selection) -> Application:
-    """Return the application with the limits of what selected components exchange, after its own."""
-    rules = list(application.limits)
+    """Return the application with the limits of what selected components exchange, after its own.
+
+    Where several limit the same, the largest holds.
+    """
+    rules: dict[tuple[str, ...], LimitRule] = {}
+    for feature in _features(selection):
+        if hasattr(feature, "limits"):
+            for rule in cast(Limiting, feature).limits(application):
+                rules[rule.path] = _larger(rules.get(rule.path), rule)
+    return replace(application, limits=(*application.limits, *rules.values())) if rules else application
+
+
+def _larger(first: LimitRule | None, second: LimitRule) -> LimitRule:
+    if first is None:
+        return second
+    strings = [rule.string for rule in (first, second) if rule.string is not None]
+    sequences = [rule.sequence for rule in (first, second) if rule.sequence is not None]
+    return replace(first, string=max(strings, default=None), sequence=max(sequences, default=None))
+
+
+def _features(selection: Selection) -> Iterator[Feature]:
+    """Yield the plan.py of each selected component that has one."""
     for chosen in selection.components:
         feature = feature_of(chosen.component)
-        if feature is not None and hasattr(feature, "limits"):
-            rules += cast(Limiting, feature).limits(application)
-    return replace(application, limits=tuple(rules)) if len(rules) > len(application.limits) else application
+        if feature is not None:
+            yield feature
 
 
 def plan_features(context: PlanContext, diagnostics: Diagnostics) -> Features:

@@ -51,6 +51,7 @@ _ELSEWHERE: Mapping[str, tuple[str, ...]] = {
     "support": ("support_opened", "support_closed"),
     "node": ("node_opened", "node_closing"),
     "pumped": ("pumped",),
+    "round": ("round_begins", "round_ends"),
     "clock_jump": ("clock_jump",),
 }
 _CALLERS: Mapping[str, tuple[str, ...]] = {

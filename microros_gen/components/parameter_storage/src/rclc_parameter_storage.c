@@ -8,6 +8,7 @@
 #include "microros/error.h"
 #include "microros/port_storage.h"
 #include "microros/rclc_parameter_out.h"
+#include "microros/rclc_parameter_value.h"
 #include "microros/rclc_parameter_storage_slot.h"
 #include "microros/rclc_parameters.h"
 
@@ -65,7 +66,7 @@ static bool storage_is_parameter(const rclc_parameter_server_t * server)
 {
   cdr_fault_t fault = {.field = ""};
   cdr_in_t in = rclc_parameter_request_begin(server, &fault);
-  const uint32_t count = rclc_parameter_request_length(&in);
+  const uint32_t count = rclc_parameter_in_length(&in);
 
   if (count == 1u) {
     (void)rclc_parameter_request_parameter(&in);

@@ -19,8 +19,8 @@ void rclc_parameter_array_request(cdr_in_t * in, parameter_requested_t * request
   requested->array_count = 0;
   for (uint32_t i = 0; i < (uint32_t)PARAMETER_ARRAYS; ++i) {
     cdr_in_t start = *in;
-    const uint32_t count = i == (uint32_t)PARAMETER_ARRAYS - 1u ? rclc_parameter_request_pass_texts(in)
-                                                                : rclc_parameter_request_pass(in, widths[i]);
+    const uint32_t count = i == (uint32_t)PARAMETER_ARRAYS - 1u ? rclc_parameter_in_pass_texts(in)
+                                                                : rclc_parameter_in_pass(in, widths[i]);
 
     if (requested->type == i + (uint32_t)RCLC_PARAMETER_BYTE_ARRAY) {
       (void)cdr_in_length(&start, widths[i], "request");
@@ -59,7 +59,7 @@ static bool array_texts_fit(const parameter_requested_t * requested)
   bool result = true;
 
   for (uint32_t i = 0; i < requested->array_count; ++i) {
-    result = rclc_parameter_request_text(&in).size < MICROROS_PARAMETER_ARRAY_STRING_SIZE && result;
+    result = rclc_parameter_in_text(&in).size < MICROROS_PARAMETER_ARRAY_STRING_SIZE && result;
   }
   return result;
 }
@@ -70,7 +70,7 @@ static void array_read_texts(char * to, const parameter_requested_t * requested)
   uint32_t position = 0;
 
   for (uint32_t i = 0; i < requested->array_count; ++i) {
-    const parameter_text_t text = rclc_parameter_request_text(&in);
+    const parameter_text_t text = rclc_parameter_in_text(&in);
 
     (void)memcpy(&to[position], text.data, text.size);
     to[position + text.size] = '\0';

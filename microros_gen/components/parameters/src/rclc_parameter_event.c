@@ -2,6 +2,7 @@
 #include "microros/port.h"
 #include "microros/rclc_parameter_descriptor.h"
 #include "microros/rclc_parameter_out.h"
+#include "microros/rclc_parameter_value.h"
 #include "microros/rclc_parameters.h"
 #include "microros/rmw_parameters.h"
 

@@ -4,6 +4,7 @@
 
 #include "microros/rclc_parameter_descriptor.h"
 #include "microros/rclc_parameter_out.h"
+#include "microros/rclc_parameter_value.h"
 #include "microros/rclc_parameter_reason.h"
 #include "microros/rclc_parameters.h"
 
@@ -37,13 +38,13 @@ static uint32_t reply_of_names(const void * message, uint8_t * body, uint32_t ro
   const rclc_parameter_server_t * server = message;
   cdr_fault_t fault = {.field = ""};
   cdr_in_t in = rclc_parameter_request_begin(server, &fault);
-  const uint32_t count = rclc_parameter_request_length(&in);
+  const uint32_t count = rclc_parameter_in_length(&in);
   parameter_out_t out = reply_begin(body, room);
   bool known = true;
 
   rclc_parameter_out_4(&out, count);
   for (uint32_t i = 0; i < count; ++i) {
-    const parameter_text_t name = rclc_parameter_request_text(&in);
+    const parameter_text_t name = rclc_parameter_in_text(&in);
     const rclc_parameter_place_t * place = rclc_parameter_find(server, &name);
 
     known = known && (place != NULL || server->allow_undeclared_parameters);
@@ -116,7 +117,7 @@ uint32_t rclc_parameter_reply_results(const void * message, uint8_t * body, cdr_
 {
   const rclc_parameter_server_t * server = message;
   cdr_in_t in = rclc_parameter_request_begin(server, fault);
-  const uint32_t count = rclc_parameter_request_length(&in);
+  const uint32_t count = rclc_parameter_in_length(&in);
   parameter_out_t out = reply_begin(body, rcl_interfaces__srv__SetParameters_Response__MAX_ENCODED_SIZE);
 
   if (server->request_cut != 0u) {
@@ -135,7 +136,7 @@ uint32_t rclc_parameter_reply_result(const void * message, uint8_t * body, cdr_f
 {
   const rclc_parameter_server_t * server = message;
   cdr_in_t in = rclc_parameter_request_begin(server, fault);
-  const uint32_t count = rclc_parameter_request_length(&in);
+  const uint32_t count = rclc_parameter_in_length(&in);
   parameter_out_t out =
     reply_begin(body, rcl_interfaces__srv__SetParametersAtomically_Response__MAX_ENCODED_SIZE);
   parameter_requested_t requested = {.name = {"", 0}, .type = (uint8_t)RCLC_PARAMETER_NOT_SET};
@@ -179,13 +180,13 @@ static bool reply_lists(const rclc_parameter_server_t * server, const rclc_param
   const char * name = place->name;
   cdr_fault_t fault = {.field = ""};
   cdr_in_t in = rclc_parameter_request_begin(server, &fault);
-  const uint32_t count = rclc_parameter_request_length(&in);
+  const uint32_t count = rclc_parameter_in_length(&in);
   bool below = false;
   uint64_t least = UINT64_MAX; /* levels below one of the prefixes */
   uint64_t depth = 0;
 
   for (uint32_t i = 0; i < count; ++i) {
-    const parameter_text_t prefix = rclc_parameter_request_text(&in);
+    const parameter_text_t prefix = rclc_parameter_in_text(&in);
 
     if (reply_is_below(name, &prefix)) {
       const uint64_t levels = name[prefix.size] == '\0' ? 0u : 1u + reply_dots(&name[prefix.size + 1u]);

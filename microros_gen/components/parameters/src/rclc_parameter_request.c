@@ -10,60 +10,6 @@
 
 #include <string.h>
 
-const uint8_t * rclc_parameter_request_take(cdr_in_t * in, uint32_t count, uint32_t width)
-{
-  const uint32_t start = cdr_aligned(in->position, width);
-  const uint64_t bytes = (uint64_t)count * width;
-
-  if (in->failed || start > in->size || bytes > (uint64_t)in->size - start) {
-    cdr_in_refuse(in, CDR_FAULT_END, "request", bytes, in->size - in->position);
-    return NULL;
-  }
-  in->position = start + (uint32_t)bytes;
-  return &in->body[start];
-}
-
-uint32_t rclc_parameter_request_length(cdr_in_t * in)
-{
-  return cdr_in_length(in, 1u, "request");
-}
-
-/* As for ROS, a string ends at its first NUL, or where its length says. */
-parameter_text_t rclc_parameter_request_text(cdr_in_t * in)
-{
-  const uint32_t length = rclc_parameter_request_length(in);
-  const uint8_t * bytes = rclc_parameter_request_take(in, length, 1u);
-  parameter_text_t text = {"", 0};
-
-  if (bytes != NULL) {
-    text.data = (const char *)bytes;
-    while (text.size < length && bytes[text.size] != 0u) {
-      ++text.size;
-    }
-  }
-  return text;
-}
-
-uint32_t rclc_parameter_request_pass(cdr_in_t * in, uint32_t width)
-{
-  const uint32_t count = cdr_in_length(in, width, "request");
-
-  if (count != 0u) {
-    (void)rclc_parameter_request_take(in, count, width);
-  }
-  return count;
-}
-
-uint32_t rclc_parameter_request_pass_texts(cdr_in_t * in)
-{
-  const uint32_t count = rclc_parameter_request_length(in);
-
-  for (uint32_t i = 0; i < count && !in->failed; ++i) {
-    (void)rclc_parameter_request_text(in);
-  }
-  return count;
-}
-
 parameter_requested_t rclc_parameter_request_parameter(cdr_in_t * in)
 {
   parameter_requested_t requested = {.name = {"", 0}, .type = (uint8_t)RCLC_PARAMETER_NOT_SET};
@@ -71,15 +17,15 @@ parameter_requested_t rclc_parameter_request_parameter(cdr_in_t * in)
   int64_t integer = 0;
   double number = 0.0;
 
-  requested.name = rclc_parameter_request_text(in);
+  requested.name = rclc_parameter_in_text(in);
   cdr_get_1(in, &requested.type, 1u, "request");
   cdr_get_bool(in, &truth, 1u, "request");
   cdr_get_8(in, &integer, 1u, "request");
   cdr_get_8(in, &number, 1u, "request");
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
-  requested.string = rclc_parameter_request_text(in);
+  requested.string = rclc_parameter_in_text(in);
 #else
-  (void)rclc_parameter_request_text(in);
+  (void)rclc_parameter_in_text(in);
 #endif
   rclc_parameter_array_request(in, &requested);
   if (requested.type == (uint8_t)RCLC_PARAMETER_BOOL) {
@@ -131,7 +77,7 @@ static void request_keep(cdr_in_t * in, rclc_parameter_server_t * server)
 void rclc_parameter_decode_names(cdr_in_t * in, void * server)
 {
   if (!request_cut(in, server)) {
-    (void)rclc_parameter_request_pass_texts(in);
+    (void)rclc_parameter_in_pass_texts(in);
     request_keep(in, server);
   }
 }
@@ -141,7 +87,7 @@ void rclc_parameter_decode_list(cdr_in_t * in, void * server)
   uint64_t depth;
 
   if (!request_cut(in, server)) {
-    (void)rclc_parameter_request_pass_texts(in);
+    (void)rclc_parameter_in_pass_texts(in);
     cdr_get_8(in, &depth, 1u, "request");
     request_keep(in, server);
   }
@@ -154,7 +100,7 @@ void rclc_parameter_decode_parameters(cdr_in_t * in, void * server)
   if (request_cut(in, server)) {
     return;
   }
-  count = rclc_parameter_request_length(in);
+  count = rclc_parameter_in_length(in);
   for (uint32_t i = 0; i < count && !in->failed; ++i) {
     (void)rclc_parameter_request_parameter(in);
   }

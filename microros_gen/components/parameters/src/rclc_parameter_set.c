@@ -152,7 +152,7 @@ void rclc_parameter_set_each(rclc_parameter_server_t * server)
 {
   cdr_fault_t fault = {.field = ""};
   cdr_in_t in = rclc_parameter_request_begin(server, &fault);
-  const uint32_t count = rclc_parameter_request_length(&in);
+  const uint32_t count = rclc_parameter_in_length(&in);
 
   for (uint32_t i = 0; i < count; ++i) {
     const parameter_requested_t requested = rclc_parameter_request_parameter(&in);
@@ -177,7 +177,7 @@ static bool set_pass(rclc_parameter_server_t * server, set_pass_t pass)
 {
   cdr_fault_t fault = {.field = ""};
   cdr_in_t in = rclc_parameter_request_begin(server, &fault);
-  const uint32_t count = rclc_parameter_request_length(&in);
+  const uint32_t count = rclc_parameter_in_length(&in);
   size_t fresh = 0;
   parameter_outcome_t outcome = PARAMETER_SET;
 

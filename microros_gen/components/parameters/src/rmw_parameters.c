@@ -23,6 +23,6 @@ bool rmw_parameters_have_room(const rmw_publisher_t * publisher)
 void rmw_parameters_answer_large(const rmw_service_t * service, bool answers)
 {
   microros_lock();
-  xrce_parameters_answer_large(service->data, answers);
+  xrce_parameters_keep_beginning(service->data, answers ? (uint8_t)XRCE_PARAMETERS_BEGINNING : 0u);
   microros_unlock();
 }

@@ -223,7 +223,7 @@ static void exchange_out_result(parameter_out_t * out, const rclc_parameter_serv
 {
   cdr_fault_t fault = {.field = ""};
   cdr_in_t in = rclc_parameter_request_begin(server, &fault);
-  const uint32_t count = rclc_parameter_request_length(&in);
+  const uint32_t count = rclc_parameter_in_length(&in);
   parameter_requested_t requested = {.name = {"", 0}, .type = (uint8_t)RCLC_PARAMETER_NOT_SET};
   uint8_t outcome = (uint8_t)(count == 0u ? PARAMETER_NONE : PARAMETER_SET);
   const bool was_set =

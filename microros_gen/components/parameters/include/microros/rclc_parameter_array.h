@@ -42,11 +42,11 @@ void rclc_parameter_out_arrays(parameter_out_t * out, const rclc_parameter_place
 static inline void rclc_parameter_array_request(cdr_in_t * in, const parameter_requested_t * requested)
 {
   (void)requested;
-  (void)rclc_parameter_request_pass(in, 1u);
-  (void)rclc_parameter_request_pass(in, 1u);
-  (void)rclc_parameter_request_pass(in, 8u);
-  (void)rclc_parameter_request_pass(in, 8u);
-  (void)rclc_parameter_request_pass_texts(in);
+  (void)rclc_parameter_in_pass(in, 1u);
+  (void)rclc_parameter_in_pass(in, 1u);
+  (void)rclc_parameter_in_pass(in, 8u);
+  (void)rclc_parameter_in_pass(in, 8u);
+  (void)rclc_parameter_in_pass_texts(in);
 }
 
 static inline bool rclc_parameter_array_fits(

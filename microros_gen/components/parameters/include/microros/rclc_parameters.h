@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "microros/cdr_decode.h"
+#include "microros/rclc_parameter_in.h"
 #include "rclc_parameter/rclc_parameter.h"
 #include "rosidl_runtime_c/message_type_support_struct.h"
 #include "rosidl_runtime_c/service_type_support_struct.h"
@@ -61,12 +62,6 @@ typedef enum parameter_outcome_t {
   PARAMETER_CUT          /* its request was too large to arrive */
 } parameter_outcome_t;
 
-/* A string inside a request; no NUL ends it. */
-typedef struct parameter_text_t {
-  const char * data;
-  uint32_t size;
-} parameter_text_t;
-
 /* A parameter of a request. `type` may be any number; `value` has one for the types that a server holds. */
 typedef struct parameter_requested_t {
   parameter_text_t name;
@@ -100,17 +95,8 @@ typedef struct parameter_state_t {
 /* Begins to read the request that the server has. It was checked when it arrived, so nothing in it fails. */
 cdr_in_t rclc_parameter_request_begin(const rclc_parameter_server_t * server, cdr_fault_t * fault);
 
-/* Read one member and move on. */
-uint32_t rclc_parameter_request_length(cdr_in_t * in);
-parameter_text_t rclc_parameter_request_text(cdr_in_t * in);
-
-/* Returns where `count` elements of `width` bytes are, and moves to the byte after; NULL where the body ends before. */
-const uint8_t * rclc_parameter_request_take(cdr_in_t * in, uint32_t count, uint32_t width);
+/* Reads a parameter and moves on. */
 parameter_requested_t rclc_parameter_request_parameter(cdr_in_t * in);
-
-/* Pass over a sequence of numbers, and one of strings; return how many there are. */
-uint32_t rclc_parameter_request_pass(cdr_in_t * in, uint32_t width);
-uint32_t rclc_parameter_request_pass_texts(cdr_in_t * in);
 
 /* Decoders of message types whose message is the server: they check the request and keep it there. Of one that was too
  * large to arrive they only note the number of its entries, in `request_cut`: it is read as an empty one. */

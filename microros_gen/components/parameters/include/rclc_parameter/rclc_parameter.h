@@ -33,6 +33,7 @@
 #endif
 #include "rclc/executor.h"
 #include "rclc/rclc.h"
+#include "rclc_parameter/parameter_types.h"
 #include "rclc_parameter/visibility_control.h"
 #include "rosidl_runtime_c/primitives_sequence_functions.h"
 #include "rosidl_runtime_c/string_functions.h"
@@ -69,10 +70,6 @@ typedef rcl_interfaces__msg__ParameterDescriptor__Sequence ParameterDescriptor__
 #else
 #define RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES 6
 #endif
-/* The callback refused the value. */
-#define RCLC_PARAMETER_MODIFICATION_REJECTED 4001
-/* The parameter has another type. */
-#define RCLC_PARAMETER_TYPE_MISMATCH 4002
 /* A server in low-memory mode has no descriptions. */
 #define RCLC_PARAMETER_UNSUPORTED_ON_LOW_MEM 4003
 /* The callback called a function that changes parameters. */
@@ -85,20 +82,6 @@ typedef rcl_interfaces__msg__ParameterDescriptor__Sequence ParameterDescriptor__
  */
 typedef bool (*rclc_parameter_callback_t)(
   const Parameter * old_param, const Parameter * new_param, void * context);
-
-/* Values of rcl_interfaces/msg/ParameterType. */
-typedef enum rclc_parameter_type_t {
-  RCLC_PARAMETER_NOT_SET = 0,
-  RCLC_PARAMETER_BOOL,
-  RCLC_PARAMETER_INT,
-  RCLC_PARAMETER_DOUBLE,
-  RCLC_PARAMETER_STRING, /* this and arrays: where the application file declares one, or its limits have a size for them */
-  RCLC_PARAMETER_BYTE_ARRAY,
-  RCLC_PARAMETER_BOOL_ARRAY,
-  RCLC_PARAMETER_INT_ARRAY,
-  RCLC_PARAMETER_DOUBLE_ARRAY,
-  RCLC_PARAMETER_STRING_ARRAY
-} rclc_parameter_type_t;
 
 /*
  * `notify_changed_over_dds`: changes are published on /parameter_events. `max_params`: at most `pools: {parameters: N}` of

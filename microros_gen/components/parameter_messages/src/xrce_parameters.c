@@ -7,9 +7,9 @@
 /* Start of DATA: the submessage's header, request id and object id. */
 enum { PARAMETERS_LENGTH_AT = 2, PARAMETERS_REQUEST_AT = 4, PARAMETERS_OBJECT_AT = 6, SAMPLE_AT = 8 };
 
-void xrce_parameters_answer_large(const xrce_endpoint_t * endpoint, bool answers)
+void xrce_parameters_keep_beginning(const xrce_endpoint_t * endpoint, uint8_t size)
 {
-  endpoint->client->large_answered[endpoint->index - MICROROS_PUBLISHERS_MAX] = answers;
+  endpoint->client->beginnings[endpoint->index - MICROROS_PUBLISHERS_MAX] = size;
 }
 
 /* Keeps the beginning of a DATA that is too large: there are `here` bytes of the `whole` after its header. */
@@ -18,20 +18,22 @@ static void parameters_keep(
 {
   xrce_receiver_t * receiver;
   xrce_sample_t sample;
+  uint8_t size;
 
-  if (here < XRCE_OBJECT_PREFIX + (size_t)XRCE_PARAMETERS_BEGINNING || (data[1] & XRCE_READ_FORMATS) != 0u) {
+  if (here < (size_t)SAMPLE_AT || (data[1] & XRCE_READ_FORMATS) != 0u) {
     return;
   }
   receiver = xrce_read_requested(
     client, xrce_get_be16(&data[PARAMETERS_REQUEST_AT]), xrce_get_be16(&data[PARAMETERS_OBJECT_AT]));
+  size = receiver != NULL ? client->beginnings[receiver - client->receivers] : 0u;
   if (
-    receiver == NULL || !client->large_answered[receiver - client->receivers] ||
+    size == 0u || here < XRCE_OBJECT_PREFIX + (size_t)size ||
     whole <= (size_t)xrce_read_largest(client, receiver) + XRCE_OBJECT_PREFIX) {
     return;
   }
   sample.data = &data[SAMPLE_AT];
   sample.arrived_ms = now;
-  sample.size = (uint16_t)XRCE_PARAMETERS_BEGINNING;
+  sample.size = size;
   sample.big_endian = (data[1] & XRCE_FLAG_LITTLE_ENDIAN) == 0u;
   xrce_read_keep(client, receiver, &sample, true);
 }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Writes parts of replies and events as CDR, within the room that a message has. Internal. */
+/* Writes parts of messages of parameters as CDR, within the room that a message has. Internal. */
 #ifndef MICROROS_RCLC_PARAMETER_OUT_H
 #define MICROROS_RCLC_PARAMETER_OUT_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "microros/rclc_parameters.h"
+#include "microros/rclc_parameter_in.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -32,9 +32,6 @@ void rclc_parameter_out_bytes(parameter_out_t * out, uint32_t width, const void 
 /* Writes a string of several pieces, one after the other. */
 void rclc_parameter_out_parts(parameter_out_t * out, const parameter_text_t * parts, uint32_t count);
 void rclc_parameter_out_text(parameter_out_t * out, const char * text);
-
-/* Writes an rcl_interfaces/msg/ParameterValue; without a value for a NULL place. */
-void rclc_parameter_out_value(parameter_out_t * out, const rclc_parameter_place_t * place);
 
 #ifdef __cplusplus
 }

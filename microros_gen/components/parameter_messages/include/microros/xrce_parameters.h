@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Requests that are larger than the slot they would wait in. They are refused and reported as any sample is, and their
- * beginning waits in their place: so the service can answer them, in their turn. Internal.
+ * Messages that are larger than the slot they would wait in. They are refused and reported as any sample is, and their
+ * beginning waits in their place: so a service can answer a request, and a client end a call, in its turn. Internal.
  */
 #ifndef MICROROS_XRCE_PARAMETERS_H
 #define MICROROS_XRCE_PARAMETERS_H
 
-#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -17,11 +16,11 @@
 extern "C" {
 #endif
 
-/* Bytes of the beginning: the identity, and the length of the list that the request begins with. */
+/* Bytes of the beginning of a request: the identity, and the length of the list that it begins with. */
 enum { XRCE_PARAMETERS_BEGINNING = XRCE_IDENTITY_SIZE + 4 };
 
-/* Sets whether the service of an endpoint answers such requests. */
-void xrce_parameters_answer_large(const xrce_endpoint_t * endpoint, bool answers);
+/* Sets how many bytes of such messages an endpoint gets; 0: none of them. */
+void xrce_parameters_keep_beginning(const xrce_endpoint_t * endpoint, uint8_t size);
 
 /* --- called by xrce_routes.c --- */
 

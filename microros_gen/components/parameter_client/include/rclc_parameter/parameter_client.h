@@ -1,0 +1,277 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Parameters of other nodes: get, set, list and watch. Each node is declared in the application file, below
+ * `parameter_clients` of an own node, with the operations that are called. Nothing is allocated.
+ *
+ * Every call has two forms. The one that ends with _async returns at once, and its callback gets the result in a spin of
+ * the executor that runs the client. The other one waits for the result; it is refused in a callback of that executor. A
+ * client has one call at a time. The result of a call, whatever its form, is read by the functions below
+ * (rclc_parameter_client_value and others); what they give is valid until the client's next call or spin.
+ *
+ * All functions and the executor of a client belong to one task. A function that returns no RCL_RET_OK leaves a text behind
+ * rcl_get_error_string(). So does a callback's result, during the callback.
+ */
+#ifndef MICROROS_RCLC_PARAMETER_CLIENT_H
+#define MICROROS_RCLC_PARAMETER_CLIENT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "microros_config.h"
+#include "rcl/client.h"
+#include "rcl/error_handling.h"
+#include "rcl/rcl.h"
+#include "rcl/types.h"
+#include "rclc/executor.h"
+#include "rclc/rclc.h"
+#include "rclc_parameter/parameter_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The node has no such parameter. */
+#define RCLC_PARAMETER_CLIENT_UNKNOWN 4011
+/* A call has no result yet. */
+#define RCLC_PARAMETER_CLIENT_BUSY 4012
+/* A call that waits was made in a callback of the client's executor. */
+#define RCLC_PARAMETER_CLIENT_IN_CALLBACK 4013
+/* More parameters, a longer name or a larger value than the limits of the application file. */
+#define RCLC_PARAMETER_CLIENT_LIMIT 4014
+
+/* A value. Strings end with a NUL; `count` is the number of elements of an array. */
+typedef struct rclc_parameter_client_value_t {
+  rclc_parameter_type_t type;
+  size_t count;
+  union {
+    bool bool_value;
+    int64_t integer_value;
+    double double_value;
+    const char * string_value;
+    const uint8_t * byte_array_value;
+    const bool * bool_array_value;
+    const int64_t * integer_array_value;
+    const double * double_array_value;
+    const char * const * string_array_value;
+  } as;
+} rclc_parameter_client_value_t;
+
+/* A parameter to be set. Without a type (RCLC_PARAMETER_NOT_SET) it is to be deleted. */
+typedef struct rclc_parameter_client_parameter_t {
+  const char * name;
+  rclc_parameter_client_value_t value;
+} rclc_parameter_client_parameter_t;
+
+/* What happened to a parameter that is watched. */
+typedef enum rclc_parameter_client_change_t {
+  RCLC_PARAMETER_CLIENT_NEW,
+  RCLC_PARAMETER_CLIENT_CHANGED,
+  RCLC_PARAMETER_CLIENT_DELETED,
+  RCLC_PARAMETER_CLIENT_MISSED /* an event did not fit, or was damaged: any parameter may have changed */
+} rclc_parameter_client_change_t;
+
+struct rclc_parameter_client_t;
+struct rclc_parameter_client_remote_t; /* microros/rclc_parameter_client.h */
+
+/* `result` is what the waiting form of the call returns. The next call may be made. */
+typedef void (*rclc_parameter_client_callback_t)(
+  struct rclc_parameter_client_t * client, rcl_ret_t result, void * context);
+
+/* Called once for each parameter of an event; `name` is "" and `value` NULL for RCLC_PARAMETER_CLIENT_MISSED. Both are
+ * only valid during the call, in which no call of the client may be made, nor the client be finalized. */
+typedef void (*rclc_parameter_client_event_callback_t)(
+  struct rclc_parameter_client_t * client, rclc_parameter_client_change_t change, const char * name,
+  const rclc_parameter_client_value_t * value, void * context);
+
+/* The services of a client, and its calls. */
+enum {
+  RCLC_PARAMETER_CLIENT_GET,
+  RCLC_PARAMETER_CLIENT_SET,
+  RCLC_PARAMETER_CLIENT_SET_ATOMICALLY,
+  RCLC_PARAMETER_CLIENT_LIST,
+  RCLC_PARAMETER_CLIENT_CALLS
+};
+
+/* A client. The members are the library's; the struct stays where it was initialized. */
+typedef struct rclc_parameter_client_t {
+  rcl_client_t services[RCLC_PARAMETER_CLIENT_CALLS];
+  const rcl_node_t * node;
+  const struct rclc_parameter_client_remote_t * remote; /* the other node */
+  struct rclc_parameter_client_t * next;
+  const rclc_executor_t * executor;
+  rclc_parameter_client_callback_t callback;
+  void * context;
+  rclc_parameter_client_event_callback_t event_callback;
+  void * event_context;
+  const void * items; /* names or parameters of the request, while it is written */
+  size_t count;       /* of them; then of the response */
+  size_t asked;       /* items of the request */
+  uint64_t depth;
+  int64_t sequence;
+  uint32_t start_ms;
+  uint32_t timeout_ms;
+  uint32_t size;   /* bytes of `message` */
+  uint32_t start;  /* of what is read */
+  uint8_t call;    /* that `message` is the response of; RCLC_PARAMETER_CLIENT_CALLS: none */
+  bool swaps;      /* its numbers are in the other byte order */
+  bool is_busy;    /* a call has no result yet */
+  bool is_calling; /* the executor calls callbacks */
+  bool in_event;   /* the event's callback is called */
+#if MICROROS_PARAMETER_CLIENT_ELEMENTS > 0u
+  const char * strings[MICROROS_PARAMETER_CLIENT_ELEMENTS]; /* of the array that was read last */
+#endif
+  union {
+    uint8_t bytes[MICROROS_PARAMETER_CLIENT_MESSAGE_SIZE];
+    int64_t integer; /* aligns the numbers of arrays */
+    double number;
+  } message;
+} rclc_parameter_client_t;
+
+/*
+ * Opens the endpoints that are declared for `remote`, the fully qualified name of another node ("/arm/motor"), which need
+ * not run. Waits for the agent at most MICROROS_CREATE_TIMEOUT_MS for each. `client` may be uninitialized; `node` must
+ * outlive it. RCL_RET_INVALID_ARGUMENT; else what rcl_client_init returns.
+ */
+rcl_ret_t rclc_parameter_client_init_default(
+  rclc_parameter_client_t * client, rcl_node_t * node, const char * remote);
+
+/* Closes the endpoints. A call without a result gets none. First remove the client from its executor. */
+rcl_ret_t rclc_parameter_client_fini(rclc_parameter_client_t * client, rcl_node_t * node);
+
+/* Runs the callbacks of a client: one handle. All clients of a node that watch have one executor. */
+rcl_ret_t rclc_executor_add_parameter_client(rclc_executor_t * executor, rclc_parameter_client_t * client);
+rcl_ret_t rclc_executor_remove_parameter_client(rclc_executor_t * executor, rclc_parameter_client_t * client);
+
+/* --- calls --- */
+/*
+ * `timeout_ms`: how long the response may take, 1 ms to 24 days. What is passed is only read during the call.
+ *
+ * The waiting forms return RCL_RET_OK, or RCL_RET_TIMEOUT: no response, the node does not run or was restarted;
+ * RCL_RET_ERROR: no session, the session was lost meanwhile (whether a value was set is not known), the response is larger
+ * than the limits or damaged, or the operation is not declared; RCLC_PARAMETER_CLIENT_BUSY, _IN_CALLBACK and _LIMIT;
+ * RCL_RET_INVALID_ARGUMENT. The asynchronous forms return the same where no request was sent, and call the callback
+ * otherwise.
+ */
+
+#if MICROROS_PARAMETER_CLIENT_GETS
+/* Gets parameters. RCLC_PARAMETER_CLIENT_UNKNOWN: the node knows one of them not, and gives none (rclcpp); rclpy gives the
+ * others, and rclc_parameter_client_value tells. */
+rcl_ret_t rclc_parameter_client_get(
+  rclc_parameter_client_t * client, const char * const * names, size_t count, uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_get_async(
+  rclc_parameter_client_t * client, const char * const * names, size_t count, uint32_t timeout_ms,
+  rclc_parameter_client_callback_t callback, void * context);
+
+/* Gives value `index` of the names that were asked for. RCLC_PARAMETER_CLIENT_UNKNOWN: the node does not know it, or it
+ * has no value; RCL_RET_INVALID_ARGUMENT: there is no such value. */
+rcl_ret_t rclc_parameter_client_value(
+  rclc_parameter_client_t * client, size_t index, rclc_parameter_client_value_t * value);
+
+/* Get one value and wait for it. RCLC_PARAMETER_TYPE_MISMATCH: it has another type; RCLC_PARAMETER_CLIENT_UNKNOWN. */
+rcl_ret_t rclc_parameter_client_get_bool(
+  rclc_parameter_client_t * client, const char * name, bool * output, uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_get_int(
+  rclc_parameter_client_t * client, const char * name, int64_t * output, uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_get_double(
+  rclc_parameter_client_t * client, const char * name, double * output, uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_get_string(
+  rclc_parameter_client_t * client, const char * name, const char ** output, uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_get_byte_array(
+  rclc_parameter_client_t * client, const char * name, const uint8_t ** output, size_t * count,
+  uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_get_bool_array(
+  rclc_parameter_client_t * client, const char * name, const bool ** output, size_t * count,
+  uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_get_int_array(
+  rclc_parameter_client_t * client, const char * name, const int64_t ** output, size_t * count,
+  uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_get_double_array(
+  rclc_parameter_client_t * client, const char * name, const double ** output, size_t * count,
+  uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_get_string_array(
+  rclc_parameter_client_t * client, const char * name, const char * const ** output, size_t * count,
+  uint32_t timeout_ms);
+#endif
+
+#if MICROROS_PARAMETER_CLIENT_SETS
+/* Sets parameters, each by itself. RCLC_PARAMETER_MODIFICATION_REJECTED: the node refused one of them, for the reason in
+ * the text. */
+rcl_ret_t rclc_parameter_client_set(
+  rclc_parameter_client_t * client, const rclc_parameter_client_parameter_t * parameters, size_t count,
+  uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_set_async(
+  rclc_parameter_client_t * client, const rclc_parameter_client_parameter_t * parameters, size_t count,
+  uint32_t timeout_ms, rclc_parameter_client_callback_t callback, void * context);
+
+/* Set one value and wait for it to be set. */
+rcl_ret_t rclc_parameter_client_set_bool(
+  rclc_parameter_client_t * client, const char * name, bool value, uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_set_int(
+  rclc_parameter_client_t * client, const char * name, int64_t value, uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_set_double(
+  rclc_parameter_client_t * client, const char * name, double value, uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_set_string(
+  rclc_parameter_client_t * client, const char * name, const char * value, uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_set_byte_array(
+  rclc_parameter_client_t * client, const char * name, const uint8_t * values, size_t count,
+  uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_set_bool_array(
+  rclc_parameter_client_t * client, const char * name, const bool * values, size_t count,
+  uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_set_int_array(
+  rclc_parameter_client_t * client, const char * name, const int64_t * values, size_t count,
+  uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_set_double_array(
+  rclc_parameter_client_t * client, const char * name, const double * values, size_t count,
+  uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_set_string_array(
+  rclc_parameter_client_t * client, const char * name, const char * const * values, size_t count,
+  uint32_t timeout_ms);
+#endif
+
+#if MICROROS_PARAMETER_CLIENT_SETS_ATOMICALLY
+/* Sets all of them, or none. */
+rcl_ret_t rclc_parameter_client_set_atomically(
+  rclc_parameter_client_t * client, const rclc_parameter_client_parameter_t * parameters, size_t count,
+  uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_set_atomically_async(
+  rclc_parameter_client_t * client, const rclc_parameter_client_parameter_t * parameters, size_t count,
+  uint32_t timeout_ms, rclc_parameter_client_callback_t callback, void * context);
+#endif
+
+#if MICROROS_PARAMETER_CLIENT_SETS || MICROROS_PARAMETER_CLIENT_SETS_ATOMICALLY
+/* Tells what became of parameter `index` of a set; one set atomically has one result for all. *reason gets the node's
+ * words, "" for success, and may be NULL. RCLC_PARAMETER_MODIFICATION_REJECTED; RCL_RET_INVALID_ARGUMENT. */
+rcl_ret_t rclc_parameter_client_outcome(rclc_parameter_client_t * client, size_t index, const char ** reason);
+#endif
+
+#if MICROROS_PARAMETER_CLIENT_LISTS
+/* Lists the names of parameters that begin with one of `count` prefixes; none: all. `depth` as in
+ * rcl_interfaces/srv/ListParameters; 0: any. */
+rcl_ret_t rclc_parameter_client_list(
+  rclc_parameter_client_t * client, const char * const * prefixes, size_t count, uint64_t depth,
+  uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_list_async(
+  rclc_parameter_client_t * client, const char * const * prefixes, size_t count, uint64_t depth,
+  uint32_t timeout_ms, rclc_parameter_client_callback_t callback, void * context);
+
+/* Returns name `index` of a list, or NULL. */
+const char * rclc_parameter_client_name(rclc_parameter_client_t * client, size_t index);
+#endif
+
+/* Returns the number of values, results or names of the last call's response; 0 where it failed. */
+size_t rclc_parameter_client_count(const rclc_parameter_client_t * client);
+
+#if MICROROS_PARAMETER_CLIENT_WATCHES
+/* Calls `callback` for each change of the node's parameters from now on; NULL: no longer. RCL_RET_ERROR: the operation is
+ * not declared, or another executor runs a client of this node that watches. */
+rcl_ret_t rclc_parameter_client_watch(
+  rclc_parameter_client_t * client, rclc_parameter_client_event_callback_t callback, void * context);
+#endif
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCLC_PARAMETER_CLIENT_H */

@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/rclc_parameter_client.h"
+
+#include "microros/error.h"
+#include "microros/lock.h"
+#include "microros/rclc_parameter_client_hooks.h"
+#include "microros/rmw_node.h"
+#include "microros/text.h"
+#include "rclc/client.h"
+
+#include <string.h>
+
+enum { LONGEST_SERVICE = 28 }; /* bytes of the longest of client_services, with its NUL */
+
+static rclc_parameter_client_t * client_first; /* of those that are open */
+
+rclc_parameter_client_t * rclc_parameter_client_first(void)
+{
+  return client_first;
+}
+
+rcl_ret_t rclc_parameter_client_refuse(
+  const rclc_parameter_client_t * client, rcl_ret_t result, const char * why)
+{
+  microros_error_set(microros_error_parameter_client, client->remote->name, why, 0, 0);
+  return result;
+}
+
+rcl_ret_t rclc_parameter_client_refuse_limit(
+  const rclc_parameter_client_t * client, const char * what, size_t found, size_t fits)
+{
+  microros_error_set(
+    microros_error_parameter_client_limit, client->remote->name, what, (uint32_t)found, (uint32_t)fits);
+  return RCLC_PARAMETER_CLIENT_LIMIT;
+}
+
+static void client_link(rclc_parameter_client_t * client)
+{
+  microros_lock();
+  client->next = client_first;
+  client_first = client;
+  microros_unlock();
+}
+
+/* Returns whether the client was open; it is not any longer. */
+static bool client_unlink(const rclc_parameter_client_t * client)
+{
+  rclc_parameter_client_t ** link = &client_first;
+  bool found;
+
+  microros_lock();
+  while (*link != NULL && *link != client) {
+    link = &(*link)->next;
+  }
+  found = *link != NULL;
+  if (found) {
+    *link = client->next;
+  }
+  microros_unlock();
+  return found;
+}
+
+static const rclc_parameter_client_remote_t * client_remote(const rcl_node_t * node, const char * name)
+{
+  const uint16_t index = rmw_node_index(node->impl);
+
+  for (size_t i = 0; i < MICROROS_PARAMETER_CLIENTS; ++i) {
+    const rclc_parameter_client_remote_t * remote = &rclc_parameter_client_remotes[i];
+
+    if (remote->node == index && microros_text_equals(remote->name, name)) {
+      return remote;
+    }
+  }
+  return NULL;
+}
+
+static rcl_ret_t client_open(rclc_parameter_client_t * client)
+{
+  static const char * const services[RCLC_PARAMETER_CLIENT_CALLS] = {
+    "/get_parameters", "/set_parameters", "/set_parameters_atomically", "/list_parameters"};
+  const size_t size = microros_text_size(client->remote->name);
+  rcl_ret_t result = RCL_RET_OK;
+
+  for (uint32_t i = 0; i < (uint32_t)RCLC_PARAMETER_CLIENT_CALLS && result == RCL_RET_OK; ++i) {
+    char name[MICROROS_PARAMETER_CLIENT_NODE_SIZE + LONGEST_SERVICE];
+
+    if ((client->remote->calls >> i & 1u) != 0u) {
+      (void)memcpy(name, client->remote->name, size);
+      (void)memcpy(&name[size], services[i], microros_text_size(services[i]) + 1u);
+      result = rclc_client_init(
+        &client->services[i], client->node, rclc_parameter_client_types[i], name,
+        &rmw_qos_profile_parameters);
+    }
+  }
+  return result;
+}
+
+static rcl_ret_t client_close(rclc_parameter_client_t * client, rcl_node_t * node)
+{
+  rcl_ret_t first = RCL_RET_OK;
+
+  for (uint32_t i = 0; i < (uint32_t)RCLC_PARAMETER_CLIENT_CALLS; ++i) {
+    const rcl_ret_t result = rcl_client_fini(&client->services[i], node);
+
+    first = first == RCL_RET_OK ? result : first;
+  }
+  return first;
+}
+
+rcl_ret_t rclc_parameter_client_init_default(
+  rclc_parameter_client_t * client, rcl_node_t * node, const char * remote)
+{
+  rcl_ret_t result;
+
+  if (client == NULL || remote == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "client or remote");
+  }
+  if (!rcl_node_is_valid(node)) {
+    return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
+  }
+  if (client_unlink(client)) {
+    client_link(client);
+    return rclc_parameter_client_refuse(
+      client, RCL_RET_ALREADY_INIT, MICROROS_ERROR_WORDS("the client is open already"));
+  }
+  (void)memset(client, 0, sizeof(*client)); /* it may be uninitialized memory */
+  client->node = node;
+  client->call = (uint8_t)RCLC_PARAMETER_CLIENT_CALLS;
+  client->remote = client_remote(node, remote);
+  if (client->remote == NULL) {
+    return microros_error_named(RCL_RET_ERROR, microros_error_parameter_client_undeclared, remote);
+  }
+  result = client_open(client);
+  if (result == RCL_RET_OK) {
+    client_link(client);
+  } else {
+    (void)client_close(client, node); /* the first error is told */
+  }
+  return result;
+}
+
+rcl_ret_t rclc_parameter_client_fini(rclc_parameter_client_t * client, rcl_node_t * node)
+{
+  if (client == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "client");
+  }
+  if (!rcl_node_is_valid_except_context(node)) {
+    return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
+  }
+  if (!client_unlink(client)) {
+    return RCL_RET_OK;
+  }
+  client->is_busy = false;
+  rclc_parameter_client_unwatch(client);
+  return client_close(client, node);
+}
+
+static void client_note_round(const rclc_executor_t * executor, bool calls)
+{
+  microros_lock();
+  for (rclc_parameter_client_t * client = client_first; client != NULL; client = client->next) {
+    if (client->executor == executor) {
+      client->is_calling = calls;
+    }
+  }
+  microros_unlock();
+}
+
+void rclc_parameter_client_round_begins(const rclc_executor_t * executor)
+{
+  client_note_round(executor, true);
+}
+
+void rclc_parameter_client_round_ends(const rclc_executor_t * executor)
+{
+  client_note_round(executor, false);
+}
+
+size_t rclc_parameter_client_count(const rclc_parameter_client_t * client)
+{
+  return client != NULL && !client->is_busy && client->call < (uint8_t)RCLC_PARAMETER_CLIENT_CALLS
+           ? client->count
+           : 0u;
+}

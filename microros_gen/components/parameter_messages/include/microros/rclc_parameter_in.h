@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Reads parts of messages of parameters where they are, without a copy. Internal. */
+#ifndef MICROROS_RCLC_PARAMETER_IN_H
+#define MICROROS_RCLC_PARAMETER_IN_H
+
+#include <stdint.h>
+
+#include "microros/cdr_decode.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A string inside a message; no NUL ends it. */
+typedef struct parameter_text_t {
+  const char * data;
+  uint32_t size;
+} parameter_text_t;
+
+/* Read one member and move on. */
+uint32_t rclc_parameter_in_length(cdr_in_t * in);
+parameter_text_t rclc_parameter_in_text(cdr_in_t * in);
+
+/* Returns where `count` elements of `width` bytes are, and moves to the byte after; NULL where the body ends before. */
+const uint8_t * rclc_parameter_in_take(cdr_in_t * in, uint32_t count, uint32_t width);
+
+/* Pass over a sequence of numbers, and one of strings; return how many there are. */
+uint32_t rclc_parameter_in_pass(cdr_in_t * in, uint32_t width);
+uint32_t rclc_parameter_in_pass_texts(cdr_in_t * in);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RCLC_PARAMETER_IN_H */
