@@ -200,7 +200,7 @@ class ParameterDecl:
 class ParameterClientDecl:
     """Another node, by its fully qualified name, and what is done with its parameters: get, set, …, watch.
 
-    At most `parameters` in a call or event; `string`: bytes of a string, without its terminator; `elements` of an array.
+    At most `parameters` of a call or event. `string`: bytes of a string without its terminator; `elements`: of arrays.
     """
 
     node: str

@@ -21,21 +21,30 @@ def parameter_paths(application: Application, near: Path) -> Iterator[Path]:
             yield near / node.parameter_file.name
 
 
-def with_parameter_files(application: Application, near: Path, diagnostics: Diagnostics) -> Application:
-    """Return the application with what its parameter files declare."""
-    nodes = tuple(_with_file(node, near, diagnostics) for node in application.nodes)
-    return replace(application, nodes=nodes)
+def with_parameter_files(
+    application: Application, near: Path, diagnostics: Diagnostics
+) -> tuple[Application, tuple[Source, ...]]:
+    """Return the application with what its parameter files declare, and these files as they were read."""
+    read = [(node, _source(node, near, diagnostics)) for node in application.nodes]
+    nodes = tuple(_with_file(node, source, diagnostics) for node, source in read)
+    return replace(application, nodes=nodes), tuple(source for _, source in read if source is not None)
 
 
-def _with_file(node: NodeDecl, near: Path, diagnostics: Diagnostics) -> NodeDecl:
-    if node.parameter_file is None:
+def _with_file(node: NodeDecl, source: Source | None, diagnostics: Diagnostics) -> NodeDecl:
+    if source is None:
         return node
+    return with_declarations(node, parse_parameter_file(source, diagnostics), diagnostics)
+
+
+def _source(node: NodeDecl, near: Path, diagnostics: Diagnostics) -> Source | None:
+    """Read the file that a node names; None where it names none, or it cannot be read."""
+    if node.parameter_file is None:
+        return None
     path = near / node.parameter_file.name
     try:
-        source = Source(str(path), read_text(path))
+        return Source(str(path), read_text(path))
     except (OSError, UnicodeDecodeError) as error:
         message = f"cannot read the parameter file '{path}': {reason_of(error)}"
         hint = "Its path is relative to the folder of this file"
         diagnostics.error(message, node.parameter_file.span, hint, id="MG-3073")
-        return node
-    return with_declarations(node, parse_parameter_file(source, diagnostics), diagnostics)
+        return None

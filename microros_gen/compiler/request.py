@@ -9,7 +9,7 @@ from pathlib import Path
 
 from microros_gen.application.find import read_application
 from microros_gen.application.model import Application, TargetRef, Transport, component_change
-from microros_gen.application.parameter_find import parameter_paths, with_parameter_files
+from microros_gen.application.parameter_find import with_parameter_files
 from microros_gen.application.parser import parse_agent_address, parse_application, parse_discover
 from microros_gen.compiler.options import Options
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, Span
@@ -60,10 +60,9 @@ def request_of(source: Source | None, near: Path, options: Options, diagnostics:
     diagnostics.check()
     assert application is not None
     inputs = {"microros.yaml": source.text.encode()} if source else {}
-    application = with_parameter_files(application, near, diagnostics)
+    application, parameter_files = with_parameter_files(application, near, diagnostics)
     diagnostics.check()
-    for path in parameter_paths(application, near):
-        inputs[f"parameter file {path.name}"] = path.read_bytes()
+    inputs |= {f"parameter file {Path(file.name).name}": file.text.encode() for file in parameter_files}
     application, of_file = take_extensions(application, near, diagnostics)
     application = _with_options(application, options, diagnostics)
     application, of_options = take_extensions(application, Path(), diagnostics)

@@ -40,7 +40,7 @@ def declared_components(application: Application) -> Iterator[Demand]:
         for client in node.parameter_clients:
             yield Demand("parameter_client", "a client of parameters", client.span)
             if "watch" in client.operations:
-                yield Demand("subscribe", "a client that watches parameters", client.span)
+                yield Demand(KIND["subscription"].component, "a client that watches parameters", client.span)
         for executor in node.executors:
             yield Demand("executor", "an executor", executor.span)
 

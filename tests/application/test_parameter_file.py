@@ -178,6 +178,24 @@ def test_a_node_has_those_of_the_file_first(tmp_path: Path) -> None:
     assert file in set(read_paths(found))
 
 
+def test_a_file_is_read_once(tmp_path: Path) -> None:
+    """What is declared and what the manifest has are of the same bytes, whatever happens to the file meanwhile."""
+    opened: list[str] = []
+
+    def count(event: str, arguments: tuple[Any, ...]) -> None:
+        if event == "open" and str(arguments[0]).endswith("motor.yaml") and watched:
+            opened.append(str(arguments[0]))
+
+    watched = [True]
+    sys.addaudithook(count)
+    (tmp_path / "config").mkdir()
+    (tmp_path / "config" / "motor.yaml").write_text(GOOD)
+    opened.clear()
+    compiler.render(planned(tmp_path))
+    watched.clear()
+    assert len(opened) == 1
+
+
 @pytest.mark.parametrize(
     ("text", "expected"),
     [

@@ -52,7 +52,7 @@ SERVICES = (
 
 @dataclass(frozen=True)
 class Remote:
-    """Another node: its fully qualified name, the index of the own node, and its operations; `calls` has a bit for each."""
+    """Another node: its fully qualified name, the index of the own node, and what is done with its parameters."""
 
     name: str
     node: int
@@ -149,6 +149,11 @@ def plan(given: Given, diagnostics: Diagnostics) -> ParameterClientPlan:
         for index, node in enumerate(application.nodes)
         for client in node.parameter_clients
     )
+    if not remotes:
+        message = "the component 'parameter_client' has no client: no node declares another one"
+        span = application.spans.get("components") or application.spans.get("profiles")
+        hint = "Add to a node: `parameter_clients: [{node: /motor}]`"
+        diagnostics.error(message, span, hint, id="MG-7090")
     used = {operation for remote in remotes for operation in remote.operations}
     services = tuple(service for service in SERVICES if service.call in used)
     received = [TypeName(_PACKAGE, "srv", f"{service.type}_Response") for service in services]
@@ -169,7 +174,9 @@ def plan(given: Given, diagnostics: Diagnostics) -> ParameterClientPlan:
 def record(part: ParameterClientPlan) -> object:
     """Return what the plan id is made of."""
     return {
-        "remotes": [[remote.name, remote.node, remote.calls, "watch" in remote.operations] for remote in part.remotes],
+        "remotes": [
+            [remote.name, remote.node, remote.calls, "watch" in remote.operations] for remote in part.remotes
+        ],
         "sizes": [part.parameters, part.elements, part.name_size, part.string_size, part.message_size],
     }
 
@@ -192,7 +199,9 @@ def limits(application: Application) -> tuple[LimitRule, ...]:
         rules.append(_rule("msg/SetParametersResult", "reason", LONGEST_REASON))
     if "list" in used:
         rules.append(_rule("srv/ListParameters_Request", "prefixes", LONGEST_NAME, count))
-        rules += [_rule("msg/ListParametersResult", part, LONGEST_NAME, count) for part in ("names", "prefixes")]
+        rules += [
+            _rule("msg/ListParametersResult", part, LONGEST_NAME, count) for part in ("names", "prefixes")
+        ]
     if "watch" in used:
         rules += _event(max(len(client.node) for client in clients), count)
     configured = {rule.path for rule in application.limits}
@@ -216,7 +225,9 @@ def _event(node: int, count: int) -> Iterator[LimitRule]:
 
 def _most(application: Application, key: str) -> int:
     """Return the largest number of the clients for a key of theirs."""
-    return max((getattr(client, key) for node in application.nodes for client in node.parameter_clients), default=0)
+    return max(
+        (getattr(client, key) for node in application.nodes for client in node.parameter_clients), default=0
+    )
 
 
 def _rule(name: str, member: str, string: int | None, sequence: int | None = None) -> LimitRule:

@@ -176,6 +176,9 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "parameters_held_every": _NODES.replace("    publishers:\n", "")
         + EVERY_PARAMETER.replace("parameters:\n", "parameters:\n      at: agent\n      declare:\n")
         + "components: [+parameters]\nlogging: callback\n",
+        "parameter_client": _NODES
+        + "    parameter_clients: [{node: /motor, operations: [get, set, set_atomically, list, watch], elements: 3}]\n"
+        + "components: [+parameter_client, +subscribe, +multithread]\n",
         "graph": _NODES + _SURE + "components: [+graph, +multithread]\nmemory: {arena: 4096}\n",
         "services_less": _SERVED.replace("20", "9") + _ASKED.replace("9", "20"),
         "lent_tcp": _READER + _ALONE + "transport: {type: tcp, agent: '127.0.0.1:8888'}\n",

@@ -5,6 +5,7 @@
 #include "microros/rclc_parameter_descriptor.h"
 #include "microros/rclc_parameter_held.h"
 #include "microros/rclc_parameter_reason.h"
+#include "microros/rclc_parameter_value.h"
 #include "microros/rmw_parameters_held.h"
 #include "microros/service_type.h"
 #include "microros/text.h"

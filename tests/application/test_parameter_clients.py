@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`parameter_clients:` of a node: what is declared, and what it can get wrong."""
+
+from __future__ import annotations
+
+import pytest
+
+from microros_gen.application.model import ParameterClientDecl
+from microros_gen.application.parser import parse_application
+from microros_gen.diagnostics import Diagnostics, Source
+from tests.support.ids import without_id
+
+NODE = "nodes:\n  - name: device\n    namespace: /arm\n    parameter_clients: "
+
+
+def parse(clients: str) -> tuple[tuple[ParameterClientDecl, ...], list[str]]:
+    found = Diagnostics()
+    application = parse_application(Source("f", f"{NODE}{clients}\n"), found)
+    nodes = application.nodes if application else ()
+    return (nodes[0].parameter_clients if nodes else ()), [without_id(d.headline()) for d in found]
+
+
+def test_a_text_is_short_for_the_node() -> None:
+    clients, errors = parse(
+        "[/motor, wheel, {node: ~/child, operations: [get, watch], string: 0, elements: 7}]"
+    )
+    assert errors == []
+    first, second, third = clients
+    assert (first.node, first.operations) == ("/motor", ("get", "set"))
+    assert (first.parameters, first.string, first.elements) == (4, 49, 0)
+    assert second.node == "/arm/wheel"
+    assert (third.node, third.operations) == ("/arm/device/child", ("get", "watch"))
+    assert (third.string, third.elements) == (0, 7)
+
+
+ERRORS = {
+    "twice": ("[/motor, {node: /motor}]", "duplicate parameter client '/motor'; the first is in line 4"),
+    "no node": ("[{operations: [get]}]", "missing key 'node'"),
+    "no name": ("['']", "the node '' is empty"),
+    "a character": ("[/mo-tor]", "the node '/mo-tor' has the character '-'"),
+    "a slash too many": ("[/motor/]", "the node '/motor/' ends with a slash"),
+    "a long name": (f"[/{'n' * 230}]", "is 257 characters long"),
+    "an unknown operation": ("[{node: /motor, operations: [gets]}]", "Did you mean 'get'?"),
+    "no operation": ("[{node: /motor, operations: []}]", "operations"),
+    "an operation twice": ("[{node: /motor, operations: [get, get]}]", "operations"),
+    "watch alone": (
+        "[{node: /motor, operations: [watch]}]",
+        "the client of '/motor' calls nothing: an executor runs it for a call. Write operations: [get, watch]",
+    ),
+    "no parameter": ("[{node: /motor, parameters: 0}]", "parameters"),
+    "a string of less than nothing": ("[{node: /motor, string: -1}]", "string"),
+    "an unknown key": ("[{node: /motor, element: 3}]", "Did you mean 'elements'?"),
+}
+
+
+@pytest.mark.parametrize("case", ERRORS)
+def test_errors_with_their_place(case: str) -> None:
+    text, expected = ERRORS[case]
+    _, errors = parse(text)
+    assert len(errors) == 1
+    assert errors[0].startswith("f:4:")
+    assert expected in errors[0]
