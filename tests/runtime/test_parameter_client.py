@@ -305,6 +305,9 @@ def test_requests_above_the_limits(device: Device) -> None:
     assert "a string has 13, 12 fit" in fails(f"set 9 list a {'x' * 13}", LIMIT)
     assert "a name has 50, 49 fit" in fails(f"async_names {'n' * 50}", LIMIT)
     assert device.agent.seen == []
+    device.agent.parameters["texts"] = (STRINGS, ["a", "b"])
+    device.client.ok("capacity 1")
+    assert "an array has 2, 1 fit" in fails("get 9 texts", LIMIT)
     device.agent.parameters["n" * 49] = (INT, 1)
     assert device.lines(f"names {' '.join(['n' * 49] * 4)}") == ["value 2 1"] * 4
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from microros_gen.application.model import Application, EndpointDecl, LimitRule, NodeDecl, Qos
-from microros_gen.client.plan.features import Given, refuse_own_limits
+from microros_gen.client.plan.features import PlanContext, refuse_own_limits
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
@@ -140,10 +140,10 @@ def endpoints(node: NodeDecl) -> Iterator[EndpointDecl]:
         )
 
 
-def plan(given: Given, diagnostics: Diagnostics) -> ParameterClientPlan:
+def plan(context: PlanContext, diagnostics: Diagnostics) -> ParameterClientPlan:
     """Return the sizes: those of messages follow from the limits of their types."""
-    application = given.application
-    refuse_own_limits(given, "parameter_client", diagnostics)
+    application = context.application
+    refuse_own_limits(context, "parameter_client", diagnostics)
     remotes = tuple(
         Remote(client.node, index, client.operations)
         for index, node in enumerate(application.nodes)
@@ -166,7 +166,7 @@ def plan(given: Given, diagnostics: Diagnostics) -> ParameterClientPlan:
         elements=_most(application, "elements"),
         name_size=LONGEST_NAME + 1,
         string_size=_most(application, "string") + 1,
-        message_size=max((given.types[name].max_encoded_size for name in received), default=0),
+        message_size=max((context.types[name].max_encoded_size for name in received), default=0),
         watches="watch" in used,
     )
 

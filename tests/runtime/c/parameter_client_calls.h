@@ -191,6 +191,8 @@ static uint8_t bytes[WORDS_MAX];
 static bool truths[WORDS_MAX];
 static int64_t integers[WORDS_MAX];
 static double doubles[WORDS_MAX];
+static const char * texts[WORDS_MAX];
+static size_t texts_capacity = WORDS_MAX;
 
 static void read_numbers(const words_t * words, size_t first)
 {
@@ -268,8 +270,9 @@ static rcl_ret_t get_one(const words_t * words)
         &client, name, &value.as.double_array_value, &value.count, timeout_ms);
       break;
     default:
+      value.as.string_array_value = texts;
       result = rclc_parameter_client_get_string_array(
-        &client, name, &value.as.string_array_value, &value.count, timeout_ms);
+        &client, name, texts, texts_capacity, &value.count, timeout_ms);
       break;
   }
   if (result == RCL_RET_OK) {
@@ -348,6 +351,10 @@ static rcl_ret_t call_words(words_t * words)
   }
   if (strcmp(word, "timeout") == 0) {
     timeout_ms = (uint32_t)strtoul(words->word[1], NULL, 10);
+    return RCL_RET_OK;
+  }
+  if (strcmp(word, "capacity") == 0) {
+    texts_capacity = strtoul(words->word[1], NULL, 10);
     return RCL_RET_OK;
   }
   if (strcmp(word, "inside") == 0) {

@@ -212,7 +212,7 @@ rcl_ret_t rclc_parameter_client_get_double_array(
 }
 
 rcl_ret_t rclc_parameter_client_get_string_array(
-  rclc_parameter_client_t * client, const char * name, const char * const ** output, size_t * count,
+  rclc_parameter_client_t * client, const char * name, const char ** output, size_t capacity, size_t * count,
   uint32_t timeout_ms)
 {
   rclc_parameter_client_value_t value;
@@ -222,9 +222,15 @@ rcl_ret_t rclc_parameter_client_get_string_array(
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "output or count");
   }
   result = get_one(client, name, RCLC_PARAMETER_STRING_ARRAY, &value, timeout_ms);
+  if (result == RCL_RET_OK && value.count > capacity) {
+    result =
+      rclc_parameter_client_refuse_limit(client, MICROROS_ERROR_WORDS("an array"), value.count, capacity);
+  }
   if (result == RCL_RET_OK) {
-    *output = value.as.string_array_value;
     *count = value.count;
+    for (size_t i = 0; i < value.count; ++i) {
+      output[i] = value.as.string_array_value[i];
+    }
   }
   return result;
 }

@@ -11,7 +11,6 @@
 
 /* The arrays of a value in their order, without that of strings. */
 enum { CLIENT_ARRAYS = 4, CLIENT_WIDEST = 8 };
-static const uint8_t client_widths[CLIENT_ARRAYS] = {1u, 1u, 8u, 8u};
 
 cdr_in_t rclc_parameter_client_keep(rclc_parameter_client_t * client, cdr_in_t * in)
 {
@@ -34,8 +33,10 @@ cdr_in_t rclc_parameter_client_keep(rclc_parameter_client_t * client, cdr_in_t *
 
 cdr_in_t rclc_parameter_client_begin(const rclc_parameter_client_t * client, cdr_fault_t * fault)
 {
-  const cdr_in_t in = {client->message.bytes, client->size, client->start, client->swaps, false, fault};
+  cdr_in_t in = {client->message.bytes, client->size, client->start, client->swaps, false, NULL};
 
+  (void)memset(fault, 0, sizeof(*fault));
+  in.fault = fault;
   return in;
 }
 
@@ -125,6 +126,7 @@ static void value_take_scalar(
 void rclc_parameter_client_read_value(
   rclc_parameter_client_t * client, cdr_in_t * in, rclc_parameter_client_value_t * value)
 {
+  static const uint8_t widths[CLIENT_ARRAYS] = {1u, 1u, 8u, 8u};
   uint8_t type = (uint8_t)RCLC_PARAMETER_NOT_SET;
   bool truth = false;
   int64_t integer = 0;
@@ -142,7 +144,7 @@ void rclc_parameter_client_read_value(
   value_take_scalar(value, truth, integer, number, text);
   for (uint32_t i = 0; i < (uint32_t)CLIENT_ARRAYS; ++i) {
     uint32_t count;
-    const void * elements = read_array(in, client_widths[i], &count);
+    const void * elements = read_array(in, widths[i], &count);
 
     if (type == (uint32_t)RCLC_PARAMETER_BYTE_ARRAY + i) {
       value_take_array(value, elements, count);

@@ -15,7 +15,6 @@
 #include "rmw/qos_profiles.h"
 
 #include <stddef.h>
-#include <string.h>
 
 /* Bytes of an event that is too large: the time, the length of the node's name and its beginning. No whole event has this
  * size. */
@@ -31,6 +30,17 @@ typedef struct watch_event_t {
   bool missed;
 } watch_event_t;
 
+/* Compares the first bytes of two names. */
+static bool watch_is_alike(const char * name, const char * other, uint32_t size)
+{
+  uint32_t i = 0;
+
+  while (i < size && name[i] == other[i]) {
+    ++i;
+  }
+  return i == size;
+}
+
 /* Returns the client that watches a node of which the name, without a NUL, is known, or its first bytes. */
 static rclc_parameter_client_t * watch_find(
   const rcl_node_t * node, const parameter_text_t * name, uint32_t known)
@@ -39,7 +49,7 @@ static rclc_parameter_client_t * watch_find(
 
   while (client != NULL && (client->node != node || client->event_callback == NULL ||
                             microros_text_size(client->remote->name) != name->size ||
-                            memcmp(client->remote->name, name->data, known) != 0)) {
+                            !watch_is_alike(client->remote->name, name->data, known))) {
     client = client->next;
   }
   return client;
@@ -100,9 +110,6 @@ static const microros_message_type_t watch_message = {
   .max_encoded_size = rcl_interfaces__msg__ParameterEvent__MAX_ENCODED_SIZE,
   .decode = watch_decode};
 
-static const rosidl_message_type_support_t watch_type = {
-  .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &watch_message};
-
 bool rclc_parameter_client_may_watch(const rclc_parameter_client_t * client, const rclc_executor_t * executor)
 {
   const rclc_parameter_client_t * other;
@@ -128,6 +135,8 @@ bool rclc_parameter_client_may_watch(const rclc_parameter_client_t * client, con
 rcl_ret_t rclc_parameter_client_watch(
   rclc_parameter_client_t * client, rclc_parameter_client_event_callback_t callback, void * context)
 {
+  static const rosidl_message_type_support_t type = {
+    .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &watch_message};
   const rclc_parameter_client_event_callback_t before = client != NULL ? client->event_callback : NULL;
   rmw_subscription_t ** subscription;
   rcl_ret_t result = RCL_RET_OK;
@@ -138,7 +147,7 @@ rcl_ret_t rclc_parameter_client_watch(
   subscription = &watch_subscriptions[rmw_node_index(client->node->impl)];
   if (callback != NULL && !rmw_subscription_is_open(*subscription)) {
     result = rmw_subscription_open(
-      client->node->impl, &watch_type, "/parameter_events", &rmw_qos_profile_parameter_events, subscription);
+      client->node->impl, &type, "/parameter_events", &rmw_qos_profile_parameter_events, subscription);
     if (result == RCL_RET_OK) {
       rmw_parameter_client_keep_beginning(*subscription, (uint8_t)WATCH_BEGINNING);
     }

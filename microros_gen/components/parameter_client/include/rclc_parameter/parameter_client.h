@@ -189,8 +189,9 @@ rcl_ret_t rclc_parameter_client_get_int_array(
 rcl_ret_t rclc_parameter_client_get_double_array(
   rclc_parameter_client_t * client, const char * name, const double ** output, size_t * count,
   uint32_t timeout_ms);
+/* `output` gets `count` strings; RCLC_PARAMETER_CLIENT_LIMIT: there are more than `capacity`. */
 rcl_ret_t rclc_parameter_client_get_string_array(
-  rclc_parameter_client_t * client, const char * name, const char * const ** output, size_t * count,
+  rclc_parameter_client_t * client, const char * name, const char ** output, size_t capacity, size_t * count,
   uint32_t timeout_ms);
 #endif
 
