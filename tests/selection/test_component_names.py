@@ -54,13 +54,15 @@ SHARED = (
 )
 """Files outside its folder that name `parameters`: the keys of the application file, and the list of D1.4."""
 _OTHER_FILES = {
+    "application/parameter_clients.py",
+    "components/parameter_client/plan.py",
     "documents/schema_words.py",
     "migrate/c_program.py",
     "parameter_server/exchange.py",
     "parameter_server/file.py",
     "parameter_server/served.py",
 }
-"""Say what to write for `qos: parameters`; have the parameters of C functions, or those in messages and in a file."""
+"""Have a key `parameters` of clients, parameters of C functions, or those in messages and in a file."""
 MENTIONS = {
     "cdr": 1,
     "cdr_decode": 1,
@@ -74,6 +76,7 @@ MENTIONS = {
     "micro_ros_utilities": 1,
     "multithread": 3,
     "node": 1,
+    "parameter_client": 1,
     "parameters": 1,
     "parameters_held": 1,
     "publish": 6,

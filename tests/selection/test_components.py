@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from microros_gen.client.plan.board import BoardPlan
+from microros_gen.client.plan.features import feature_of
 from microros_gen.diagnostics import UserError
 from microros_gen.platform.target import Target
 from microros_gen.selection.component import Ask, Catalogue, Component, Middleware, Provision, SourceFile
@@ -191,6 +192,10 @@ def is_of_the_plan(path: str) -> bool:
     first, _, name = path.partition(".")
     if first == "component":
         return (components_folder() / name / "component.yaml").is_file()
+    feature = feature_of(load_catalogue()[first]) if first in load_catalogue() else None
+    if feature is not None:
+        parts = [value for value in vars(feature).values() if isinstance(value, type)]
+        return any(name in {*dir(part), *getattr(part, "__annotations__", {})} for part in parts)
     others = {"board": BoardPlan, "target": Target}
     if first in others:
         return name in {*dir(others[first]), *(field.name for field in fields(others[first]))}

@@ -117,7 +117,7 @@ class ParameterClientPlan:
 
 
 def endpoints(node: NodeDecl) -> Iterator[EndpointDecl]:
-    """Yield the endpoints of the clients of a node. One of each client stands for its handle in an executor."""
+    """Yield the endpoints of the clients of a node. One of each client has its handle in an executor."""
     for client in node.parameter_clients:
         called = [service for service in SERVICES if service.call in client.operations]
         for service in called:

@@ -134,7 +134,7 @@ rcl_ret_t rclc_parameter_client_init_default(
   if (result == RCL_RET_OK) {
     client_link(client);
   } else {
-    (void)client_close(client, node); /* the first error is told */
+    (void)client_close(client, node); /* the first error is reported */
   }
   return result;
 }

@@ -12,7 +12,7 @@ static rmw_client_t * call_handle(const rclc_parameter_client_t * client)
   return client->services[client->call].impl;
 }
 
-/* Takes what is left of former calls: late responses, and reports of what was lost. */
+/* Takes the rest of former calls: late responses, and reports of losses. */
 static void call_drain(rclc_parameter_client_t * client)
 {
   const uint32_t most = (uint32_t)MICROROS_REQUESTS_MAX + (uint32_t)CLIENT_REPORTS;
@@ -55,7 +55,7 @@ static rcl_ret_t call_begin(
   call_drain(client);
   client->items = items;
   client->count = count;
-  client->asked = count;
+  client->requested = count;
   client->timeout_ms = timeout_ms;
   result = rcl_send_request(&client->services[call], client, &client->sequence);
   client->start_ms = port_time_ms();

@@ -54,7 +54,7 @@ rcl_ret_t rclc_executor_add_parameter_client(rclc_executor_t * executor, rclc_pa
   rclc_executor_handle_t * handle;
 
   if (executor == NULL || client == NULL || client_service(client) == NULL) {
-    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "executor or client");
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "client or executor");
   }
   if (client->executor != NULL) {
     return rclc_parameter_client_refuse(

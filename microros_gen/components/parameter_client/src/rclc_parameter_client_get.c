@@ -14,7 +14,7 @@ static rcl_ret_t get_refuse(const rclc_parameter_client_t * client)
 
 rcl_ret_t rclc_parameter_client_judge_values(rclc_parameter_client_t * client)
 {
-  return client->count == client->asked ? RCL_RET_OK : get_refuse(client);
+  return client->count == client->requested ? RCL_RET_OK : get_refuse(client);
 }
 
 rcl_ret_t rclc_parameter_client_get_async(

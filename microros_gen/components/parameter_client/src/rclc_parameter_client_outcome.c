@@ -48,7 +48,7 @@ rcl_ret_t rclc_parameter_client_outcome(rclc_parameter_client_t * client, size_t
 
 rcl_ret_t rclc_parameter_client_judge_results(rclc_parameter_client_t * client)
 {
-  const size_t wanted = client->call == (uint8_t)RCLC_PARAMETER_CLIENT_SET ? client->asked : 1u;
+  const size_t wanted = client->call == (uint8_t)RCLC_PARAMETER_CLIENT_SET ? client->requested : 1u;
 
   if (client->count != wanted) {
     return rclc_parameter_client_refuse(

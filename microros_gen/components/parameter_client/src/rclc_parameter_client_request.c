@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Requests are written from what the caller passes. It was checked: what is written has room. */
+/* Requests are written from the caller's arguments, which were checked: a request has room. */
 #include "microros/error.h"
 #include "microros/rclc_parameter_client.h"
 #include "microros/rclc_parameter_out.h"
@@ -109,7 +109,7 @@ rcl_ret_t rclc_parameter_client_check_parameters(
   return result;
 }
 
-/* Returns the size of what was written, or 0. */
+/* Returns the size of the request, or 0. */
 static uint32_t write_end(const parameter_out_t * out, cdr_fault_t * fault)
 {
   if (out->full) {

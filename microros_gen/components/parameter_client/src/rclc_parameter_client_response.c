@@ -204,7 +204,7 @@ void rclc_parameter_client_settle_value(rclc_parameter_client_t * client, cdr_in
   }
 }
 
-/* Notes what was kept, or that it was refused. */
+/* Notes the count of a response, or that it was refused. */
 static void response_settle(
   rclc_parameter_client_t * client, cdr_in_t * in, const cdr_in_t * kept, uint32_t count)
 {

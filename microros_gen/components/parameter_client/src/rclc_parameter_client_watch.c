@@ -189,7 +189,7 @@ bool rclc_parameter_client_has_event(const rclc_parameter_client_t * client)
          rmw_subscription_is_ready(subscription);
 }
 
-static void watch_tell_list(
+static void watch_notify_list(
   rclc_parameter_client_t * client, cdr_in_t * in, rclc_parameter_client_change_t change)
 {
   const uint32_t count = rclc_parameter_in_length(in);
@@ -203,7 +203,7 @@ static void watch_tell_list(
   }
 }
 
-static void watch_tell(const watch_event_t * event)
+static void watch_notify(const watch_event_t * event)
 {
   rclc_parameter_client_t * client = event->client;
   cdr_fault_t fault;
@@ -213,9 +213,9 @@ static void watch_tell(const watch_event_t * event)
   if (event->missed) { /* it is watched: the event was kept for it */
     client->event_callback(client, RCLC_PARAMETER_CLIENT_MISSED, "", NULL, client->event_context);
   } else {
-    watch_tell_list(client, &in, RCLC_PARAMETER_CLIENT_NEW);
-    watch_tell_list(client, &in, RCLC_PARAMETER_CLIENT_CHANGED);
-    watch_tell_list(client, &in, RCLC_PARAMETER_CLIENT_DELETED);
+    watch_notify_list(client, &in, RCLC_PARAMETER_CLIENT_NEW);
+    watch_notify_list(client, &in, RCLC_PARAMETER_CLIENT_CHANGED);
+    watch_notify_list(client, &in, RCLC_PARAMETER_CLIENT_DELETED);
   }
   client->in_event = false;
 }
@@ -225,13 +225,13 @@ void rclc_parameter_client_take_event(const rclc_parameter_client_t * client)
   watch_event_t event = {client->node, NULL, false};
   bool taken = false;
 
-  /* What is refused was counted for the subscription; a damaged event is of no node that could be told. */
+  /* What is refused was counted for the subscription; the node of a damaged one is not known. */
   (void)rmw_subscription_take(watch_subscriptions[rmw_node_index(client->node->impl)], &event, &taken);
   if (taken && event.client != NULL) {
     if (!event.client->is_busy) {
       event.client->call = (uint8_t)RCLC_PARAMETER_CLIENT_CALLS; /* its last result is overwritten */
     }
-    watch_tell(&event);
+    watch_notify(&event);
     event.client->size = 0;
   }
 }

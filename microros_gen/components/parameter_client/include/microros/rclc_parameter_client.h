@@ -60,7 +60,7 @@ uint32_t rclc_parameter_client_write_parameters(
 /* Copies the body that is not read yet, the first byte to a place of the same alignment, and begins to read it. */
 cdr_in_t rclc_parameter_client_keep(rclc_parameter_client_t * client, cdr_in_t * in);
 
-/* Begins to read what is kept. It was checked when it arrived, so nothing in it fails. */
+/* Begins to read the message of the client. It was checked when it arrived, so nothing in it fails. */
 cdr_in_t rclc_parameter_client_begin(const rclc_parameter_client_t * client, cdr_fault_t * fault);
 
 /* Returns a string, which ends with its NUL. */

@@ -106,7 +106,7 @@ typedef struct rclc_parameter_client_t {
   void * event_context;
   const void * items; /* names or parameters of the request, while it is written */
   size_t count;       /* of them; then of the response */
-  size_t asked;       /* items of the request */
+  size_t requested;   /* items of the request */
   uint64_t depth;
   int64_t sequence;
   uint32_t start_ms;
