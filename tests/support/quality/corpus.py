@@ -176,7 +176,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "parameters_held_every": _NODES.replace("    publishers:\n", "")
         + EVERY_PARAMETER.replace("parameters:\n", "parameters:\n      at: agent\n      declare:\n")
         + "components: [+parameters]\nlogging: callback\n",
-        "parameter_client": _NODES
+        "parameter_client": _NODES.replace("    publishers:\n", "")
         + "    parameter_clients: [{node: /motor, operations: [get, set, set_atomically, list, watch], elements: 3}]\n"
         + "components: [+parameter_client, +subscribe, +multithread]\n",
         "graph": _NODES + _SURE + "components: [+graph, +multithread]\nmemory: {arena: 4096}\n",

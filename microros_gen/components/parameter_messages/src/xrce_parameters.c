@@ -20,15 +20,13 @@ static void parameters_keep(
   xrce_sample_t sample;
   uint8_t size;
 
-  if (here < (size_t)SAMPLE_AT || (data[1] & XRCE_READ_FORMATS) != 0u) {
+  if (here < XRCE_OBJECT_PREFIX + (size_t)XRCE_PARAMETERS_BEGINNING || (data[1] & XRCE_READ_FORMATS) != 0u) {
     return;
   }
   receiver = xrce_read_requested(
     client, xrce_get_be16(&data[PARAMETERS_REQUEST_AT]), xrce_get_be16(&data[PARAMETERS_OBJECT_AT]));
   size = receiver != NULL ? client->beginnings[receiver - client->receivers] : 0u;
-  if (
-    size == 0u || here < XRCE_OBJECT_PREFIX + (size_t)size ||
-    whole <= (size_t)xrce_read_largest(client, receiver) + XRCE_OBJECT_PREFIX) {
+  if (size == 0u || whole <= (size_t)xrce_read_largest(client, receiver) + XRCE_OBJECT_PREFIX) {
     return;
   }
   sample.data = &data[SAMPLE_AT];

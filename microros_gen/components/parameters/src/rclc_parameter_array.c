@@ -23,7 +23,7 @@ void rclc_parameter_array_request(cdr_in_t * in, parameter_requested_t * request
                                                                 : rclc_parameter_in_pass(in, widths[i]);
 
     if (requested->type == i + (uint32_t)RCLC_PARAMETER_BYTE_ARRAY) {
-      (void)cdr_in_length(&start, widths[i], "request");
+      (void)cdr_in_length(&start, widths[i], "message");
       requested->array = start;
       requested->array_count = count;
     }
@@ -102,16 +102,16 @@ static void array_read(rclc_parameter_array_t * to, const parameter_requested_t 
 
   switch (requested->type) {
     case RCLC_PARAMETER_BYTE_ARRAY:
-      cdr_get_1(&in, to->bytes, count, "request");
+      cdr_get_1(&in, to->bytes, count, "message");
       break;
     case RCLC_PARAMETER_BOOL_ARRAY:
-      cdr_get_bool(&in, to->bools, count, "request");
+      cdr_get_bool(&in, to->bools, count, "message");
       break;
     case RCLC_PARAMETER_INT_ARRAY:
-      cdr_get_8(&in, to->integers, count, "request");
+      cdr_get_8(&in, to->integers, count, "message");
       break;
     case RCLC_PARAMETER_DOUBLE_ARRAY:
-      cdr_get_8(&in, to->doubles, count, "request");
+      cdr_get_8(&in, to->doubles, count, "message");
       break;
 #if MICROROS_PARAMETER_STRINGS_MAX > 0u
     case RCLC_PARAMETER_STRING_ARRAY:

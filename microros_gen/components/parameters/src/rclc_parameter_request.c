@@ -18,10 +18,10 @@ parameter_requested_t rclc_parameter_request_parameter(cdr_in_t * in)
   double number = 0.0;
 
   requested.name = rclc_parameter_in_text(in);
-  cdr_get_1(in, &requested.type, 1u, "request");
-  cdr_get_bool(in, &truth, 1u, "request");
-  cdr_get_8(in, &integer, 1u, "request");
-  cdr_get_8(in, &number, 1u, "request");
+  cdr_get_1(in, &requested.type, 1u, "message");
+  cdr_get_bool(in, &truth, 1u, "message");
+  cdr_get_8(in, &integer, 1u, "message");
+  cdr_get_8(in, &number, 1u, "message");
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
   requested.string = rclc_parameter_in_text(in);
 #else
@@ -52,7 +52,7 @@ static bool request_cut(const cdr_in_t * in, rclc_parameter_server_t * server)
   uint32_t count = 0;
 
   if (in->size == sizeof(count)) {
-    cdr_get_4(&list, &count, 1u, "request");
+    cdr_get_4(&list, &count, 1u, "message");
   }
   server->request_cut = count;
   server->request_size = 0; /* until it is kept */
@@ -66,7 +66,7 @@ static void request_keep(cdr_in_t * in, rclc_parameter_server_t * server)
     return;
   }
   if (in->size > sizeof(server->request)) {
-    cdr_in_refuse(in, CDR_FAULT_CAPACITY, "request", in->size, sizeof(server->request));
+    cdr_in_refuse(in, CDR_FAULT_CAPACITY, "message", in->size, sizeof(server->request));
     return;
   }
   (void)memcpy(server->request, in->body, in->size);
@@ -88,7 +88,7 @@ void rclc_parameter_decode_list(cdr_in_t * in, void * server)
 
   if (!request_cut(in, server)) {
     (void)rclc_parameter_in_pass_texts(in);
-    cdr_get_8(in, &depth, 1u, "request");
+    cdr_get_8(in, &depth, 1u, "message");
     request_keep(in, server);
   }
 }

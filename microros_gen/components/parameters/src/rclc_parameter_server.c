@@ -76,7 +76,8 @@ static rcl_ret_t server_open(rclc_parameter_server_t * server, const rcl_node_t 
       return result;
     }
 #if !MICROROS_PARAMETERS_HELD
-    rmw_parameters_answer_large(rcl_service_get_rmw_handle(&server->services[i]), true);
+    rmw_parameters_answer_large(
+      rcl_service_get_rmw_handle(&server->services[i]), (uint8_t)RMW_PARAMETERS_BEGINNING);
 #endif
   }
 #if MICROROS_PARAMETERS_HELD
@@ -101,7 +102,7 @@ static rcl_ret_t server_close(rclc_parameter_server_t * server, rcl_node_t * nod
 
 #if !MICROROS_PARAMETERS_HELD
     if (rcl_service_is_valid(&server->services[i])) {
-      rmw_parameters_answer_large(rcl_service_get_rmw_handle(&server->services[i]), false);
+      rmw_parameters_answer_large(rcl_service_get_rmw_handle(&server->services[i]), 0u);
     }
 #endif
     result = rcl_service_fini(&server->services[i], node);

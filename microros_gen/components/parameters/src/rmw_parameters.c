@@ -20,9 +20,9 @@ bool rmw_parameters_have_room(const rmw_publisher_t * publisher)
   return result;
 }
 
-void rmw_parameters_answer_large(const rmw_service_t * service, bool answers)
+void rmw_parameters_answer_large(const rmw_service_t * service, uint8_t beginning)
 {
   microros_lock();
-  xrce_parameters_keep_beginning(service->data, answers ? (uint8_t)XRCE_PARAMETERS_BEGINNING : 0u);
+  xrce_parameters_keep_beginning(service->data, beginning);
   microros_unlock();
 }

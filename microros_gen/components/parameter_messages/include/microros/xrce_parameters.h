@@ -19,7 +19,7 @@ extern "C" {
 /* Bytes of the beginning of a request: the identity, and the length of the list that it begins with. */
 enum { XRCE_PARAMETERS_BEGINNING = XRCE_IDENTITY_SIZE + 4 };
 
-/* Sets how many bytes of such messages an endpoint gets; 0: none of them. */
+/* Sets how many bytes of such messages an endpoint gets, at most XRCE_PARAMETERS_BEGINNING; 0: none of them. */
 void xrce_parameters_keep_beginning(const xrce_endpoint_t * endpoint, uint8_t size);
 
 /* --- called by xrce_routes.c --- */

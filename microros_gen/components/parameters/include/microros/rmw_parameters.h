@@ -4,6 +4,7 @@
 #define MICROROS_RMW_PARAMETERS_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "rmw/types.h"
 
@@ -15,8 +16,11 @@ extern "C" {
  * counts nothing as dropped. */
 bool rmw_parameters_have_room(const rmw_publisher_t * publisher);
 
-/* Sets whether a request that is too large for an open service reaches it as the first 4 bytes of its body. */
-void rmw_parameters_answer_large(const rmw_service_t * service, bool answers);
+/* The identity of a request, and the length of the list that it begins with. */
+enum { RMW_PARAMETERS_BEGINNING = 28 };
+
+/* Sets how many bytes of a request that is too large for an open service reach it: RMW_PARAMETERS_BEGINNING, or 0. */
+void rmw_parameters_answer_large(const rmw_service_t * service, uint8_t beginning);
 
 #ifdef __cplusplus
 }
