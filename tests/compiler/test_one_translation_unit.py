@@ -16,12 +16,13 @@ EVERYTHING = """\
 version: 1
 profiles: [pure_reader]
 components: [+publish, +services, +executor, +timers, +multithread, +session_state, +micro_ros_utilities, +time_sync,
-  +parameters, +parameter_storage, +graph, +logger_services, +logging_float, +name_substitutions, +publish_statistics,
+  +parameters, +parameter_storage, +parameter_client, +graph, +logger_services, +logging_float, +name_substitutions, +publish_statistics,
   +ping, +session_close, +clock_ros, {choice}]
 logging: [rosout, {{to: ring, level: debug}}, console, callback]
 nodes:
   - name: all
     parameters: [{{name: gain, type: double}}, {{name: label, type: string, size: 8}}]
+    parameter_clients: [{{node: /motor, operations: [get, set, set_atomically, list, watch], elements: 3}}]
     publishers: [{{topic: out, type: std_msgs/msg/String, limits: {{string: 20}}}}]
     subscriptions: [{{topic: in, type: std_msgs/msg/String, limits: {{string: 20}}, queue: 2}}]
     services: [{{name: on, type: std_srvs/srv/SetBool, limits: {{message: 9}}}}]

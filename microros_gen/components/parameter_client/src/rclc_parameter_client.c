@@ -12,11 +12,11 @@
 
 enum { LONGEST_SERVICE = 28 }; /* bytes of the longest of client_services, with its NUL */
 
-static rclc_parameter_client_t * client_first; /* of those that are open */
+static rclc_parameter_client_t * parameter_client_first; /* of those that are open */
 
 rclc_parameter_client_t * rclc_parameter_client_first(void)
 {
-  return client_first;
+  return parameter_client_first;
 }
 
 rcl_ret_t rclc_parameter_client_refuse(
@@ -34,18 +34,18 @@ rcl_ret_t rclc_parameter_client_refuse_limit(
   return RCLC_PARAMETER_CLIENT_LIMIT;
 }
 
-static void client_link(rclc_parameter_client_t * client)
+static void parameter_client_link(rclc_parameter_client_t * client)
 {
   microros_lock();
-  client->next = client_first;
-  client_first = client;
+  client->next = parameter_client_first;
+  parameter_client_first = client;
   microros_unlock();
 }
 
 /* Returns whether the client was open; it is not any longer. */
-static bool client_unlink(const rclc_parameter_client_t * client)
+static bool parameter_client_unlink(const rclc_parameter_client_t * client)
 {
-  rclc_parameter_client_t ** link = &client_first;
+  rclc_parameter_client_t ** link = &parameter_client_first;
   bool found;
 
   microros_lock();
@@ -60,7 +60,8 @@ static bool client_unlink(const rclc_parameter_client_t * client)
   return found;
 }
 
-static const rclc_parameter_client_remote_t * client_remote(const rcl_node_t * node, const char * name)
+static const rclc_parameter_client_remote_t * parameter_client_remote(
+  const rcl_node_t * node, const char * name)
 {
   const uint16_t index = rmw_node_index(node->impl);
 
@@ -74,7 +75,7 @@ static const rclc_parameter_client_remote_t * client_remote(const rcl_node_t * n
   return NULL;
 }
 
-static rcl_ret_t client_open(rclc_parameter_client_t * client)
+static rcl_ret_t parameter_client_open(rclc_parameter_client_t * client)
 {
   static const char * const services[RCLC_PARAMETER_CLIENT_CALLS] = {
     "/get_parameters", "/set_parameters", "/set_parameters_atomically", "/list_parameters"};
@@ -95,7 +96,7 @@ static rcl_ret_t client_open(rclc_parameter_client_t * client)
   return result;
 }
 
-static rcl_ret_t client_close(rclc_parameter_client_t * client, rcl_node_t * node)
+static rcl_ret_t parameter_client_close(rclc_parameter_client_t * client, rcl_node_t * node)
 {
   rcl_ret_t first = RCL_RET_OK;
 
@@ -118,23 +119,23 @@ rcl_ret_t rclc_parameter_client_init_default(
   if (!rcl_node_is_valid(node)) {
     return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
   }
-  if (client_unlink(client)) {
-    client_link(client);
+  if (parameter_client_unlink(client)) {
+    parameter_client_link(client);
     return rclc_parameter_client_refuse(
       client, RCL_RET_ALREADY_INIT, MICROROS_ERROR_WORDS("the client is open already"));
   }
   (void)memset(client, 0, sizeof(*client)); /* it may be uninitialized memory */
   client->node = node;
   client->call = (uint8_t)RCLC_PARAMETER_CLIENT_CALLS;
-  client->remote = client_remote(node, remote);
+  client->remote = parameter_client_remote(node, remote);
   if (client->remote == NULL) {
     return microros_error_named(RCL_RET_ERROR, microros_error_parameter_client_undeclared, remote);
   }
-  result = client_open(client);
+  result = parameter_client_open(client);
   if (result == RCL_RET_OK) {
-    client_link(client);
+    parameter_client_link(client);
   } else {
-    (void)client_close(client, node); /* the first error is reported */
+    (void)parameter_client_close(client, node); /* the first error is reported */
   }
   return result;
 }
@@ -147,18 +148,18 @@ rcl_ret_t rclc_parameter_client_fini(rclc_parameter_client_t * client, rcl_node_
   if (!rcl_node_is_valid_except_context(node)) {
     return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
   }
-  if (!client_unlink(client)) {
+  if (!parameter_client_unlink(client)) {
     return RCL_RET_OK;
   }
   client->is_busy = false;
   rclc_parameter_client_unwatch(client);
-  return client_close(client, node);
+  return parameter_client_close(client, node);
 }
 
-static void client_note_round(const rclc_executor_t * executor, bool calls)
+static void parameter_client_note_round(const rclc_executor_t * executor, bool calls)
 {
   microros_lock();
-  for (rclc_parameter_client_t * client = client_first; client != NULL; client = client->next) {
+  for (rclc_parameter_client_t * client = parameter_client_first; client != NULL; client = client->next) {
     if (client->executor == executor) {
       client->is_calling = calls;
     }
@@ -168,12 +169,12 @@ static void client_note_round(const rclc_executor_t * executor, bool calls)
 
 void rclc_parameter_client_round_begins(const rclc_executor_t * executor)
 {
-  client_note_round(executor, true);
+  parameter_client_note_round(executor, true);
 }
 
 void rclc_parameter_client_round_ends(const rclc_executor_t * executor)
 {
-  client_note_round(executor, false);
+  parameter_client_note_round(executor, false);
 }
 
 size_t rclc_parameter_client_count(const rclc_parameter_client_t * client)

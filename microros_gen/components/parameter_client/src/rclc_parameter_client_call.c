@@ -5,27 +5,28 @@
 #include "microros/rclc_parameter_client.h"
 #include "microros/rmw_service.h"
 
-enum { CLIENT_NS_PER_MS = 1000000, CLIENT_REPORTS = 3 };
+enum { PARAMETER_CALL_NS_PER_MS = 1000000, CLIENT_REPORTS = 3 };
 
-static rmw_client_t * call_handle(const rclc_parameter_client_t * client)
+static rmw_client_t * parameter_call_handle(const rclc_parameter_client_t * client)
 {
   return client->services[client->call].impl;
 }
 
 /* Takes the rest of former calls: late responses, and reports of losses. */
-static void call_drain(rclc_parameter_client_t * client)
+static void parameter_call_drain(rclc_parameter_client_t * client)
 {
   const uint32_t most = (uint32_t)MICROROS_REQUESTS_MAX + (uint32_t)CLIENT_REPORTS;
 
-  for (uint32_t i = 0; i < most && rmw_requester_is_ready(call_handle(client)); ++i) {
+  for (uint32_t i = 0; i < most && rmw_requester_is_ready(parameter_call_handle(client)); ++i) {
     rmw_service_info_t info;
     bool taken;
 
-    (void)rmw_requester_take(call_handle(client), &info, client, &taken);
+    (void)rmw_requester_take(parameter_call_handle(client), &info, client, &taken);
   }
 }
 
-static rcl_ret_t call_check(const rclc_parameter_client_t * client, uint8_t call, uint32_t timeout_ms)
+static rcl_ret_t parameter_call_check(
+  const rclc_parameter_client_t * client, uint8_t call, uint32_t timeout_ms)
 {
   if (timeout_ms == 0u || timeout_ms > (uint32_t)INT32_MAX) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "timeout_ms");
@@ -46,13 +47,13 @@ static rcl_ret_t call_check(const rclc_parameter_client_t * client, uint8_t call
 }
 
 /* Sends the request; the call is busy then. */
-static rcl_ret_t call_begin(
+static rcl_ret_t parameter_call_begin(
   rclc_parameter_client_t * client, uint8_t call, const void * items, size_t count, uint32_t timeout_ms)
 {
   rcl_ret_t result;
 
   client->call = call;
-  call_drain(client);
+  parameter_call_drain(client);
   client->items = items;
   client->count = count;
   client->requested = count;
@@ -70,7 +71,7 @@ rcl_ret_t rclc_parameter_client_send(
   rclc_parameter_client_t * client, uint8_t call, const void * items, size_t count, uint32_t timeout_ms,
   rclc_parameter_client_callback_t callback, void * context)
 {
-  rcl_ret_t result = call_check(client, call, timeout_ms);
+  rcl_ret_t result = parameter_call_check(client, call, timeout_ms);
 
   if (result != RCL_RET_OK) {
     return result;
@@ -83,7 +84,7 @@ rcl_ret_t rclc_parameter_client_send(
       client, RCL_RET_ERROR,
       MICROROS_ERROR_WORDS("no executor runs the client: call rclc_executor_add_parameter_client"));
   }
-  result = call_begin(client, call, items, count, timeout_ms);
+  result = parameter_call_begin(client, call, items, count, timeout_ms);
   client->callback = callback;
   client->context = context;
   return result;
@@ -93,7 +94,7 @@ rcl_ret_t rclc_parameter_client_send_and_wait(
   rclc_parameter_client_t * client, uint8_t call, const void * items, size_t count, uint32_t timeout_ms)
 {
   rcl_waiting_t waiting;
-  rcl_ret_t result = call_check(client, call, timeout_ms);
+  rcl_ret_t result = parameter_call_check(client, call, timeout_ms);
 
   if (result == RCL_RET_OK && client->is_calling) {
     result = rclc_parameter_client_refuse(
@@ -101,12 +102,12 @@ rcl_ret_t rclc_parameter_client_send_and_wait(
       MICROROS_ERROR_WORDS("a callback of its executor must not wait: make the call with _async"));
   }
   if (result == RCL_RET_OK) {
-    result = call_begin(client, call, items, count, timeout_ms);
+    result = parameter_call_begin(client, call, items, count, timeout_ms);
   }
   if (result != RCL_RET_OK) {
     return result;
   }
-  waiting = rcl_waiting_begin((int64_t)timeout_ms * CLIENT_NS_PER_MS);
+  waiting = rcl_waiting_begin((int64_t)timeout_ms * PARAMETER_CALL_NS_PER_MS);
   for (;;) {
     rcl_waiting_receive();
     if (rclc_parameter_client_is_due(client) && rclc_parameter_client_is_done(client, &result)) {
@@ -125,13 +126,13 @@ uint32_t rclc_parameter_client_left_ms(const rclc_parameter_client_t * client)
 
 bool rclc_parameter_client_is_due(const rclc_parameter_client_t * client)
 {
-  return client->is_busy &&
-         (!rcl_client_is_valid(&client->services[client->call]) ||
-          rmw_requester_is_ready(call_handle(client)) || rclc_parameter_client_left_ms(client) == 0u);
+  return client->is_busy && (!rcl_client_is_valid(&client->services[client->call]) ||
+                             rmw_requester_is_ready(parameter_call_handle(client)) ||
+                             rclc_parameter_client_left_ms(client) == 0u);
 }
 
 /* Returns the result of the response that is kept. */
-static rcl_ret_t call_judge(rclc_parameter_client_t * client)
+static rcl_ret_t parameter_call_judge(rclc_parameter_client_t * client)
 {
 #if MICROROS_PARAMETER_CLIENT_GETS
   if (client->call == (uint8_t)RCLC_PARAMETER_CLIENT_GET) {
@@ -147,7 +148,7 @@ static rcl_ret_t call_judge(rclc_parameter_client_t * client)
 }
 
 /* Ends the call. */
-static bool call_end(rclc_parameter_client_t * client)
+static bool parameter_call_end(rclc_parameter_client_t * client)
 {
   client->is_busy = false;
   if (client->size == 0u) {
@@ -163,25 +164,25 @@ bool rclc_parameter_client_is_done(rclc_parameter_client_t * client, rcl_ret_t *
 
   if (!rcl_client_is_valid(&client->services[client->call])) {
     *result = microros_error_refuse(RCL_RET_CLIENT_INVALID, "client");
-    return call_end(client);
+    return parameter_call_end(client);
   }
   client->size = 0;
-  *result = rmw_requester_take(call_handle(client), &info, client, &taken);
+  *result = rmw_requester_take(parameter_call_handle(client), &info, client, &taken);
   if (taken && info.request_id.sequence_number == client->sequence) {
-    *result = call_judge(client);
-    return call_end(client);
+    *result = parameter_call_judge(client);
+    return parameter_call_end(client);
   }
   client->size = 0;
   if (
     *result != RCL_RET_OK &&
     (info.request_id.sequence_number == 0 || info.request_id.sequence_number == client->sequence)) {
-    return call_end(client); /* else it is the late response of a former call */
+    return parameter_call_end(client); /* else it is the late response of a former call */
   }
   if (rclc_parameter_client_left_ms(client) == 0u) {
     microros_error_set(
       microros_error_parameter_client_silent, client->remote->name, NULL, client->timeout_ms, 0);
     *result = RCL_RET_TIMEOUT;
-    return call_end(client);
+    return parameter_call_end(client);
   }
   return false;
 }

@@ -3,9 +3,10 @@
 #include "microros/executor_handles.h"
 #include "microros/rclc_parameter_client.h"
 
-enum { NS_PER_MS = 1000000 };
+enum { PARAMETER_CLIENT_NS_PER_MS = 1000000 };
 
-static rcl_ret_t client_look(const rclc_executor_handle_t * handle, bool * is_ready, int64_t * look_again_ns)
+static rcl_ret_t parameter_client_look(
+  const rclc_executor_handle_t * handle, bool * is_ready, int64_t * look_again_ns)
 {
   rclc_parameter_client_t * client = handle->callback_context;
 
@@ -14,7 +15,7 @@ static rcl_ret_t client_look(const rclc_executor_handle_t * handle, bool * is_re
   }
   *is_ready = rclc_parameter_client_is_due(client) || rclc_parameter_client_has_event(client);
   if (client->is_busy) {
-    const int64_t left_ns = (int64_t)rclc_parameter_client_left_ms(client) * NS_PER_MS;
+    const int64_t left_ns = (int64_t)rclc_parameter_client_left_ms(client) * PARAMETER_CLIENT_NS_PER_MS;
 
     *look_again_ns = left_ns < *look_again_ns ? left_ns : *look_again_ns;
   }
@@ -22,7 +23,7 @@ static rcl_ret_t client_look(const rclc_executor_handle_t * handle, bool * is_re
 }
 
 /* One thing in a round: its callback may end the client. */
-static rcl_ret_t client_call(rclc_executor_handle_t * handle)
+static rcl_ret_t parameter_client_call(rclc_executor_handle_t * handle)
 {
   rclc_parameter_client_t * client = handle->callback_context;
   rcl_ret_t result;
@@ -38,7 +39,7 @@ static rcl_ret_t client_call(rclc_executor_handle_t * handle)
 }
 
 /* A call of a client that no executor runs would never end: only what waits can be called. */
-static rcl_client_t * client_service(rclc_parameter_client_t * client)
+static rcl_client_t * parameter_client_service(rclc_parameter_client_t * client)
 {
   for (uint32_t i = 0; i < (uint32_t)RCLC_PARAMETER_CLIENT_CALLS; ++i) {
     if (rcl_client_is_valid(&client->services[i])) {
@@ -50,10 +51,11 @@ static rcl_client_t * client_service(rclc_parameter_client_t * client)
 
 rcl_ret_t rclc_executor_add_parameter_client(rclc_executor_t * executor, rclc_parameter_client_t * client)
 {
-  static const rclc_handle_kind_t kind = {client_look, rclc_handle_take_nothing, client_call};
+  static const rclc_handle_kind_t kind = {
+    parameter_client_look, rclc_handle_take_nothing, parameter_client_call};
   rclc_executor_handle_t * handle;
 
-  if (executor == NULL || client == NULL || client_service(client) == NULL) {
+  if (executor == NULL || client == NULL || parameter_client_service(client) == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "client or executor");
   }
   if (client->executor != NULL) {
@@ -67,7 +69,7 @@ rcl_ret_t rclc_executor_add_parameter_client(rclc_executor_t * executor, rclc_pa
   if (handle == NULL) {
     return RCL_RET_ERROR;
   }
-  handle->client = client_service(client);
+  handle->client = parameter_client_service(client);
   handle->callback_context = client;
   ++executor->info.number_of_clients;
   client->executor = executor;
@@ -81,7 +83,7 @@ rcl_ret_t rclc_executor_remove_parameter_client(rclc_executor_t * executor, rclc
   if (client == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "client");
   }
-  result = rclc_executor_remove_client(executor, client_service(client));
+  result = rclc_executor_remove_client(executor, parameter_client_service(client));
   if (result == RCL_RET_OK) {
     client->executor = NULL;
     client->is_calling = false;

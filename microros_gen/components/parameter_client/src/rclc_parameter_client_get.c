@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 /* Why a name has no value. */
-static rcl_ret_t get_refuse(const rclc_parameter_client_t * client)
+static rcl_ret_t get_parameter_refuse(const rclc_parameter_client_t * client)
 {
   return rclc_parameter_client_refuse(
     client, RCLC_PARAMETER_CLIENT_UNKNOWN, MICROROS_ERROR_WORDS("unknown name"));
@@ -14,7 +14,7 @@ static rcl_ret_t get_refuse(const rclc_parameter_client_t * client)
 
 rcl_ret_t rclc_parameter_client_judge_values(rclc_parameter_client_t * client)
 {
-  return client->count == client->requested ? RCL_RET_OK : get_refuse(client);
+  return client->count == client->requested ? RCL_RET_OK : get_parameter_refuse(client);
 }
 
 rcl_ret_t rclc_parameter_client_get_async(
@@ -55,11 +55,11 @@ rcl_ret_t rclc_parameter_client_value(
   for (size_t i = 0; i <= index; ++i) {
     rclc_parameter_client_read_value(client, &in, value);
   }
-  return value->type != RCLC_PARAMETER_NOT_SET ? RCL_RET_OK : get_refuse(client);
+  return value->type != RCLC_PARAMETER_NOT_SET ? RCL_RET_OK : get_parameter_refuse(client);
 }
 
 /* Gets one value of a type and waits for it. */
-static rcl_ret_t get_one(
+static rcl_ret_t get_parameter(
   rclc_parameter_client_t * client, const char * name, rclc_parameter_type_t type,
   rclc_parameter_client_value_t * value, uint32_t timeout_ms)
 {
@@ -84,7 +84,7 @@ rcl_ret_t rclc_parameter_client_get_bool(
   if (output == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "output");
   }
-  result = get_one(client, name, RCLC_PARAMETER_BOOL, &value, timeout_ms);
+  result = get_parameter(client, name, RCLC_PARAMETER_BOOL, &value, timeout_ms);
   if (result == RCL_RET_OK) {
     *output = value.as.bool_value;
   }
@@ -100,7 +100,7 @@ rcl_ret_t rclc_parameter_client_get_int(
   if (output == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "output");
   }
-  result = get_one(client, name, RCLC_PARAMETER_INT, &value, timeout_ms);
+  result = get_parameter(client, name, RCLC_PARAMETER_INT, &value, timeout_ms);
   if (result == RCL_RET_OK) {
     *output = value.as.integer_value;
   }
@@ -116,7 +116,7 @@ rcl_ret_t rclc_parameter_client_get_double(
   if (output == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "output");
   }
-  result = get_one(client, name, RCLC_PARAMETER_DOUBLE, &value, timeout_ms);
+  result = get_parameter(client, name, RCLC_PARAMETER_DOUBLE, &value, timeout_ms);
   if (result == RCL_RET_OK) {
     *output = value.as.double_value;
   }
@@ -132,7 +132,7 @@ rcl_ret_t rclc_parameter_client_get_string(
   if (output == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "output");
   }
-  result = get_one(client, name, RCLC_PARAMETER_STRING, &value, timeout_ms);
+  result = get_parameter(client, name, RCLC_PARAMETER_STRING, &value, timeout_ms);
   if (result == RCL_RET_OK) {
     *output = value.as.string_value;
   }
@@ -149,7 +149,7 @@ rcl_ret_t rclc_parameter_client_get_byte_array(
   if (output == NULL || count == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "output or count");
   }
-  result = get_one(client, name, RCLC_PARAMETER_BYTE_ARRAY, &value, timeout_ms);
+  result = get_parameter(client, name, RCLC_PARAMETER_BYTE_ARRAY, &value, timeout_ms);
   if (result == RCL_RET_OK) {
     *output = value.as.byte_array_value;
     *count = value.count;
@@ -167,7 +167,7 @@ rcl_ret_t rclc_parameter_client_get_bool_array(
   if (output == NULL || count == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "output or count");
   }
-  result = get_one(client, name, RCLC_PARAMETER_BOOL_ARRAY, &value, timeout_ms);
+  result = get_parameter(client, name, RCLC_PARAMETER_BOOL_ARRAY, &value, timeout_ms);
   if (result == RCL_RET_OK) {
     *output = value.as.bool_array_value;
     *count = value.count;
@@ -185,7 +185,7 @@ rcl_ret_t rclc_parameter_client_get_int_array(
   if (output == NULL || count == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "output or count");
   }
-  result = get_one(client, name, RCLC_PARAMETER_INT_ARRAY, &value, timeout_ms);
+  result = get_parameter(client, name, RCLC_PARAMETER_INT_ARRAY, &value, timeout_ms);
   if (result == RCL_RET_OK) {
     *output = value.as.integer_array_value;
     *count = value.count;
@@ -203,7 +203,7 @@ rcl_ret_t rclc_parameter_client_get_double_array(
   if (output == NULL || count == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "output or count");
   }
-  result = get_one(client, name, RCLC_PARAMETER_DOUBLE_ARRAY, &value, timeout_ms);
+  result = get_parameter(client, name, RCLC_PARAMETER_DOUBLE_ARRAY, &value, timeout_ms);
   if (result == RCL_RET_OK) {
     *output = value.as.double_array_value;
     *count = value.count;
@@ -221,7 +221,7 @@ rcl_ret_t rclc_parameter_client_get_string_array(
   if (output == NULL || count == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "output or count");
   }
-  result = get_one(client, name, RCLC_PARAMETER_STRING_ARRAY, &value, timeout_ms);
+  result = get_parameter(client, name, RCLC_PARAMETER_STRING_ARRAY, &value, timeout_ms);
   if (result == RCL_RET_OK && value.count > capacity) {
     result =
       rclc_parameter_client_refuse_limit(client, MICROROS_ERROR_WORDS("an array"), value.count, capacity);

@@ -5,14 +5,14 @@
 
 #include <stddef.h>
 
-static bool outcome_is_of_set(const rclc_parameter_client_t * client)
+static bool parameter_outcome_is_of_set(const rclc_parameter_client_t * client)
 {
   return client->call == (uint8_t)RCLC_PARAMETER_CLIENT_SET ||
          client->call == (uint8_t)RCLC_PARAMETER_CLIENT_SET_ATOMICALLY;
 }
 
 /* Returns whether parameter `index` was set. */
-static bool outcome_read(const rclc_parameter_client_t * client, size_t index, const char ** reason)
+static bool parameter_outcome_read(const rclc_parameter_client_t * client, size_t index, const char ** reason)
 {
   cdr_fault_t fault;
   cdr_in_t in = rclc_parameter_client_begin(client, &fault);
@@ -33,10 +33,10 @@ rcl_ret_t rclc_parameter_client_outcome(rclc_parameter_client_t * client, size_t
   const char * words = "";
   bool successful;
 
-  if (index >= rclc_parameter_client_count(client) || !outcome_is_of_set(client)) {
+  if (index >= rclc_parameter_client_count(client) || !parameter_outcome_is_of_set(client)) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "client or index");
   }
-  successful = outcome_read(client, index, &words);
+  successful = parameter_outcome_read(client, index, &words);
   if (reason != NULL) {
     *reason = words;
   }
@@ -57,7 +57,7 @@ rcl_ret_t rclc_parameter_client_judge_results(rclc_parameter_client_t * client)
   for (size_t i = 0; i < client->count; ++i) {
     const char * reason = "";
 
-    if (!outcome_read(client, i, &reason)) {
+    if (!parameter_outcome_read(client, i, &reason)) {
       return microros_error_named(
         RCLC_PARAMETER_MODIFICATION_REJECTED, microros_error_parameter_client_rejected, reason);
     }

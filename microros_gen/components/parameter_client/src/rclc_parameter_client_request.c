@@ -7,7 +7,8 @@
 
 #include <stddef.h>
 
-static rcl_ret_t check_count(const rclc_parameter_client_t * client, const void * items, size_t count)
+static rcl_ret_t check_parameter_count(
+  const rclc_parameter_client_t * client, const void * items, size_t count)
 {
   if (client == NULL || client->remote == NULL || (items == NULL && count != 0u)) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "client, names or parameters");
@@ -20,7 +21,7 @@ static rcl_ret_t check_count(const rclc_parameter_client_t * client, const void 
 }
 
 /* `room` is bytes with the NUL. */
-static rcl_ret_t check_text(
+static rcl_ret_t check_parameter_text(
   const rclc_parameter_client_t * client, const char * text, size_t room, const char * what)
 {
   size_t size;
@@ -32,28 +33,30 @@ static rcl_ret_t check_text(
   return size < room ? RCL_RET_OK : rclc_parameter_client_refuse_limit(client, what, size, room - 1u);
 }
 
-static rcl_ret_t check_name(const rclc_parameter_client_t * client, const char * name)
+static rcl_ret_t check_parameter_name(const rclc_parameter_client_t * client, const char * name)
 {
-  return check_text(client, name, MICROROS_PARAMETER_CLIENT_NAME_SIZE, MICROROS_ERROR_WORDS("a name"));
+  return check_parameter_text(
+    client, name, MICROROS_PARAMETER_CLIENT_NAME_SIZE, MICROROS_ERROR_WORDS("a name"));
 }
 
-static rcl_ret_t check_string(const rclc_parameter_client_t * client, const char * text)
+static rcl_ret_t check_parameter_string(const rclc_parameter_client_t * client, const char * text)
 {
-  return check_text(client, text, MICROROS_PARAMETER_CLIENT_STRING_SIZE, MICROROS_ERROR_WORDS("a string"));
+  return check_parameter_text(
+    client, text, MICROROS_PARAMETER_CLIENT_STRING_SIZE, MICROROS_ERROR_WORDS("a string"));
 }
 
 rcl_ret_t rclc_parameter_client_check_names(
   const rclc_parameter_client_t * client, const char * const * names, size_t count)
 {
-  rcl_ret_t result = check_count(client, names, count);
+  rcl_ret_t result = check_parameter_count(client, names, count);
 
   for (size_t i = 0; i < count && result == RCL_RET_OK; ++i) {
-    result = check_name(client, names[i]);
+    result = check_parameter_name(client, names[i]);
   }
   return result;
 }
 
-static rcl_ret_t check_array(
+static rcl_ret_t check_parameter_array(
   const rclc_parameter_client_t * client, const rclc_parameter_client_value_t * value)
 {
   rcl_ret_t result = RCL_RET_OK;
@@ -67,13 +70,13 @@ static rcl_ret_t check_array(
   }
   if (value->type == RCLC_PARAMETER_STRING_ARRAY) {
     for (size_t i = 0; i < value->count && result == RCL_RET_OK; ++i) {
-      result = check_string(client, value->as.string_array_value[i]);
+      result = check_parameter_string(client, value->as.string_array_value[i]);
     }
   }
   return result;
 }
 
-static rcl_ret_t check_value(
+static rcl_ret_t check_parameter_value(
   const rclc_parameter_client_t * client, const rclc_parameter_client_value_t * value)
 {
   switch (value->type) {
@@ -83,13 +86,13 @@ static rcl_ret_t check_value(
     case RCLC_PARAMETER_DOUBLE:
       return RCL_RET_OK;
     case RCLC_PARAMETER_STRING:
-      return check_string(client, value->as.string_value);
+      return check_parameter_string(client, value->as.string_value);
     case RCLC_PARAMETER_BYTE_ARRAY:
     case RCLC_PARAMETER_BOOL_ARRAY:
     case RCLC_PARAMETER_INT_ARRAY:
     case RCLC_PARAMETER_DOUBLE_ARRAY:
     case RCLC_PARAMETER_STRING_ARRAY:
-      return check_array(client, value);
+      return check_parameter_array(client, value);
     default:
       return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "the type of a value");
   }
@@ -98,19 +101,19 @@ static rcl_ret_t check_value(
 rcl_ret_t rclc_parameter_client_check_parameters(
   const rclc_parameter_client_t * client, const rclc_parameter_client_parameter_t * parameters, size_t count)
 {
-  rcl_ret_t result = check_count(client, parameters, count);
+  rcl_ret_t result = check_parameter_count(client, parameters, count);
 
   for (size_t i = 0; i < count && result == RCL_RET_OK; ++i) {
-    result = check_name(client, parameters[i].name);
+    result = check_parameter_name(client, parameters[i].name);
     if (result == RCL_RET_OK) {
-      result = check_value(client, &parameters[i].value);
+      result = check_parameter_value(client, &parameters[i].value);
     }
   }
   return result;
 }
 
 /* Returns the size of the request, or 0. */
-static uint32_t write_end(const parameter_out_t * out, cdr_fault_t * fault)
+static uint32_t write_parameters_end(const parameter_out_t * out, cdr_fault_t * fault)
 {
   if (out->full) {
     (void)cdr_refuse(fault, CDR_FAULT_LIMIT, "parameters", out->room, out->room);
@@ -118,7 +121,7 @@ static uint32_t write_end(const parameter_out_t * out, cdr_fault_t * fault)
   return out->full ? 0u : out->position;
 }
 
-static void write_names(parameter_out_t * out, const rclc_parameter_client_t * client)
+static void write_parameter_names(parameter_out_t * out, const rclc_parameter_client_t * client)
 {
   const char * const * names = client->items;
 
@@ -133,8 +136,8 @@ uint32_t rclc_parameter_client_write_names(
 {
   parameter_out_t out = {body, 0, room, false};
 
-  write_names(&out, client);
-  return write_end(&out, fault);
+  write_parameter_names(&out, client);
+  return write_parameters_end(&out, fault);
 }
 
 uint32_t rclc_parameter_client_write_prefixes(
@@ -142,13 +145,13 @@ uint32_t rclc_parameter_client_write_prefixes(
 {
   parameter_out_t out = {body, 0, room, false};
 
-  write_names(&out, client);
+  write_parameter_names(&out, client);
   rclc_parameter_out_8(&out, &client->depth);
-  return write_end(&out, fault);
+  return write_parameters_end(&out, fault);
 }
 
 /* Writes the array of a type; an empty one where the value has another type. */
-static void write_array(
+static void write_parameter_array(
   parameter_out_t * out, const rclc_parameter_client_value_t * value, rclc_parameter_type_t type,
   uint32_t width)
 {
@@ -165,7 +168,7 @@ static void write_array(
   }
 }
 
-static void write_value(parameter_out_t * out, const rclc_parameter_client_value_t * value)
+static void write_parameter_value(parameter_out_t * out, const rclc_parameter_client_value_t * value)
 {
   const bool truth = value->type == RCLC_PARAMETER_BOOL && value->as.bool_value;
   const int64_t integer = value->type == RCLC_PARAMETER_INT ? value->as.integer_value : 0;
@@ -177,10 +180,10 @@ static void write_value(parameter_out_t * out, const rclc_parameter_client_value
   rclc_parameter_out_8(out, &integer);
   rclc_parameter_out_8(out, &number);
   rclc_parameter_out_text(out, value->type == RCLC_PARAMETER_STRING ? value->as.string_value : "");
-  write_array(out, value, RCLC_PARAMETER_BYTE_ARRAY, 1u);
-  write_array(out, value, RCLC_PARAMETER_BOOL_ARRAY, 1u);
-  write_array(out, value, RCLC_PARAMETER_INT_ARRAY, 8u);
-  write_array(out, value, RCLC_PARAMETER_DOUBLE_ARRAY, 8u);
+  write_parameter_array(out, value, RCLC_PARAMETER_BYTE_ARRAY, 1u);
+  write_parameter_array(out, value, RCLC_PARAMETER_BOOL_ARRAY, 1u);
+  write_parameter_array(out, value, RCLC_PARAMETER_INT_ARRAY, 8u);
+  write_parameter_array(out, value, RCLC_PARAMETER_DOUBLE_ARRAY, 8u);
   rclc_parameter_out_4(out, (uint32_t)strings);
   for (size_t i = 0; i < strings; ++i) {
     rclc_parameter_out_text(out, value->as.string_array_value[i]);
@@ -196,7 +199,7 @@ uint32_t rclc_parameter_client_write_parameters(
   rclc_parameter_out_4(&out, (uint32_t)client->count);
   for (size_t i = 0; i < client->count; ++i) {
     rclc_parameter_out_text(&out, parameters[i].name);
-    write_value(&out, &parameters[i].value);
+    write_parameter_value(&out, &parameters[i].value);
   }
-  return write_end(&out, fault);
+  return write_parameters_end(&out, fault);
 }

@@ -56,14 +56,14 @@ const char * rclc_parameter_client_read_text(cdr_in_t * in)
 }
 
 /* Returns the first element of an array, and how many there are. */
-static const void * read_array(cdr_in_t * in, uint32_t width, uint32_t * count)
+static const void * read_parameter_array(cdr_in_t * in, uint32_t width, uint32_t * count)
 {
   *count = cdr_in_length(in, width, "array");
   return *count != 0u ? rclc_parameter_in_take(in, *count, width) : NULL;
 }
 
 /* The elements were counted when they arrived. */
-static uint32_t read_strings(rclc_parameter_client_t * client, cdr_in_t * in)
+static uint32_t read_parameter_strings(rclc_parameter_client_t * client, cdr_in_t * in)
 {
   const uint32_t count = rclc_parameter_in_length(in);
 
@@ -83,7 +83,8 @@ static uint32_t read_strings(rclc_parameter_client_t * client, cdr_in_t * in)
   return count;
 }
 
-static void value_take_array(rclc_parameter_client_value_t * value, const void * elements, uint32_t count)
+static void parameter_value_take_array(
+  rclc_parameter_client_value_t * value, const void * elements, uint32_t count)
 {
   value->count = count;
   switch (value->type) {
@@ -103,7 +104,7 @@ static void value_take_array(rclc_parameter_client_value_t * value, const void *
   }
 }
 
-static void value_take_scalar(
+static void parameter_value_take_scalar(
   rclc_parameter_client_value_t * value, bool truth, int64_t integer, double number, const char * text)
 {
   switch (value->type) {
@@ -141,16 +142,16 @@ void rclc_parameter_client_read_value(
   text = rclc_parameter_client_read_text(in);
   value->type = (rclc_parameter_type_t)type;
   value->count = 0;
-  value_take_scalar(value, truth, integer, number, text);
+  parameter_value_take_scalar(value, truth, integer, number, text);
   for (uint32_t i = 0; i < (uint32_t)CLIENT_ARRAYS; ++i) {
     uint32_t count;
-    const void * elements = read_array(in, widths[i], &count);
+    const void * elements = read_parameter_array(in, widths[i], &count);
 
     if (type == (uint32_t)RCLC_PARAMETER_BYTE_ARRAY + i) {
-      value_take_array(value, elements, count);
+      parameter_value_take_array(value, elements, count);
     }
   }
-  strings = read_strings(client, in);
+  strings = read_parameter_strings(client, in);
 #if MICROROS_PARAMETER_CLIENT_ELEMENTS > 0u
   if (type == (uint8_t)RCLC_PARAMETER_STRING_ARRAY) {
     value->count = strings;
@@ -162,12 +163,12 @@ void rclc_parameter_client_read_value(
 }
 
 /* Returns an element of the message that can be changed. */
-static uint8_t * value_at(rclc_parameter_client_t * client, const void * element)
+static uint8_t * parameter_value_at(rclc_parameter_client_t * client, const void * element)
 {
   return &client->message.bytes[(const uint8_t *)element - client->message.bytes];
 }
 
-static void value_turn(uint8_t * bytes, uint32_t count)
+static void parameter_value_turn(uint8_t * bytes, uint32_t count)
 {
   for (uint32_t i = 0; i < count; ++i) {
     uint8_t * number = &bytes[i * (uint32_t)CLIENT_WIDEST];
@@ -190,22 +191,22 @@ void rclc_parameter_client_settle_value(rclc_parameter_client_t * client, cdr_in
     return;
   }
   if (value.type == RCLC_PARAMETER_BOOL_ARRAY) {
-    uint8_t * truths = value_at(client, value.as.bool_array_value);
+    uint8_t * truths = parameter_value_at(client, value.as.bool_array_value);
 
     for (size_t i = 0; i < value.count; ++i) {
       truths[i] = truths[i] != 0u ? 1u : 0u;
     }
   } else if (in->swap && value.type == RCLC_PARAMETER_INT_ARRAY) {
-    value_turn(value_at(client, value.as.integer_array_value), (uint32_t)value.count);
+    parameter_value_turn(parameter_value_at(client, value.as.integer_array_value), (uint32_t)value.count);
   } else if (in->swap && value.type == RCLC_PARAMETER_DOUBLE_ARRAY) {
-    value_turn(value_at(client, value.as.double_array_value), (uint32_t)value.count);
+    parameter_value_turn(parameter_value_at(client, value.as.double_array_value), (uint32_t)value.count);
   } else {
     /* as it is */
   }
 }
 
 /* Notes the count of a response, or that it was refused. */
-static void response_settle(
+static void parameter_response_settle(
   rclc_parameter_client_t * client, cdr_in_t * in, const cdr_in_t * kept, uint32_t count)
 {
   if (kept->failed) {
@@ -223,10 +224,10 @@ void rclc_parameter_client_decode_values(cdr_in_t * in, void * client)
   for (uint32_t i = 0; i < count && !kept.failed; ++i) {
     rclc_parameter_client_settle_value(client, &kept);
   }
-  response_settle(client, in, &kept, count);
+  parameter_response_settle(client, in, &kept, count);
 }
 
-static void response_pass_result(cdr_in_t * in)
+static void parameter_response_pass_result(cdr_in_t * in)
 {
   bool successful;
 
@@ -240,17 +241,17 @@ void rclc_parameter_client_decode_results(cdr_in_t * in, void * client)
   const uint32_t count = rclc_parameter_in_length(&kept);
 
   for (uint32_t i = 0; i < count && !kept.failed; ++i) {
-    response_pass_result(&kept);
+    parameter_response_pass_result(&kept);
   }
-  response_settle(client, in, &kept, count);
+  parameter_response_settle(client, in, &kept, count);
 }
 
 void rclc_parameter_client_decode_result(cdr_in_t * in, void * client)
 {
   cdr_in_t kept = rclc_parameter_client_keep(client, in);
 
-  response_pass_result(&kept);
-  response_settle(client, in, &kept, 1u);
+  parameter_response_pass_result(&kept);
+  parameter_response_settle(client, in, &kept, 1u);
 }
 
 void rclc_parameter_client_decode_names(cdr_in_t * in, void * client)
@@ -261,5 +262,5 @@ void rclc_parameter_client_decode_names(cdr_in_t * in, void * client)
   for (uint32_t i = 0; i < count && !kept.failed; ++i) {
     (void)rclc_parameter_client_read_text(&kept);
   }
-  response_settle(client, in, &kept, count);
+  parameter_response_settle(client, in, &kept, count);
 }

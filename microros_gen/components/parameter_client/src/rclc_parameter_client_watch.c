@@ -18,7 +18,7 @@
 
 /* Bytes of an event that is too large: the time, the length of the node's name and its beginning. No whole event has this
  * size. */
-enum { WATCH_TIME = 8, WATCH_NAME_AT = 12, WATCH_BEGINNING = 27 };
+enum { WATCH_STAMP = 8, WATCH_NAME_AT = 12, WATCH_BEGINNING = 27 };
 
 /* The subscriptions, by node; NULL: none. */
 static rmw_subscription_t * watch_subscriptions[MICROROS_NODES_MAX];
@@ -62,7 +62,7 @@ static void watch_decode_beginning(cdr_in_t * in, watch_event_t * event)
   uint32_t length;
   parameter_text_t name;
 
-  in->position = WATCH_TIME;
+  in->position = WATCH_STAMP;
   cdr_get_4(in, &length, 1u, "node");
   name.data = (const char *)&in->body[WATCH_NAME_AT];
   name.size = length - 1u; /* the NUL */
@@ -91,7 +91,7 @@ static void watch_decode(cdr_in_t * in, void * message)
     watch_decode_beginning(in, event);
     return;
   }
-  (void)rclc_parameter_in_take(in, WATCH_TIME, 1u);
+  (void)rclc_parameter_in_take(in, WATCH_STAMP, 1u);
   name = rclc_parameter_in_text(in);
   event->client = in->failed ? NULL : watch_find(event->node, &name, name.size);
   if (event->client == NULL) {
