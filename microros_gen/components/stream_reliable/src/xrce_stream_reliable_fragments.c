@@ -20,7 +20,7 @@ enum {
   FRAGMENT_HEADER = XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER,
   FRAGMENT_SIZE = MICROROS_MTU - FRAGMENT_HEADER,
   UNFRAGMENTED_SIZE = MICROROS_MTU - XRCE_MESSAGE_HEADER,
-  WINDOW = 16
+  FRAGMENTS_WINDOW = 16
 };
 
 /* Returns the slot of the i-th stored message; free slots follow after them. */
@@ -160,7 +160,7 @@ static void stream_flow(xrce_stream_reliable_t * stream, xrce_session_t * sessio
     xrce_stream_reliable_restart_timer(stream, now);
   }
   outcome = stream_repeat(stream, session);
-  while (outcome == STREAM_SENT && stream->sent < WINDOW) {
+  while (outcome == STREAM_SENT && stream->sent < FRAGMENTS_WINDOW) {
     outcome = stream_send_place(stream, session, stream->sent);
     if (outcome == STREAM_SENT) {
       ++stream->sent;
