@@ -157,7 +157,7 @@ static uint32_t exchange_age_ms(const rclc_parameter_place_t * place)
   const uint64_t ns_per_ms = 1000000;
   uint64_t rest;
   const uint64_t age =
-    rclc_parameter_divide((uint64_t)(port_time_steady_ns() - place->changed_ns), ns_per_ms, &rest);
+    rclc_parameter_divide((uint64_t)port_time_steady_ns() - (uint64_t)place->changed_ns, ns_per_ms, &rest);
 
   return age < UINT32_MAX ? (uint32_t)age : UINT32_MAX;
 }

@@ -17,8 +17,6 @@
 
 #include <stddef.h>
 
-static const int64_t held_period_ns = 2000000000; /* between two notices, while the server has not asked */
-
 static uint32_t held_encode(const void * message, uint8_t * body, cdr_fault_t * fault)
 {
   const rclc_parameter_server_t * server = message;
@@ -34,22 +32,19 @@ static uint32_t held_encode(const void * message, uint8_t * body, cdr_fault_t * 
   return out.full ? 0u : out.position;
 }
 
-static const microros_message_type_t held_message = {
-  .dds_type_name = "microros_parameter_msgs::msg::dds_::Notice_",
-  .max_encoded_size = microros_parameter_msgs__msg__Notice__MAX_ENCODED_SIZE,
-  .encode = held_encode};
-
-static const rosidl_message_type_support_t held_type = {
-  .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &held_message};
-
 rcl_ret_t rclc_parameter_held_open(rclc_parameter_server_t * server, const rcl_node_t * node)
 {
+  static const microros_message_type_t message = {
+    .dds_type_name = "microros_parameter_msgs::msg::dds_::Notice_",
+    .max_encoded_size = microros_parameter_msgs__msg__Notice__MAX_ENCODED_SIZE,
+    .encode = held_encode};
+  static const rosidl_message_type_support_t type = {
+    .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &message};
   rmw_qos_profile_t qos = rmw_qos_profile_default;
 
   qos.durability = RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL;
   qos.depth = 1;
-  return rclc_publisher_init(
-    &server->event_publisher, node, &held_type, "/microros_parameters/notices", &qos);
+  return rclc_publisher_init(&server->event_publisher, node, &type, "/microros_parameters/notices", &qos);
 }
 
 void rclc_parameter_held_begin(rclc_parameter_server_t * server)
@@ -125,17 +120,18 @@ void rclc_parameter_publish(rclc_parameter_server_t * server)
 
 void rclc_parameter_held_look(rclc_parameter_server_t * server, int64_t * look_again_ns)
 {
+  const int64_t period_ns = 2000000000; /* between two notices, while the server has not asked */
   rclc_parameter_held_t * const held = &server->held;
   int64_t left;
 
   if (!held->has_begun || held->notice_is_due || (held->own_session != 0u && held_news(server) == 0u)) {
     return;
   }
-  left = held->noticed_ns + held_period_ns - port_time_steady_ns();
+  left = held->noticed_ns + period_ns - port_time_steady_ns();
   if (left <= 0) {
     held->notice_is_due = true;
     rclc_parameter_publish(server);
-    left = held_period_ns;
+    left = period_ns;
   }
   if (left < *look_again_ns) {
     *look_again_ns = left;
@@ -157,7 +153,7 @@ rcl_ret_t rclc_parameter_check_held(const rclc_parameter_server_t * parameter_se
     return RCL_RET_OK;
   }
   age_ms = rclc_parameter_divide(
-    (uint64_t)(port_time_steady_ns() - parameter_server->held.requested_ns), ns_per_ms, &rest);
+    (uint64_t)port_time_steady_ns() - (uint64_t)parameter_server->held.requested_ns, ns_per_ms, &rest);
   microros_error_set(
     microros_error_parameters_away, rcl_node_get_name(parameter_server->node), NULL,
     age_ms < UINT32_MAX ? (uint32_t)age_ms : UINT32_MAX, count);
