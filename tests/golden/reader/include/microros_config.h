@@ -48,6 +48,7 @@
 #define MICROROS_SUBSCRIPTIONS_MAX 2u
 #define MICROROS_SERVICES_MAX 0u
 #define MICROROS_CLIENTS_MAX 0u
+#define MICROROS_NODE_LOGGER_NAME_SIZE 6u
 #define MICROROS_TASKS_SHARE 0u /* several tasks may call the library */
 #define MICROROS_EXECUTORS_MAX 1u
 #define MICROROS_HANDLES_MAX 2u /* of each executor */

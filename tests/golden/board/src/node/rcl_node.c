@@ -99,11 +99,6 @@ const char * rcl_node_get_namespace(const rcl_node_t * node)
   return rcl_node_is_valid_except_context(node) ? node->impl->namespace_ : NULL;
 }
 
-const char * rcl_node_get_logger_name(const rcl_node_t * node)
-{
-  return rcl_node_get_name(node);
-}
-
 rcl_ret_t rcl_node_get_domain_id(const rcl_node_t * node, size_t * domain_id)
 {
   const xrce_participant_t * participant;

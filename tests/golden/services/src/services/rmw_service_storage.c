@@ -5,9 +5,9 @@
 
 #include <stddef.h>
 
-typedef void (*bind_t)(void * ros_message);
+typedef void (*service_bind_t)(void * ros_message);
 
-static void service_bind(bind_t bind, void * ros_message)
+static void service_bind(service_bind_t bind, void * ros_message)
 {
   if (bind != NULL && ros_message != NULL) {
     bind(ros_message);
@@ -40,10 +40,10 @@ static void bind_client_0_response(void * ros_message)
 
 void rmw_replier_bind(const rmw_service_t * service, void * ros_request, void * ros_response)
 {
-  static const bind_t requests[MICROROS_SERVICES_MAX] = {
+  static const service_bind_t requests[MICROROS_SERVICES_MAX] = {
     NULL,
   };
-  static const bind_t responses[MICROROS_SERVICES_MAX] = {
+  static const service_bind_t responses[MICROROS_SERVICES_MAX] = {
     bind_service_0_response,
   };
 
@@ -56,7 +56,7 @@ void rmw_replier_bind(const rmw_service_t * service, void * ros_request, void * 
 
 void rmw_requester_bind(const rmw_client_t * client, void * ros_response)
 {
-  static const bind_t responses[MICROROS_CLIENTS_MAX] = {
+  static const service_bind_t responses[MICROROS_CLIENTS_MAX] = {
     bind_client_0_response,
   };
 

@@ -5,10 +5,10 @@
 
 #include <stddef.h>
 
-typedef void (*bind_t)(void * ros_message);
+typedef void (*subscription_bind_t)(void * ros_message);
 
 /* /said */
-static void bind_2(void * ros_message)
+static void subscription_bind_2(void * ros_message)
 {
   static std_msgs__msg__String__Storage storage;
   std_msgs__msg__String * message = ros_message;
@@ -21,13 +21,13 @@ static void bind_2(void * ros_message)
 
 void rmw_subscription_bind(const rmw_subscription_t * subscription, void * ros_message)
 {
-  static const bind_t binds[MICROROS_SUBSCRIPTIONS_MAX] = {
+  static const subscription_bind_t binds[MICROROS_SUBSCRIPTIONS_MAX] = {
     NULL,
     NULL,
-    bind_2,
+    subscription_bind_2,
   };
   const xrce_endpoint_t * endpoint = subscription->data;
-  const bind_t bind = binds[endpoint->index - MICROROS_PUBLISHERS_MAX];
+  const subscription_bind_t bind = binds[endpoint->index - MICROROS_PUBLISHERS_MAX];
 
   if (bind != NULL) {
     bind(ros_message);

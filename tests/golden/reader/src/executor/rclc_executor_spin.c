@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/error.h"
+#include "microros/executor_handles.h"
+#include "microros/port.h"
+#include "microros/rcl_waiting.h"
+#include "microros/time_math.h"
+#include "microros_config.h"
+
+/* Pause between rounds that end with an error at once. */
+enum { PAUSE_AFTER_ERROR_NS = 1000000 };
+
+/* Looks at all handles; *changed: a handle has become ready. */
+static rcl_ret_t executor_look(const rclc_executor_t * executor, bool * changed, int64_t * look_again_ns)
+{
+  *changed = false;
+  *look_again_ns = INT64_MAX;
+  for (size_t i = 0; i < executor->index; ++i) {
+    rclc_executor_handle_t * handle = &executor->handles[i];
+    bool is_ready = false;
+    const rcl_ret_t result = handle->kind->look(handle, &is_ready, look_again_ns);
+
+    if (result != RCL_RET_OK) {
+      return result;
+    }
+    *changed = *changed || (is_ready && !handle->data_available);
+    handle->data_available = is_ready;
+  }
+  return RCL_RET_OK;
+}
+
+static rcl_ret_t executor_wait(const rclc_executor_t * executor, int64_t timeout_ns)
+{
+  const rcl_waiting_t waiting = rcl_waiting_begin(timeout_ns);
+
+  for (;;) {
+    bool changed = false;
+    int64_t look_again_ns = INT64_MAX;
+    rcl_ret_t result;
+
+    rcl_waiting_receive();
+    result = executor_look(executor, &changed, &look_again_ns);
+    if (result != RCL_RET_OK || changed || rcl_waiting_is_over(&waiting)) {
+      return result;
+    }
+    rcl_waiting_rest(&waiting, look_again_ns);
+  }
+}
+
+static rcl_ret_t handle_take(rclc_executor_handle_t * handle)
+{
+  const rcl_ret_t result = handle->data_available ? handle->kind->take(handle) : RCL_RET_OK;
+
+  if (result != RCL_RET_OK) {
+    handle->data_available = false;
+  }
+  return result;
+}
+
+static rcl_ret_t handle_call(rclc_executor_handle_t * handle)
+{
+  const bool calls = handle->data_available || handle->invocation == ALWAYS;
+
+  return calls ? handle->kind->call(handle) : RCL_RET_OK;
+}
+
+static void executor_note(rcl_ret_t * first, rcl_ret_t result)
+{
+  if (*first == RCL_RET_OK) {
+    *first = result;
+  }
+}
+
+/* Returns the first handle that still has a turn in this round, or NULL. */
+static rclc_executor_handle_t * executor_next(const rclc_executor_t * executor)
+{
+  for (size_t i = 0; i < executor->index; ++i) {
+    if (executor->handles[i].has_turn) {
+      return &executor->handles[i];
+    }
+  }
+  return NULL;
+}
+
+/* A callback may remove handles, including its own, which moves those after it, or finalize the executor;
+ * handles that it adds have their first turn in the next round. Therefore each turn searches for its
+ * handle. */
+static rcl_ret_t executor_process(const rclc_executor_t * executor)
+{
+  const bool takes_first = executor->data_comm_semantics == RCLC_SEMANTICS_LOGICAL_EXECUTION_TIME;
+  rclc_executor_handle_t * handle;
+  rcl_ret_t first = RCL_RET_OK;
+
+  for (size_t i = 0; i < executor->index; ++i) {
+    executor->handles[i].has_turn = true;
+    if (takes_first) {
+      executor_note(&first, handle_take(&executor->handles[i]));
+    }
+  }
+  for (handle = executor_next(executor); handle != NULL; handle = executor_next(executor)) {
+    handle->has_turn = false;
+    if (!takes_first) {
+      executor_note(&first, handle_take(handle));
+    }
+    executor_note(&first, handle_call(handle));
+  }
+  for (size_t i = 0; i < executor->index; ++i) {
+    executor->handles[i].data_available = false;
+  }
+  return first;
+}
+
+rcl_ret_t rclc_executor_spin_some(rclc_executor_t * executor, const uint64_t timeout_ns)
+{
+  rcl_ret_t result;
+
+  if (executor == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "executor");
+  }
+  if (executor->handles == NULL || !rcl_context_is_valid(executor->context)) {
+    return microros_error_refuse(RCL_RET_ERROR, "executor or its context");
+  }
+  result = executor_wait(executor, timeout_ns > (uint64_t)INT64_MAX ? -1 : (int64_t)timeout_ns);
+  if (
+    result == RCL_RET_OK &&
+    executor->trigger_function(
+      executor->handles, (unsigned int)executor->max_handles, executor->trigger_object)) {
+    result = executor_process(executor);
+  }
+  return result;
+}
+
+/* Returns whether to continue with further rounds after `result`. */
+static bool executor_continues(const rclc_executor_t * executor, rcl_ret_t result)
+{
+  return result == RCL_RET_OK || result == RCL_RET_TIMEOUT ||
+         ((result == RCL_RET_ERROR || result == RCL_RET_BAD_ALLOC || result == RCL_RET_UNSUPPORTED) &&
+          executor->handles != NULL && rcl_context_is_valid(executor->context));
+}
+
+static void executor_rest(int64_t duration_ns)
+{
+  const rcl_waiting_t waiting = rcl_waiting_begin(duration_ns > 0 ? duration_ns : 0);
+
+  while (!rcl_waiting_is_over(&waiting)) {
+    rcl_waiting_rest(&waiting, INT64_MAX);
+    rcl_waiting_receive();
+  }
+}
+
+/*
+ * Longest wait of a round whose end is not observed. A time-out makes nothing ready; it only serves
+ * trigger functions that look at other state, and another task that ends the context.
+ */
+static uint64_t executor_wait_limit(const rclc_executor_t * executor)
+{
+  const bool is_unbounded =
+    MICROROS_TASKS_SHARE == 0u && executor->trigger_function == rclc_executor_trigger_any;
+
+  return is_unbounded ? UINT64_MAX : executor->timeout_ns;
+}
+
+rcl_ret_t rclc_executor_spin(rclc_executor_t * executor)
+{
+  if (executor == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "executor");
+  }
+  for (;;) {
+    const rcl_ret_t result = rclc_executor_spin_some(executor, executor_wait_limit(executor));
+
+    if (!executor_continues(executor, result)) {
+      return result;
+    }
+    if (result != RCL_RET_OK) {
+      executor_rest(PAUSE_AFTER_ERROR_NS);
+    }
+  }
+}
+
+rcl_ret_t rclc_executor_spin_one_period(rclc_executor_t * executor, const uint64_t period)
+{
+  rcl_ret_t result;
+
+  if (executor == NULL || period > (uint64_t)INT64_MAX) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "executor or period");
+  }
+  if (executor->invocation_time == 0) {
+    executor->invocation_time = port_time_steady_ns();
+  }
+  result = rclc_executor_spin_some(executor, executor->timeout_ns);
+  if (executor_continues(executor, result)) {
+    executor->invocation_time = microros_time_after(executor->invocation_time, (int64_t)period);
+    executor_rest(executor->invocation_time - port_time_steady_ns()); /* neither is negative */
+  }
+  return result;
+}
+
+rcl_ret_t rclc_executor_spin_period(rclc_executor_t * executor, const uint64_t period)
+{
+  rcl_ret_t result;
+
+  do {
+    result = rclc_executor_spin_one_period(executor, period);
+  } while (executor != NULL && executor_continues(executor, result));
+  return result;
+}
