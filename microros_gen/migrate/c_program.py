@@ -55,6 +55,13 @@ class Call:
     turn: tuple[int, ...] = ()
 
     @property
+    def texts(self) -> tuple[str, ...]:
+        """The strings among the arguments, as they are written."""
+        return tuple(
+            token.text for argument in self.arguments for token in argument if token.kind == "string"
+        )
+
+    @property
     def span(self) -> Span:
         """The place of its name."""
         return self.token.span

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 
 from microros_gen.migrate.c_program import Call
 from microros_gen.migrate.draft import Remark
@@ -20,10 +20,13 @@ _UNKNOWN = "is not in this version"
 _HINT = "Remove the call and what belongs to it"
 
 
-def selected_by(function: str, declared: Mapping[str, str], catalogue: Catalogue) -> tuple[str, ...]:
+def selected_by(
+    function: str, declared: Mapping[str, str], catalogue: Catalogue, texts: Collection[str] = ()
+) -> tuple[str, ...]:
     """Return what a call selects: the component that declares the function, else those that list it in `calls`.
 
-    `declared` says which component declares a function. Of the names under which it is listed, the longest counts.
+    `declared` says which component declares a function; `texts` are the strings among the arguments. Of the names under
+    which it is listed, the longest counts.
     """
     if function in declared:
         return (declared[function],)
@@ -31,7 +34,7 @@ def selected_by(function: str, declared: Mapping[str, str], catalogue: Catalogue
         (len(call.name), component.name)
         for component in catalogue.values()
         for call in component.presence.calls
-        if call.matches(function)
+        if call.matches(function, texts)
     ]
     longest, _ = max(listed, default=(0, ""))
     return tuple(sorted(component for length, component in listed if length == longest))

@@ -73,7 +73,7 @@ def rclc_draft(
     endpoints = {endpoint.kind for node in nodes for endpoint in node.endpoints}
     profiles = tuple(profile for profile, kind in _PROFILES if kind in endpoints)
     own = {function.name for file in files for function in file.functions}
-    selected = {call.name: names for call in calls if (names := selected_by(call.name, declared, catalogue))}
+    selected = _selected(calls, declared, catalogue)
     called = [
         call
         for call in calls
@@ -99,6 +99,18 @@ def rclc_draft(
             id="MG-9011",
         )
     return Adopted(draft, tuple(find_capacities(files, calls, values)))
+
+
+def _selected(
+    calls: Iterable[Call], declared: Mapping[str, str], catalogue: Catalogue
+) -> dict[str, tuple[str, ...]]:
+    """Return the components that each function selects, by any of its calls."""
+    selected: dict[str, tuple[str, ...]] = {}
+    for call in calls:
+        names = selected_by(call.name, declared, catalogue, call.texts)
+        if names:
+            selected[call.name] = tuple(sorted({*selected.get(call.name, ()), *names}))
+    return selected
 
 
 def _types_without_entity(nodes: Iterable[DraftNode]) -> tuple[str, ...]:

@@ -7,6 +7,9 @@ paths (`streams.mtu`, `parameters.count`), as conditions do.
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable
+
 from microros_gen.records import dataclass
 from microros_gen.selection.contribution import Conditional
 
@@ -14,6 +17,9 @@ EXAMPLE_FILE = "example.c.j2"
 """The template of a component's part of the example, in its folder: one macro for each point that it uses."""
 EXAMPLE_POINTS = ("variables", "init", "executor", "fini", "functions", "turn")
 """The points of examples/<profile>/main.c; docs/architecture.md says where each is."""
+
+_CONVERSION = re.compile(r"%(?:%|[-+ #0-9.*]*(?:hh?|ll?|[jztL])?([A-Za-z]))")
+"""A conversion of printf, with its letter (ISO C99, 7.19.6.1); `%%` has none."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,14 +63,21 @@ class MemoryUse(Conditional):
 
 @dataclass(frozen=True)
 class SelectingCall:
-    """Functions and macros that select the component where migrated sources use them; `x_*`: all that begin so."""
+    """Functions and macros that select the component where migrated sources use them; `x_*`: all that begin so.
+
+    `conversions` are letters of conversions of printf: only calls with one of them in a string count.
+    """
 
     name: str
+    conversions: str = ""
 
-    def matches(self, function: str) -> bool:
-        """Return whether a function of that name is one of them."""
+    def matches(self, function: str, texts: Iterable[str] = ()) -> bool:
+        """Return whether a call of that function, with those strings among its arguments, selects the component."""
         start = self.name.removesuffix("*")
-        return function.startswith(start) if start != self.name else function == start
+        if not (function.startswith(start) if start != self.name else function == start):
+            return False
+        found = {match[1] for text in texts for match in _CONVERSION.finditer(text)}
+        return not self.conversions or not found.isdisjoint(self.conversions)
 
 
 @dataclass(frozen=True)

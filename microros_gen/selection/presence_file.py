@@ -44,7 +44,10 @@ def read_presence(node: MappingNode) -> Presence:
             )
             for e in entries(node.get("size"))
         ),
-        calls=tuple(SelectingCall(text_of(i) or "") for i in items(node.get("calls"))),
+        calls=tuple(
+            SelectingCall(text_of(i) or child_text(i, "name"), child_text(i, "conversions"))
+            for i in items(node.get("calls"))
+        ),
     )
 
 

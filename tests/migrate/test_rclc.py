@@ -454,6 +454,16 @@ def test_log_macros_select_the_console_and_rosout() -> None:
     assert not any("RCUTILS_LOG_INFO_NAMED" in reason for reason in reasons(text))
 
 
+def test_floating_point_in_a_log_message_selects_its_component() -> None:
+    """Of several calls of one macro, one is enough."""
+    plain = 'RCUTILS_LOG_INFO("%d of %s", 1, "two");'
+    assert "+logging_float" not in adopted(program(plain)).draft.components
+    assert (
+        "+logging_float"
+        in adopted(program(plain + 'RCUTILS_LOG_INFO("at " "%.2f m", x);' + plain)).draft.components
+    )
+
+
 def test_a_program_without_a_node_is_taken() -> None:
     """It may ping, or synchronize its clock, and no more."""
     draft = adopted("int main(void) { rmw_uros_ping_agent(100, 1); return 0; }").draft

@@ -53,7 +53,7 @@ example: {includes: [a.h], handles: executor.max, when: {component.executor: tru
 manifest: {mtu: streams.mtu, number: 3, sometimes: {value: 4, when: {streams.on_full: error}}}
 reports: [{name: a, value: "{streams.mtu} bytes", why: because}]
 size: {store: the store, "rows[]": {use: "row {}", when: {streams.on_full: error}}}
-calls: [a_*, b]
+calls: [a_*, b, {name: c, conversions: fe}]
 """
     tree = parse_yaml(Source("x", text), Diagnostics())
     assert isinstance(tree, MappingNode)
@@ -72,7 +72,7 @@ calls: [a_*, b]
             MemoryUse(variable="store", use="the store"),
             MemoryUse(variable="rows[]", use="row {}", when=full),
         ),
-        calls=(SelectingCall("a_*"), SelectingCall("b")),
+        calls=(SelectingCall("a_*"), SelectingCall("b"), SelectingCall("c", "fe")),
     )
 
 
@@ -126,6 +126,10 @@ def test_a_call_selects_who_declares_it_or_else_who_lists_it() -> None:
     declared = declared_functions(catalogue)
     assert selected_by("rcl_publish", declared, catalogue) == ("publish",)
     assert selected_by("RCUTILS_LOG_INFO_NAMED", declared, catalogue) == ("logging_console", "logging_rosout")
+    floating = selected_by("RCUTILS_LOG_INFO", declared, catalogue, ['"name"', '"%d %5.1lf"'])
+    assert floating == ("logging_console", "logging_float", "logging_rosout")
+    for text in ('"%d%%f"', '"100 %"', '"%hhx %zu f"', '"f %lld"'):
+        assert "logging_float" not in selected_by("RCUTILS_LOG_INFO", declared, catalogue, [text]), text
     assert selected_by("rcutils_logging_set_logger_level", declared, catalogue) == ("logging",)
     assert selected_by("rclc_make_node_a_lifecycle_node", {}, catalogue) == ("lifecycle",)
     assert selected_by("printf", declared, catalogue) == ()
@@ -141,6 +145,10 @@ def test_a_call_selects_who_declares_it_or_else_who_lists_it() -> None:
         (
             {"component.yaml": "calls: ['a b']\n"},
             "beacon/component.yaml:9:9: error: 'calls[0]' must be the name of a function",
+        ),
+        (
+            {"component.yaml": "calls: [{name: a, conversions: '%f'}]\n"},
+            "beacon/component.yaml:9:9: error: 'calls[0]' must be the name of a function, how names begin",
         ),
         (
             {
