@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import subprocess
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,6 +11,7 @@ from typing import Any
 import pytest
 
 from tests.support.agent.line_process import LineProcess
+from tests.support.e2e.commanded import CommandedProgram
 from tests.support.e2e.images import C_FILES, Images, ends_well, started
 from tests.support.e2e.relay import Relay
 from tests.support.e2e.remote_parameters import VALUES, remote_parameters
@@ -48,24 +48,8 @@ SHOWN = {
 """The values of the peer, as the program prints them: type and value."""
 
 
-class Device:
-    """The program on the other side of two pipes."""
-
-    def __init__(self, process: subprocess.Popen[str]) -> None:
-        self._process = process
-
-    def call(self, command: str) -> tuple[int, str, list[str]]:
-        """Return code, error text and printed lines."""
-        assert self._process.stdin is not None
-        assert self._process.stdout is not None
-        self._process.stdin.write(command + "\n")
-        self._process.stdin.flush()
-        lines: list[str] = []
-        while not (line := self._process.stdout.readline()).startswith("ret "):
-            assert line, self._process.stderr.read() if self._process.stderr else ""
-            lines.append(line.rstrip("\n"))
-        _, code, error = line.rstrip("\n").split(" ", 2)
-        return int(code), error, lines
+class Device(CommandedProgram):
+    """The program, and what is asked of it here."""
 
     def lines(self, command: str) -> list[str]:
         code, error, lines = self.call(command)
