@@ -98,7 +98,13 @@ static void parameter_value_take_array(
       value->as.integer_array_value = elements;
       break;
     case RCLC_PARAMETER_DOUBLE_ARRAY:
-    default:
+    case RCLC_PARAMETER_NOT_SET:
+    case RCLC_PARAMETER_BOOL:
+    case RCLC_PARAMETER_INT:
+    case RCLC_PARAMETER_DOUBLE:
+    case RCLC_PARAMETER_STRING:
+    case RCLC_PARAMETER_STRING_ARRAY:
+    default: /* of arrays, no other one comes here */
       value->as.double_array_value = elements;
       break;
   }
@@ -118,7 +124,13 @@ static void parameter_value_take_scalar(
       value->as.double_value = number;
       break;
     case RCLC_PARAMETER_STRING:
-    default:
+    case RCLC_PARAMETER_NOT_SET:
+    case RCLC_PARAMETER_BYTE_ARRAY:
+    case RCLC_PARAMETER_BOOL_ARRAY:
+    case RCLC_PARAMETER_INT_ARRAY:
+    case RCLC_PARAMETER_DOUBLE_ARRAY:
+    case RCLC_PARAMETER_STRING_ARRAY:
+    default: /* no array comes here */
       value->as.string_value = text;
       break;
   }
