@@ -65,6 +65,7 @@ static rcl_ret_t get_parameter(
 {
   rcl_ret_t result = rclc_parameter_client_get(client, &name, 1u, timeout_ms);
 
+  value->type = RCLC_PARAMETER_NOT_SET; /* what is refused leaves it so */
   if (result == RCL_RET_OK) {
     result = rclc_parameter_client_value(client, 0u, value);
   }

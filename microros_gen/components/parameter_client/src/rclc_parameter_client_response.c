@@ -183,7 +183,7 @@ static uint8_t * parameter_value_at(rclc_parameter_client_t * client, const void
 static void parameter_value_turn(uint8_t * bytes, uint32_t count)
 {
   for (uint32_t i = 0; i < count; ++i) {
-    uint8_t * number = &bytes[i * (uint32_t)CLIENT_WIDEST];
+    uint8_t * number = &bytes[(size_t)i * (size_t)CLIENT_WIDEST];
 
     for (uint32_t k = 0; k < (uint32_t)CLIENT_WIDEST / 2u; ++k) {
       const uint8_t other = number[CLIENT_WIDEST - 1u - k];
