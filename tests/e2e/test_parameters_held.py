@@ -27,7 +27,7 @@ from tests.support.e2e.parameter_calls import (
 from tests.support.e2e.parameter_peer import ParameterPeer, parameter_peer
 from tests.support.e2e.relay import Relay
 from tests.support.parameter_server.process import parameter_server
-from tests.support.patience import deadline
+from tests.support.patience import deadline, seconds
 
 pytestmark = pytest.mark.ros
 
@@ -146,7 +146,7 @@ def test_a_server_of_its_own_that_restarts(program: Path, relay: Relay, domain: 
 
 def asked(peer: ParameterPeer, service: str, *arguments: Any) -> Any:
     """Call a service that may not be there yet; return None without a response."""
-    return peer.ask(node=DEVICE, service=service, arguments=arguments, timeout=5)
+    return peer.ask(node=DEVICE, service=service, arguments=arguments, timeout=seconds(5))
 
 
 def steps_of(peer: ParameterPeer) -> Any:

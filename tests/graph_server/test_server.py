@@ -213,7 +213,7 @@ def test_matched_counts_are_those_of_dds(peer: Peer) -> None:
     querying = Asked(peer)
     with Peer("writing") as writing, Peer("reading") as reading:
         pairs = list(product(KINDS, KINDS))
-        topics = [f"/pair_{i}" for i in range(len(pairs))]
+        topics = [f"/matched_{i}" for i in range(len(pairs))]
         writers = [
             writing.publisher(topic, INT32, pair[0]) for topic, pair in zip(topics, pairs, strict=True)
         ]
@@ -229,7 +229,7 @@ def test_matched_counts_are_those_of_dds(peer: Peer) -> None:
             agree(peer, lambda: (expected, expected), found)  # noqa: B023
             for what, _, other in both:
                 assert querying.endpoints(what, topic, matched_by=other)["total"] == expected, (topic, what)
-        nobody = querying.endpoints(answers.SUBSCRIPTIONS, "/pair_0", matched_by="/reading")
+        nobody = querying.endpoints(answers.SUBSCRIPTIONS, "/matched_0", matched_by="/reading")
         assert nobody["status"] == answers.UNKNOWN_NODE, "it has no publisher there"
     assert 0 < sum(connects(offered, requested) for offered, requested in pairs) < len(pairs)
 

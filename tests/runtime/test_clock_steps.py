@@ -362,6 +362,8 @@ STEPPED = {
 ELSEWHERE = {
     "clock": "unit_days.c",
     "executor": "unit_days.c",
+    "parameter_client": "test_parameter_client.py: a call over the wrap",
+    "parameters_held": "test_parameters_held.py: notices over the wrap; ages have 64 bits",
     "port_bare": "tests/firmware/c/unit_bare.c and unit_bare_timers.c",
     "timers": "unit_days.c",
 }
@@ -373,6 +375,7 @@ TIMELESS = {
     "logging": "stamps messages with the time of day, which has 64 bits; its period is an unsigned difference",
     "logging_rosout": "stamps messages with the time of day, which has 64 bits",
     "multithread": "sleeps a millisecond",
+    "parameter_messages": "hands the time of arrival on",
     "parameters": "stamps events with the time of day, which has 64 bits",
     "port_cortex_m": "waits for one byte of a UART",
     "port_posix": "the system's clocks have 64 bits",

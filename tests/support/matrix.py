@@ -141,6 +141,9 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         "parameters-held": _BUSY
         + "    parameters: {at: agent, declare: [{name: mode, type: integer, one_of: [0, 5]}]}\n"
         + "profiles: [pure_sender]\ncomponents: [+parameters]\nlogging: callback\nerrors: code\n",
+        "parameters-held-silent": _BUSY
+        + "    parameters: {at: agent, declare: [{name: gain, type: double}]}\n"
+        + "profiles: [pure_sender]\ncomponents: [+parameters]\n",
         "parameter-client": _BUSY
         + "    parameters: [{name: gain, type: double}]\n"
         + "    parameter_clients: [{node: /motor, operations: [get, set, set_atomically, list, watch], elements: 3}]\n"
