@@ -63,9 +63,10 @@ static rcl_ret_t get_parameter(
   rclc_parameter_client_t * client, const char * name, rclc_parameter_type_t type,
   rclc_parameter_client_value_t * value, uint32_t timeout_ms)
 {
+  static const rclc_parameter_client_value_t nothing = {.type = RCLC_PARAMETER_NOT_SET};
   rcl_ret_t result = rclc_parameter_client_get(client, &name, 1u, timeout_ms);
 
-  value->type = RCLC_PARAMETER_NOT_SET; /* what is refused leaves it so */
+  *value = nothing; /* what is refused leaves it so */
   if (result == RCL_RET_OK) {
     result = rclc_parameter_client_value(client, 0u, value);
   }

@@ -155,15 +155,16 @@ static void write_parameter_array(
   parameter_out_t * out, const rclc_parameter_client_value_t * value, rclc_parameter_type_t type,
   uint32_t width)
 {
-  const bool is_it = value->type == type;
-  const uint8_t * bytes = is_it ? value->as.byte_array_value : NULL;
+  const size_t count = value->type == type ? value->count : 0u;
 
-  rclc_parameter_out_4(out, is_it ? (uint32_t)value->count : 0u);
-  for (size_t i = 0; is_it && i < value->count; ++i) {
+  rclc_parameter_out_4(out, (uint32_t)count);
+  for (size_t i = 0; i < count; ++i) {
+    const uint8_t * element = &value->as.byte_array_value[i * width];
+
     if (width == 1u) {
-      rclc_parameter_out_1(out, bytes[i]);
+      rclc_parameter_out_1(out, *element);
     } else {
-      rclc_parameter_out_8(out, &bytes[i * width]);
+      rclc_parameter_out_8(out, element);
     }
   }
 }
