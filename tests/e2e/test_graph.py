@@ -46,7 +46,7 @@ LISTS_OF_NODE = ("publishers_of", "subscriptions_of", "services_of", "clients_of
 
 
 class Device(CommandedProgram):
-    """The program, and what is asked of it here."""
+    """The program, with the calls of these tests."""
 
     def lines(self, command: str) -> list[str]:
         code, error, lines = self.call(command)

@@ -64,6 +64,7 @@ def test_rclpy_reads_what_it_publishes(
     stamps = [array["header"]["stamp"] for array in arrays]
     between = [(b["sec"] - a["sec"]) + (b["nanosec"] - a["nanosec"]) / 1e9 for a, b in pairwise(stamps)]
     assert all(period > 0.9 for period in between), "at most once a second"
+    _tool("build", "-c", image.out.parent / "microros.yaml", "-o", image.out)
     explained = _explain(image.out, "rcl_diagnostics_publish")
     assert explained["of"] == COMPONENT.name
     assert explained["reasons"] == ["components: +session_diagnostics (microros.yaml:3)"]
@@ -85,9 +86,13 @@ def _diagnostics(observer: Observer, count: int) -> list[dict[str, Any]]:
 
 
 def _explain(out: Path, what: str) -> dict[str, Any]:
-    command = [sys.executable, "-m", "microros_gen", "explain", str(out), what, "--format", "json"]
+    return dict(json.loads(_tool("explain", out, what, "--format", "json")))
+
+
+def _tool(*arguments: str | Path) -> str:
+    command = [sys.executable, "-m", "microros_gen", *map(str, arguments)]
     done = subprocess.run(
-        command, text=True, capture_output=True, check=False, timeout=seconds(60), env=dict(os.environ)
+        command, text=True, capture_output=True, check=False, timeout=seconds(120), env=dict(os.environ)
     )
     assert done.returncode == 0, done.stderr
-    return dict(json.loads(done.stdout))
+    return done.stdout

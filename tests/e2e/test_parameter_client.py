@@ -49,7 +49,7 @@ SHOWN = {
 
 
 class Device(CommandedProgram):
-    """The program, and what is asked of it here."""
+    """The program, with the calls of these tests."""
 
     def lines(self, command: str) -> list[str]:
         code, error, lines = self.call(command)

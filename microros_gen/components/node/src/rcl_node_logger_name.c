@@ -12,13 +12,13 @@ static void logger_name_write(char * text, const char * namespace_, const char *
 {
   size_t used = 0;
 
-  for (const char * next = &namespace_[1]; *next != '\0' && used < MICROROS_NODE_LOGGER_NAME_SIZE - 1u;
+  for (const char * next = &namespace_[1]; *next != '\0' && used + 1u < MICROROS_NODE_LOGGER_NAME_SIZE;
        ++next) {
     text[used] = *next == '/' ? '.' : *next;
     ++used;
   }
   text[used] = '.';
-  for (const char * next = name; *next != '\0' && used < MICROROS_NODE_LOGGER_NAME_SIZE - 2u; ++next) {
+  for (const char * next = name; *next != '\0' && used + 2u < MICROROS_NODE_LOGGER_NAME_SIZE; ++next) {
     ++used;
     text[used] = *next;
   }
