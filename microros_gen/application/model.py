@@ -114,6 +114,7 @@ class EndpointDecl:
     changes it to `topic`; empty: the same.
     `of_the_library`: nobody declared it, and the library itself opens it; `executed`: an executor runs it all the
     same. `usual_limits` are then those of its component, which hold where the application says nothing but `*`.
+    `streamed`: its samples are taken piece by piece and never wait; `outside_ros`: `topic` is the name in DDS.
     """
 
     kind: str
@@ -132,6 +133,8 @@ class EndpointDecl:
     of_the_library: bool = False
     executed: bool = False
     usual_limits: tuple[LimitRule, ...] = ()
+    streamed: bool = False
+    outside_ros: bool = False
 
     @property
     def takes_handle(self) -> bool:
@@ -200,14 +203,17 @@ class ParameterDecl:
 class ParameterClientDecl:
     """Another node, by its fully qualified name, and what is done with its parameters: get, set, …, watch.
 
-    At most `parameters` of a call or event. `string`: bytes of a string without its terminator; `elements`: of arrays.
+    At most `parameters` of a call or event. `types`: those of values, besides bool, integer and double. `string`: bytes
+    of a string without its terminator; `elements`: of arrays; `description`: bytes of a description.
     """
 
     node: str
     operations: tuple[str, ...] = ("get", "set")
     parameters: int = 4
+    types: tuple[str, ...] = ("string",)
     string: int = 49
     elements: int = 0
+    description: int = 99
     span: Span | None = None
 
 
@@ -271,6 +277,11 @@ class Memory:
     arena_span: Span | None = None
     stack_span: Span | None = None
 
+    @property
+    def has_budget(self) -> bool:
+        """Whether there is a budget that an image can exceed."""
+        return any(budget is not None for budget in (self.ram_budget, self.flash_budget, self.stack))
+
 
 @dataclass(frozen=True)
 class TargetRef:
@@ -297,7 +308,7 @@ class SessionTimes:
 
 
 LOG_LEVELS = ("debug", "info", "warn", "error", "fatal")
-BUFFERED_LOG_WRITERS = ("rosout", "ring")
+BUFFERED_LOG_WRITERS = ("rosout", "ring", "console")
 """Writers that keep lines."""
 
 

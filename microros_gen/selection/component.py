@@ -54,8 +54,9 @@ class Implied:
 
     `name` is that of the topic or service; `{node}` and `{ns}` in it are replaced. `queue`: how many samples wait;
     None: follows from the depth. `limits` hold where the application has none for its type. `executed`: an executor
-    of the application runs it. `stored`: the library has storage for what it receives. `unless`: a component that opens
-    another one instead.
+    of the application runs it. `stored`: the library has storage for what it receives; `streamed`: the component takes
+    it piece by piece. `unless`: a component that opens another one instead. `outside_ros`: `name` is that of a topic in
+    DDS.
     """
 
     kind: str
@@ -68,6 +69,8 @@ class Implied:
     executed: bool = False
     stored: bool = True
     unless: str = ""
+    streamed: bool = False
+    outside_ros: bool = False
 
 
 @dataclass(frozen=True)

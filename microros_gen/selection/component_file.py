@@ -20,7 +20,7 @@ from microros_gen.selection.xrce import OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
 LAYERS = ("micro-ROS", "middleware", "port")
 _REQUIRED = ("component", "summary", "layer", "status")
 _LISTS = ("needs", "asks", "xrce", "sends", "receives", "objects", "headers", "sources", "implies")
-_IMPLIED = ("type", "every_node", "queue", "qos", "limits", "executed", "storage", "unless")
+_IMPLIED = ("type", "every_node", "queue", "qos", "limits", "executed", "storage", "unless", "outside_ros")
 _PROVISION = ("sources", "asks", "always")
 _STATUS = ("ready", "planned")
 
@@ -126,12 +126,16 @@ def _implies(node: MappingNode, diagnostics: Diagnostics) -> tuple[Implied, ...]
         name, type_ = read_text(item_node, kind, diagnostics), read_text(item_node, "type", diagnostics)
         queue = int_of(item_node.get("queue"))
         qos, limits = _qos(item_node.get("qos"), diagnostics), endpoint_limits(item_node.get("limits"), type_)
-        executed, stored = (
-            bool_of(item_node.get("executed")) or False,
-            text_of(item_node.get("storage")) != "none",
+        executed, storage = bool_of(item_node.get("executed")) or False, text_of(item_node.get("storage"))
+        found.append(
+            Implied(
+                *(kind, name, type_, qos, queue, every_node, limits, executed),
+                stored=storage is None,
+                unless=text_of(item_node.get("unless")) or "",
+                streamed=storage == "streamed",
+                outside_ros=bool_of(item_node.get("outside_ros")) or False,
+            )
         )
-        unless = text_of(item_node.get("unless")) or ""
-        found.append(Implied(kind, name, type_, qos, queue, every_node, limits, executed, stored, unless))
     return tuple(found)
 
 

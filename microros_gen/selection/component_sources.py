@@ -96,6 +96,12 @@ def _file(path: Path, target: str) -> ComponentFile:
     return ComponentFile(target.removesuffix(".j2"), path.read_bytes(), template, path)
 
 
+def template_names(components: Iterable[Component]) -> Iterator[str]:
+    """Yield the templates in the folders of those `components` that ship with the tool."""
+    for component in components:
+        yield from filter(None, map(template_name, sorted(component.folder.rglob("*.j2"))))
+
+
 def template_name(path: Path) -> str:
     """Return the name of a template that ships with the tool; empty for one that does not."""
     own = (path.relative_to(f).as_posix() for f in TEMPLATE_FOLDERS if path.is_relative_to(f))

@@ -74,6 +74,8 @@ def _endpoint(implied: Implied, change: EndpointChange | None) -> EndpointDecl:
         of_the_library=True,
         executed=implied.executed,
         usual_limits=implied.limits,
+        streamed=implied.streamed,
+        outside_ros=implied.outside_ros,
     )
     if change is None:
         return endpoint

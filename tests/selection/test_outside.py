@@ -34,6 +34,7 @@ def plan_of(folder: Path) -> str:
     return str(json.loads((folder / "out" / "manifest.json").read_text())["plan"])
 
 
+@pytest.mark.system
 @pytest.mark.builds
 def test_a_folder_is_built_like_a_component_of_the_tool(folder: Path, run: Runner) -> None:
     write_files(folder / "beacon", BEACON)

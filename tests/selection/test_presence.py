@@ -84,6 +84,7 @@ def test_the_trial_component_uses_every_key_and_every_point() -> None:
     assert [point for point in EXAMPLE_POINTS if f"macro {point}()" not in template] == []
 
 
+@pytest.mark.system
 @pytest.mark.builds
 def test_its_part_is_in_all_of_them(folder: Path, run: Runner) -> None:
     (folder / "microros.yaml").write_text(APPLICATION)

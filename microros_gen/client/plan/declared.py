@@ -72,7 +72,9 @@ def check_types(application: Application, diagnostics: Diagnostics) -> None:
 
 
 def full_name(node: NodeDecl, endpoint: EndpointDecl) -> str:
-    """Return the fully qualified name of an endpoint's topic or service: `/imu/data`."""
+    """Return the fully qualified name of an endpoint's topic or service, `/imu/data`, or that of a topic in DDS."""
+    if endpoint.outside_ros:
+        return endpoint.topic
     return expand_topic_name(endpoint.topic, node.name, node.namespace)
 
 

@@ -65,6 +65,11 @@ class EntitiesPlan:
         return found
 
     @property
+    def outside_ros(self) -> bool:
+        """Whether some endpoint has the name of a topic in DDS that ROS does not have."""
+        return any(not plan.topic.startswith("/") for plan in self.subscriptions.declared)
+
+    @property
     def names_mode(self) -> str:
         """`declared` or `pool`: where names of nodes and publishers come from."""
         return "declared" if self.declared else "pool"

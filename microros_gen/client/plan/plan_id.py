@@ -105,7 +105,10 @@ def _input(plan: InputPlan) -> _Record:
         "lent": [plan.reader, plan.free],
         "fragments": plan.arrives_in_fragments,
         "reliable": [plan.reliable_slots, plan.reliable_slot_size],
-        "queues": [[q.slots, q.slot_size, q.requested_bytes] for q in plan.queues],
+        "queues": [
+            [q.slots, q.slot_size, q.requested_bytes, *(["streamed"] if q.streamed else [])]
+            for q in plan.queues
+        ],
     }
 
 

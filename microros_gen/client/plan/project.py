@@ -35,6 +35,7 @@ from microros_gen.interfaces.types import Message, TypeName
 from microros_gen.platform.provide import Provisions
 from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
+from microros_gen.selection.declared import STREAM_RELIABLE, STREAM_RELIABLE_INPUT
 from microros_gen.selection.model import Selection
 from microros_gen.typesupport.plan.own_limits import LimitSet
 from microros_gen.typesupport.plan.types import TypePlan
@@ -141,7 +142,7 @@ def plan_project(
         (*publishing.written, *serving.written),
         create,
         diagnostics,
-        selection.has("stream_reliable_input"),
+        selection.has(STREAM_RELIABLE_INPUT),
         (*receiving.received, *serving.received),
         create_text,
         # Memory that survives a sleep ends before the input buffer.
@@ -149,6 +150,7 @@ def plan_project(
         and not session.has_sleep
         and all(queue.requested_bytes is None for queue in queues),
         keeps_output=own_driver,
+        reliable_output=selection.has(STREAM_RELIABLE),
     )
     receivers = receiving.subscriptions_max + serving.services_max + serving.clients_max
     receivers -= without_handle(application, "subscription", "service", "client")

@@ -10,7 +10,7 @@ from microros_gen.application.model import Application, EndpointDecl, Qos
 from microros_gen.client.plan.declared import declarations, full_name, named_at, pool, type_name
 from microros_gen.client.plan.queues import declared_queue, pooled_queue
 from microros_gen.client.plan.runtime_entities import QueuePlan, SubscriptionPlan
-from microros_gen.client.plan.streams import Received, slot_of
+from microros_gen.client.plan.streams import STREAMED_FRAGMENT, Received, slot_of
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.dds_names import dds_topic
 from microros_gen.interfaces.types import (
@@ -63,22 +63,24 @@ def plan_receiving(
     for index, (node_index, node, endpoint) in enumerate(declarations(application, "subscription")):
         topic, name = full_name(node, endpoint), type_name(endpoint.type)
         reliable = endpoint.qos.reliability == "reliable"
-        size = types[name].largest("subscription", index)
+        size = 0 if endpoint.streamed else types[name].largest("subscription", index)
         plan = SubscriptionPlan(
             index, node_index, topic, dds_topic(topic), name, reliable, declared_as=endpoint.declared_as
         )
         subscriptions.append(_with_storage(plan, types, endpoint.stored))
         label = f"{endpoint.type} on {topic}"
         slots = endpoint.queue or default_queue(endpoint.qos)
-        queues.append(declared_queue(endpoint, slots, slot_of(size), label, diagnostics))
+        queue = declared_queue(endpoint, slots, slot_of(size), label, diagnostics)
+        queues.append(replace(queue, streamed=endpoint.streamed))
         received.append(
             Received(
                 label,
-                size,
+                STREAMED_FRAGMENT if endpoint.streamed else size,
                 reliable,
                 not reliable,
                 endpoint.type_span or endpoint.span,
                 alone=queues[-1].waits_alone,
+                streamed=endpoint.streamed,
             )
         )
     queues = queues or [QueuePlan(1, _SLOT_ALIGNMENT)]

@@ -104,12 +104,13 @@ class QueuePlan:
 
     `requested_bytes`: they share this number of bytes, and each takes its own size; None: each takes `slot_size`. A
     sample is what DATA contains after the object's id: the CDR body, for a service after 24 bytes (the requester), for
-    a client after 4 (the request).
+    a client after 4 (the request). `streamed`: none waits, a component takes samples piece by piece.
     """
 
     slots: int
     slot_size: int
     requested_bytes: int | None = field(default=None, repr=False)
+    streamed: bool = field(default=False, repr=False)
 
     @property
     def size(self) -> int:

@@ -216,6 +216,11 @@ class InputPlan:
         return "bytes" if any(queue.requested_bytes is not None for queue in self.queues) else "slots"
 
     @property
+    def streams(self) -> bool:
+        """Whether a component takes samples of some endpoint piece by piece."""
+        return any(queue.streamed for queue in self.queues)
+
+    @property
     def queue_slots(self) -> int:
         """Slots of all queues together."""
         return sum(queue.slots for queue in self.queues)

@@ -40,6 +40,8 @@ _SESSION_MESSAGE_HARD = 54
 # twice that in front of a serial line (client/plan/board.py). Smaller ones would save little, and each is acknowledged.
 FRAGMENTS_PER_SAMPLE = {"udp": 3, "tcp": 3, "serial": 8, "custom": 8}
 LEAST_FRAGMENT = 256
+# What a streamed endpoint receives at a time, at least.
+STREAMED_FRAGMENT = LEAST_FRAGMENT - WRITE_DATA_OVERHEAD
 # A slot in the input buffer has to save so many bytes: it costs some hundred of flash.
 LEAST_LENT = 256
 # A message that the line's interrupt takes from its stream has to save so many bytes, for the same reason.
@@ -67,6 +69,7 @@ class Received:
     """What an endpoint receives: where it was declared, the largest DATA after the object's id, on which streams.
 
     `alone`: its queue has one place. Then memory counts more than the number of messages that a sample takes.
+    `streamed`: it is taken piece by piece, however large it is; `max_size` is that of a piece.
     """
 
     label: str
@@ -75,6 +78,7 @@ class Received:
     best_effort: bool
     span: Span | None = None
     alone: bool = False
+    streamed: bool = False
 
     @property
     def whole(self) -> int:
@@ -152,6 +156,7 @@ def plan_streams(
     create_text: int = 0,
     lends_input: bool = False,
     keeps_output: bool = False,
+    reliable_output: bool = False,
 ) -> StreamSizes:
     """Size the streams; a message that cannot fit its stream is an error with the number that would do.
 
@@ -161,7 +166,8 @@ def plan_streams(
     reliable message above the MTU goes in fragments, a best-effort one and a CREATE cannot. `reliable_input`:
     the agent's reliable stream is selected; a reliable DATA above the input buffer comes in fragments,
     since the client announces the size of that buffer to the agent. `lends_input`: a best-effort sample may wait in the
-    input buffer. `keeps_output`: the line can take a message from its stream.
+    input buffer. `keeps_output`: the line can take a message from its stream. `reliable_output`: the reliable stream is
+    selected, even where nothing is written to it.
     `pools.slot_size` makes each buffer at least so large.
     """
     messages, samples = tuple(written), tuple(received)
@@ -188,7 +194,7 @@ def plan_streams(
     creation = create if application.creation and application.creation.name == "reliable" else 0
     if not creation:
         best_effort = max(best_effort, create)
-    elif not reliable:
+    if (creation or reliable_output) and not reliable:
         slots, reliable = 1, WRITE_DATA_OVERHEAD
     best_effort = max(best_effort, least) if best_effort else 0
     input_size = max(
@@ -222,7 +228,7 @@ def plan_streams(
         creation_size=creation,
         fragments=fragments,
         reliable_input_slots=_input_slots(application, reliable_input, diagnostics),
-        arrives_in_fragments=any(sample.whole > input_size for sample in samples),
+        arrives_in_fragments=any(sample.streamed or sample.whole > input_size for sample in samples),
         input_reader=in_input_buffer[0] if in_input_buffer else None,
         input_free=in_input_buffer[1] if in_input_buffer else 0,
         input_slot=slot_of(samples[in_input_buffer[0]].max_size) if in_input_buffer else 0,

@@ -70,11 +70,12 @@ def render_project(
     files: Iterable[ComponentFile],
     unselected: Iterable[Component],
     environment: Environment,
+    fork: bool = False,
 ) -> dict[str, bytes]:
     """Return the bytes of every file by its path below the output folder.
 
     `files` are those of the selected components; `unselected` are the others, whose public headers become one
-    `#error` each.
+    `#error` each. `fork`: another process may print some of them.
     """
     values = project.values
     rendered = render_components(
@@ -82,9 +83,8 @@ def render_project(
     )
     of_components = frozenset(rendered)
     pools = frozenset(pool.kind for pool in project.runtime.memory.message_pools)
-    rendered |= _free(
-        of_components, render_types(project.types, environment, project.selection.has("services"), pools)
-    )
+    services = project.selection.has("services")
+    rendered |= _free(of_components, render_types(project.types, environment, services, pools, fork))
     rendered |= render_decoders(project.types, environment)
     if project.selection.has("micro_ros_utilities"):
         rendered |= render_members(project.types, environment, pools)
