@@ -75,7 +75,7 @@ class Admission:
         deliveries: Deliveries,
         pool: InputPool,
         turns: Turns,
-        budgets: Budgets | None = None,
+        budgets: Budgets,
     ) -> None:
         self._clients = clients
         self._turns = turns
@@ -87,8 +87,7 @@ class Admission:
         self._deliveries = deliveries
         self._pool = pool
         self.keeping = Keeping(limits.keep_s, deliveries, log)
-        self._budgets = budgets or Budgets(limits)
-        self.gate = self._budgets.gate
+        self._budgets = budgets
         self._rates = Rates(limits.operations_per_second, limits.clients)
         self._conflicts = KeyConflicts(log, limits.clients)
         self._newcomers = Newcomers(limits.newcomers)
@@ -382,7 +381,7 @@ class Admission:
 
     def _has_room(self, now: float) -> bool:
         full = len(self._clients) >= self._limits.clients
-        return not (self.gate.closed or (full and self._who_gives_way(now) is None))
+        return not (self._budgets.gate.closed or (full and self._who_gives_way(now) is None))
 
     def _make_room(self, now: float) -> bool:
         if not self._has_room(now):

@@ -81,6 +81,11 @@ class Budgets:
         self._calls = InputPool(limits.call_bytes, clients)
         self.gate = Gate()
 
+    @property
+    def held(self) -> int:
+        """Number of stored bytes of all clients, including those that left and whose entities are not destroyed yet."""
+        return self._history.held + self._objects.held + self.output.held + self._calls.held
+
     def of_client(self) -> Shares:
         """Return the shares of a new client."""
         limits = self._limits

@@ -88,10 +88,11 @@ class Agent:
         self._turns = Turns(clock, turn_s, fair, graph, self._inner_fault, processor or time.thread_time)
         self._deliveries = Deliveries(log, self._inner_fault, fair, clock)
         pool = pool or InputPool(limits.input_bytes, limits.clients)
+        budgets = budgets or Budgets(limits)
         self._admission = Admission(
             self.clients, bridge, log, limits, held, self._deliveries, pool, self._turns, budgets
         )
-        self._relief = Relief(memory, self.clients, self._admission.gate, self._admission.dismiss, log)
+        self._relief = Relief(memory, self.clients, budgets, self._admission.dismiss, log)
         self._operations = Operations(log, self._deliveries, self._turns)
         self._processor = Processor(
             self.clients, limits, self._operations, self._admission, self._turns, graph, self._refuse_of

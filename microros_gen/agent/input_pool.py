@@ -15,6 +15,8 @@ class InputPool:
         self.share = total // 2 // max(1, holders)
         self.free = total - self.share * holders
         """Free bytes of the common half; negative if holders took bytes that could not be refused."""
+        self.held = 0
+        """Bytes of all holders."""
 
 
 class Holder:
@@ -45,6 +47,7 @@ class Holder:
         before, self.held = self._beyond(self.held), self.held + size
         if self._pool is not None:
             self._pool.free -= self._beyond(self.held) - before
+            self._pool.held += size
 
     def clear(self) -> None:
         """Release everything."""

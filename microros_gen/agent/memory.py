@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable
 from enum import IntEnum
 from pathlib import Path
 
-from microros_gen.agent.budgets import Gate
+from microros_gen.agent.budgets import Budgets
 from microros_gen.agent.clients import Client, ClientTable
 from microros_gen.agent.log import EventLog, Level
 
@@ -23,6 +23,8 @@ FREED_BYTES = 8 << 20
 """Bytes that clients must have freed before memory is returned to the system."""
 TRIM_EVERY_S = 2.0
 """Minimum seconds between two such returns, which take milliseconds."""
+RELIEVE_EVERY_S = 2 * TRIM_EVERY_S
+"""Minimum seconds between two removals of clients."""
 UNREAD_BYTES = 4_096
 """Assumed bytes of an unread sample in DDS."""
 _STATM = Path("/proc/self/statm")
@@ -90,14 +92,16 @@ class Relief:
         self,
         guard: MemoryGuard | None,
         clients: ClientTable,
-        gate: Gate,
+        budgets: Budgets,
         dismiss: Callable[[Client, str], None],
         log: EventLog,
     ) -> None:
-        """Close `gate` while no objects may be created; without a guard, do nothing."""
+        """Close the gate of `budgets` while no objects may be created; without a guard, do nothing."""
         self._guard = guard
         self._clients = clients
-        self._gate = gate
+        self._budgets = budgets
+        self._gate = budgets.gate
+        self._relieved_at = float("-inf")
         self._dismiss = dismiss
         self._log = log
 
@@ -105,13 +109,15 @@ class Relief:
         """Check the memory and act."""
         if self._guard is None:
             return
-        pressure = self._guard.look(sum(client.shares.held for client in self._clients), now)
+        pressure = self._guard.look(self._budgets.held, now)
         closed = pressure is not Pressure.LOW
         if closed and not self._gate.closed:
             text = "{limit} bytes of memory are nearly all taken: nothing more is made for clients until some are free"
             self._log.emit(Level.WARNING, "memory_tight", text, limit=self._guard.limit)
         self._gate.closed = closed
-        if pressure is Pressure.OVER:
+        # Entities are destroyed in turns, and free memory returns some time later: until then no other has to go.
+        if pressure is Pressure.OVER and now >= self._relieved_at + RELIEVE_EVERY_S:
+            self._relieved_at = now
             self._send_away()
 
     def _send_away(self) -> None:

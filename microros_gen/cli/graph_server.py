@@ -6,20 +6,19 @@ from __future__ import annotations
 import click
 
 from microros_gen.agent.server import stopped_by_signals
-from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.cli.ros_node import node_of
+from microros_gen.diagnostics import Diagnostic
 from microros_gen.graph_server.server import NODE, GraphServer
-from microros_gen.ros.errors import RosUnusableError
 from microros_gen.ros.peer import Peer
 
 
 def graph_peer(domain: int | None) -> Peer:
     """Return the node of a graph server; UserError without a usable ROS 2."""
-    try:
-        return Peer(NODE, domain=domain)
-    except RosUnusableError as error:
-        raise UserError(
-            [Diagnostic(f"the graph server {error.reason}", hint=error.hint, id="MG-9724")]
-        ) from error
+    return node_of(
+        NODE,
+        domain,
+        lambda error: Diagnostic(f"the graph server {error.reason}", hint=error.hint, id="MG-9724"),
+    )
 
 
 @click.command()

@@ -7,9 +7,9 @@ import time
 from collections.abc import Callable
 
 from microros_gen.graph_server.answers import list_endpoints, list_names
-from microros_gen.ros.errors import CodecError, RosError
 from microros_gen.ros.peer import Peer
 from microros_gen.ros.qos import Qos
+from microros_gen.ros.serving import Serving
 
 NODE = "microros_graph"
 NAMES_SERVICE = f"/{NODE}/list_names"
@@ -22,7 +22,7 @@ _VERSIONS = 1 << 32
 _WAIT_S = 0.5
 
 
-class GraphServer:
+class GraphServer(Serving):
     """Serves on the node of a peer, in the thread that calls `turn`."""
 
     def __init__(
@@ -32,14 +32,12 @@ class GraphServer:
 
         Raises RosError if the node cannot have them.
         """
-        self._peer = peer
-        self._report = report
+        super().__init__(peer, report)
         self._clock = clock
         self._graph = peer.graph()
         self._version = 0
         self._announced = 0
         self._next_s = clock()
-        self._stop = False
         peer.serve(
             NAMES_SERVICE,
             "microros_graph_msgs/srv/ListNames",
@@ -53,23 +51,11 @@ class GraphServer:
         self._changes = peer.publisher(CHANGE_TOPIC, "microros_graph_msgs/msg/Change", CHANGE_QOS)
         peer.on_graph_change(self._changed)
 
-    def run(self) -> None:
-        """Serve until `stop`."""
-        while not self._stop:
-            self.turn()
-
-    def stop(self) -> None:
-        """Let `run` end within a second."""
-        self._stop = True
-
     def turn(self, wait_s: float = _WAIT_S) -> None:
         """Wait for requests and changes, at most `wait_s` seconds, and serve them."""
         if self._announced != self._version:
-            wait_s = min(wait_s, max(0.0, self._next_s - self._clock()))
-        try:
-            self._peer.spin_once(wait_s)
-        except (CodecError, RosError) as error:  # one request; the others are answered
-            self._report(str(error))
+            wait_s = min(wait_s, self._next_s - self._clock())
+        self._spin(wait_s)
         if self._announced != self._version and self._clock() >= self._next_s:
             self._announced = self._version
             self._next_s = self._clock() + BETWEEN_CHANGES_S

@@ -11,8 +11,8 @@ from microros_gen.interfaces.types import TypeName
 
 
 def dds_topic(name: str) -> str:
-    """Return the DDS topic of a fully qualified ROS topic name."""
-    return f"rt{name}"
+    """Return the DDS topic of a fully qualified ROS topic name; a name without a slash in front is one of DDS."""
+    return f"rt{name}" if name.startswith("/") else name
 
 
 def dds_type(name: TypeName) -> str:

@@ -6,10 +6,8 @@ from __future__ import annotations
 import contextlib
 import time
 from collections.abc import Callable, Iterator
-from typing import Any
 
 import pytest
-from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from microros_gen.agent.representation import Qos, Topic
 from microros_gen.agent.ros.bridge import BridgeError
@@ -23,6 +21,7 @@ from tests.support.agent.client import NoAnswerError, XrceClient, participant_bl
 from tests.support.agent.process import environment, own_domain, running_agent
 from tests.support.agent.ros_reading import LITTLE, ask_for_all, create
 from tests.support.patience import deadline
+from tests.support.ros_graph_message import Nodes, decoded
 
 pytestmark = pytest.mark.ros
 
@@ -35,26 +34,6 @@ READER = (
     "<historyQos><kind>KEEP_ALL</kind></historyQos></topic></data_reader></dds>"
 )
 """What rmw_microxrcedds sends for it."""
-DEFINITIONS = {
-    "Graph": "micro_ros_msgs/Node[] nodes",
-    "Node": "string<=256 node_namespace\nstring<=256 node_name\nmicro_ros_msgs/Entity[] entities",
-    "Entity": "byte entity_type\nstring<=256 name\nstring<=256[] types",
-}
-Nodes = dict[str, set[tuple[int, str, tuple[str, ...]]]]
-
-
-def decoded(sample: bytes) -> Nodes:
-    """Return what rosbags reads."""
-    store: Any = get_typestore(Stores.EMPTY)
-    for name, text in DEFINITIONS.items():
-        store.register(get_types_from_msg(text, f"micro_ros_msgs/msg/{name}"))
-    graph = store.deserialize_cdr(sample, "micro_ros_msgs/msg/Graph")
-    return {
-        f"{node.node_namespace.rstrip('/')}/{node.node_name}": {
-            (entity.entity_type, entity.name, tuple(entity.types)) for entity in node.entities
-        }
-        for node in graph.nodes
-    }
 
 
 def seen(graph: Graph) -> Nodes:

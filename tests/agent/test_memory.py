@@ -12,10 +12,11 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.agent.budgets import most_bytes, most_descriptors
+from microros_gen.agent.budgets import Budgets, most_bytes, most_descriptors
+from microros_gen.agent.clients import ClientTable
 from microros_gen.agent.core import Agent
 from microros_gen.agent.limits import Limits
-from microros_gen.agent.memory import MemoryGuard, Pressure, resident_bytes
+from microros_gen.agent.memory import MemoryGuard, Pressure, Relief, resident_bytes
 from microros_gen.agent.wire.constants import Format
 from microros_gen.cli.agent.start import check_memory
 from microros_gen.diagnostics import UserError
@@ -83,6 +84,9 @@ def test_beyond_it_who_takes_most_has_to_go() -> None:
     bench.agent.care(bench.now)
     assert [client.address for client in bench.agent.clients] == ["client 1", "client 3"]
     assert "client 00000002 takes most of the agent's memory" in bench.text.getvalue()
+    bench.now += 1.0
+    bench.agent.care(bench.now)
+    assert len(bench.agent.clients) == 2, "its entities are destroyed in turns: no other has to go meanwhile"
     process.used = 70
     bench.agent.care(bench.now)
     assert len(bench.agent.clients) == 2
@@ -105,6 +109,23 @@ def test_memory_is_returned_after_clients_freed_much_and_not_too_often() -> None
     for tick in range(100):
         process.guard.look(5 * MIB if tick % 2 else 20 * MIB, 4.0 + tick / 10)
     assert 2 <= process.trims <= 6
+
+
+def test_memory_is_returned_after_entities_are_destroyed() -> None:
+    """A client leaves the table at once, its entities as fast as changes of the graph are allowed."""
+    process, budgets = Process(), Budgets(Limits())
+    shares = budgets.of_client()
+    assert shares.history.take(12 * MIB)
+    assert shares.output.take(1 * MIB)
+    relief = Relief(process.guard, ClientTable(), budgets, lambda client, why: None, Bench().log)
+    relief.look(1.0)
+    shares.output.clear()
+    relief.look(4.0)
+    assert process.trims == 0
+    shares.history.clear()
+    relief.look(7.0)
+    assert process.trims == 1
+    assert budgets.held == 0
 
 
 def test_what_the_system_says_is_read() -> None:

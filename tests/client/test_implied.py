@@ -76,6 +76,7 @@ def test_they_are_planned_in_front_of_the_declared_ones(made_up: Path) -> None:
     assert (entities.services.max, entities.services.implied) == (3, 2)
 
 
+@pytest.mark.system
 @pytest.mark.builds
 def test_what_is_built_has_them_and_the_example_leaves_them_to_the_library(made_up: Path) -> None:
     result = planned(made_up, APPLICATION + NODES)
@@ -112,6 +113,7 @@ def test_ros_time_is_one_of_them() -> None:
     assert [name for name, c in load_catalogue().items() if c.implies] == [
         "clock_ros",
         "graph",
+        "graph_topic",
         "logger_services",
         "logging_rosout",
         "parameters",

@@ -4,23 +4,19 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from functools import partial
 from itertools import product
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from tests.support.agent.line_process import LineProcess
 from tests.support.agent.process import running_agent
-from tests.support.e2e.commanded import CommandedProgram
+from tests.support.e2e.graph_device import LISTS_OF_NODE, OK, STRICT, Device, alike, running
 from tests.support.e2e.graph_peer import NODE, graph_peer
-from tests.support.e2e.graph_server import graph_server
-from tests.support.e2e.images import C_FILES, Images, ends_well, started
+from tests.support.e2e.graph_server import SHORT, graph_server
+from tests.support.e2e.images import C_FILES, Images
 from tests.support.e2e.relay import Relay
-from tests.support.paths import TESTS
 from tests.support.patience import deadline
 
 pytestmark = pytest.mark.ros
@@ -39,50 +35,14 @@ nodes:
     subscriptions: [{topic: order, type: std_msgs/msg/Int32}]
     clients: [{name: set, type: std_srvs/srv/SetBool, limits: {message: 8}, storage: none}]
 """
-STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror", f"-I{TESTS / 'runtime' / 'c'}")
 SERVER_READY = "graph server ready: /microros_graph"
-OK, TIMEOUT = 0, 2
-LISTS_OF_NODE = ("publishers_of", "subscriptions_of", "services_of", "clients_of")
-
-
-class Device(CommandedProgram):
-    """The program, with the calls of these tests."""
-
-    def lines(self, command: str) -> list[str]:
-        code, error, lines = self.call(command)
-        assert code == OK, error
-        return [line.partition(" ")[2] for line in lines]
-
-    def sorted(self, command: str) -> list[str]:
-        """Return the items in their order."""
-        return sorted(self.lines(command))
-
-
-@contextmanager
-def running(program: Path) -> Iterator[Device]:
-    with started(program) as process:
-        device = Device(process)
-        assert device.call("init") == (OK, "", [])
-        yield device
-        assert device.call("end") == (OK, "", [])
-        ends_well(process)
+TIMEOUT = 2
 
 
 @pytest.fixture(scope="module")
 def program(images: Images, image_port: Relay, tmp_path_factory: pytest.TempPathFactory) -> Path:
     image = images.build(image_port.port, APPLICATION)
     return image.application(C_FILES / "graph.c", tmp_path_factory.mktemp("graph") / "graph", *STRICT)
-
-
-def alike(found: Callable[[], Any], wanted: Callable[[], Any], part: Any = None) -> Any:
-    """Wait until both give the same, which has `part`; discovery takes a moment. Return it."""
-    end = deadline(20)
-    while True:
-        first, second = found(), wanted()
-        if first == second and (part is None or part in first):
-            return first
-        assert time.monotonic() < end, f"{first} is not {second}, or is without {part}"
-        time.sleep(0.1)
 
 
 def served(device: Device) -> None:
@@ -147,6 +107,24 @@ def test_what_rclpy_sees(program: Path, agent: object, domain: int) -> None:
         compare_names(device, peer)
         compare_endpoints(device, peer)
         assert device.lines("count available") == ["1"]
+
+
+def test_a_short_script_instead_of_the_server(program: Path, agent: object, domain: int) -> None:
+    """It has the contract of the page, and nothing else of this tool's server: queries, changes, matched counts."""
+    with graph_peer(domain) as peer, graph_server(domain, SHORT), running(program) as device:
+        served(device)
+        before = matched_subscriptions(device)
+        peer.ask(do="serve", name="/arm/set")
+        peer.ask(do="subscribe", topic="/arm/count")
+        assert device.call("change 20000")[0] == OK
+        alike(lambda: device.lines("count matched_subscriptions"), lambda: [str(before + 1)])
+        nodes = alike(lambda: sorted(device.lines("nodes")), lambda: peer.ask(do="nodes"), "/arm device")
+        assert {"/ microros_graph", "/ short_graph_server", " ".join(NODE)} <= set(nodes)
+        compare_names(device, peer)
+        compare_endpoints(device, peer)
+        assert device.lines("count available") == ["1"]
+        peer.ask(do="leave")
+        alike(lambda: device.lines("count matched_subscriptions"), lambda: [str(before)])
 
 
 def test_changes_and_matched_counts(program: Path, agent: object, domain: int) -> None:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import time
+from contextlib import nullcontext
 
 import pytest
 
@@ -18,14 +19,14 @@ NAME = "qemu-mps2-an386"
 APPLICATION = """\
 version: 1
 profiles: [pure_sender]
-components: [+graph]
+components: [+{component}]
 errors: code
-memory: {arena: 8192}
-session: {connect_timeout: 20 s, create_timeout: 6 s, liveliness_timeout: 20 s}
+memory: {{arena: 8192}}
+session: {{connect_timeout: 20 s, create_timeout: 6 s, liveliness_timeout: 20 s}}
 nodes:
   - name: device
     namespace: /arm
-    publishers: [{topic: count, type: std_msgs/msg/Int32}]
+    publishers: [{{topic: count, type: std_msgs/msg/Int32}}]
 """
 
 
@@ -40,13 +41,15 @@ def seen_by_rclpy(peer: LineProcess) -> list[int]:
 
 
 @pytest.mark.ros
-def test_the_firmware_sees_what_rclpy_sees(builds: Builds, domain: int) -> None:
-    built = builds.build(NAME, APPLICATION)
+@pytest.mark.parametrize("component", ["graph", "graph_topic"])
+def test_the_firmware_sees_what_rclpy_sees(builds: Builds, domain: int, component: str) -> None:
+    """By a graph server, and by the topic of micro_ros_agent, which this agent offers too."""
+    built = builds.merged(NAME, APPLICATION.format(component=component))
     need(NAME, emulator=True)
     image = builds.application(built, "graph.c")
     with (
         graph_peer(domain) as peer,
-        graph_server(domain),
+        graph_server(domain) if component == "graph" else nullcontext(),
         board(built, image) as running,
         started("agent", "serial", "--dev", running.device, "--domain", str(domain), domain=domain) as agent,
     ):

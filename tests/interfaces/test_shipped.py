@@ -25,13 +25,14 @@ SHARE = Path(sys.prefix) / "share"
 # Not in the wheels of ROS 2 on PyPI: written from what is publicly known of them, or of this project.
 ELSEWHERE = {
     "example_interfaces",
+    "micro_ros_msgs",
     "microros_agent_msgs",
     "microros_graph_msgs",
     "microros_parameter_msgs",
     "tf2_msgs",
 }
-# Of this project, with its own comments.
-OWN = {"microros_agent_msgs", "microros_graph_msgs", "microros_parameter_msgs"}
+# With comments of this project: its own ones, and one whose definitions only are those of micro-ROS.
+OWN = {"micro_ros_msgs", "microros_agent_msgs", "microros_graph_msgs", "microros_parameter_msgs"}
 # For ROS 2's own tests, not for users.
 TESTS_OF_ROS = {"test_msgs", "test_interface_files"}
 FINDER = InterfaceFinder(shipped=shipped_folder())

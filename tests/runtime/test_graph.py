@@ -14,7 +14,7 @@ import pytest
 from microros_gen.ros.graph import GraphEndpoint
 from tests.support.runtime.driver import Client, Result
 from tests.support.runtime.graph_agent import GraphAgent, MadeGraph
-from tests.support.runtime.harness import Tree, build
+from tests.support.runtime.harness import build
 from tests.support.runtime.surface import write_application
 
 APPLICATION = """\
@@ -31,6 +31,7 @@ nodes:
     clients: [{name: set, type: std_srvs/srv/SetBool, limits: {message: 8}, storage: none}]
 """
 OK, ERROR, TIMEOUT, BAD_ALLOC, INVALID, NO_NODE = 0, 1, 2, 10, 11, 203
+BAD_NODE, BAD_NAMESPACE = 201, 202
 INT32, SET_BOOL = "std_msgs/msg/Int32", "std_srvs/srv/SetBool"
 BETWEEN_MS = 1000
 """What a query waits for a server: create_timeout."""
@@ -62,8 +63,7 @@ def endpoint(node: str, number: int = 1, **changed: Any) -> GraphEndpoint:
 @pytest.fixture(scope="module")
 def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
     tree = write_application(tmp_path_factory.mktemp("graph") / "tree", APPLICATION)
-    sources = tuple(s for s in tree.sources if not s.parent.name.startswith("port_posix"))
-    return build(Tree(tree.folder, sources), ["port_fake.c", "client_graph.c"], "graph")
+    return build(tree.without_port(), ["port_fake.c", "client_graph.c"], "graph")
 
 
 class Device:
@@ -125,6 +125,17 @@ def test_names_of_a_node(device: Device) -> None:
     assert "graph: the node /arm/nobody is not known" in device.fails(
         "names services_of nobody /arm", NO_NODE
     )
+
+
+def test_names_of_a_node_that_no_node_can_have(device: Device) -> None:
+    requested = len(device.agent.requests)
+    assert "name 'no%such'" in device.fails("names publishers_of no%such /arm", BAD_NODE)
+    assert "name '1a'" in device.fails("names services_of 1a /arm", BAD_NODE)
+    for namespace in ("arm", "x", "/arm/", "/a//b"):
+        error = device.fails(f"names clients_of device {namespace}", BAD_NAMESPACE)
+        assert f"name '{namespace}'" in error
+    assert "a namespace begins with /" in device.fails("names publishers_of no%such x", BAD_NAMESPACE)
+    assert len(device.agent.requests) == requested
 
 
 def test_nodes(device: Device) -> None:
@@ -248,9 +259,81 @@ def test_without_a_server(device: Device) -> None:
     assert (result.code, result.slept) == (TIMEOUT, BETWEEN_MS)
     assert result.error == "no answer of a graph server within 1000 ms: start `microros-gen graph-server`"
     assert "no answer of a graph server" in device.fails("names topics", TIMEOUT)
-    assert "no answer of a graph server" in device.fails("wait publishers /arm/count 9000", ERROR)
     device.agent.server = True
     assert device.count("count publishers /arm/count") == 1
+
+
+@pytest.mark.parametrize("timeout_ms", [1, 10, 700, 9000])
+def test_a_wait_without_a_server_keeps_its_time(device: Device, timeout_ms: int) -> None:
+    device.agent.server = False
+    result = device.client.call(f"wait publishers /arm/count {timeout_ms}")
+    assert (result.code, result.slept) == (TIMEOUT, timeout_ms)
+    within = min(timeout_ms, BETWEEN_MS)
+    assert f"no answer of a graph server within {within} ms" in result.error
+    device.agent.server = True
+    assert device.count("count publishers /arm/count") == 1
+
+
+def test_a_wait_that_fails_for_good_ends_at_once(device: Device) -> None:
+    for name, code in (("/" + "x" * 95, ERROR), ("not_absolute", INVALID)):
+        result = device.client.call(f"wait publishers {name} 9000")
+        assert (result.code, result.slept < 100) == (code, True)
+        assert result.error
+
+
+def test_a_response_that_arrives_after_a_short_wait_is_not_that_of_the_next_query(device: Device) -> None:
+    device.agent.held = []
+    assert device.client.call("wait publishers /arm/order 10").code == TIMEOUT
+    assert len(device.agent.held) == 1
+    device.client.queued += device.agent.release()
+    assert device.count("count subscriptions /arm/count") == 2
+
+
+@pytest.mark.parametrize("timeout_ms", [60_000, -1])
+@pytest.mark.parametrize("what", ["agent", "server"])
+def test_a_wait_survives_a_restart(device: Device, what: str, timeout_ms: int) -> None:
+    """The agent or server restarts at once and answers after 5 seconds; two publishers appear after 8."""
+    started_ms, graph = device.client.now_ms, device.agent.graph
+    restarted = False
+
+    def pass_time() -> None:
+        nonlocal restarted
+        passed_ms = device.client.now_ms - started_ms
+        if passed_ms > 300 and not restarted:
+            restarted, device.agent.server = True, False
+            if what == "agent":
+                device.agent.restart()
+        if passed_ms > 5000:
+            device.agent.server = True
+        if passed_ms > 8000 and "/late" not in graph.publishing:
+            graph.publishing["/late"] = (endpoint("/root", 1), endpoint("/root", 2))
+            device.client.queued += device.agent.notice()
+
+    device.client.on_sleep = pass_time
+    assert 8000 <= device.client.ok(f"wait publishers /late {timeout_ms}").slept < 10_000
+    assert restarted
+
+
+def test_a_wait_begun_while_the_agent_is_away(device: Device) -> None:
+    """The next request finds no session; the wait ends when the agent is there again."""
+    started_ms = device.client.now_ms
+    device.agent.graph.publishing["/late"] = (endpoint("/root", 1), endpoint("/root", 2))
+    device.agent.silent = True
+    for _ in range(100):
+        device.client.wait(200)
+        device.client.ok("spin 0")
+    result = device.client.call("wait publishers /late 300")
+    assert (result.code, result.slept) == (TIMEOUT, 300)
+    assert result.error
+
+    def reappear() -> None:
+        if device.client.now_ms > started_ms + 30_000 and device.agent.silent:
+            device.agent.restart()
+            device.agent.silent = False
+
+    device.client.on_sleep = reappear
+    device.client.ok("wait publishers /late 60000")
+    assert not device.agent.silent
 
 
 def test_a_server_that_appears_within_the_time(device: Device) -> None:

@@ -12,7 +12,6 @@ import contextlib
 import os
 import time
 from collections.abc import Callable, Iterator, Sequence
-from ctypes import byref, c_size_t
 from typing import Any
 
 from microros_gen.agent.representation import Topic
@@ -21,8 +20,9 @@ from microros_gen.agent.ros.graph import Destroyable
 from microros_gen.agent.ros.wakeups import Wakeups, Watcher
 from microros_gen.agent.wire.cdr import Writer
 from microros_gen.agent.wire.constants import Status
-from microros_gen.ros.graph import Graph, Names
-from microros_gen.ros.libraries import OK, Libraries
+from microros_gen.ros.errors import RosError
+from microros_gen.ros.graph import Graph, GraphChanges, Names
+from microros_gen.ros.libraries import Libraries
 
 GRAPH_TOPIC = "ros_to_microros_graph"
 """Its name in DDS: it is no ROS topic."""
@@ -104,16 +104,14 @@ class ClientGraph(Watcher):
 
     def _changed(self) -> bool:
         """Return whether the graph has changed since the last call."""
-        condition = self._libraries.graph_guard_condition(self._node.pointer)
         waits = self._handles.WaitSet(0, 1, 0, 0, 0, 0, self._context)
-        index = c_size_t()
         try:
             waits.clear_entities()
-            if self._libraries.add_guard_condition(waits.pointer, condition, byref(index)) != OK:
-                self._libraries.error()
-                return True
+            place = GraphChanges(self._node, self._libraries, lambda: None).add(waits)
             waits.wait(0)
-            return bool(waits.is_ready("guard_condition", index.value))
+            return bool(waits.is_ready(GraphChanges.kind, place))
+        except RosError:
+            return True
         finally:
             waits.destroy_when_not_in_use()
 

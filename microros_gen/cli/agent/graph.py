@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 from microros_gen.agent.log import EventLog, Level
+from microros_gen.cli.agent.background import in_background
 from microros_gen.cli.graph_server import graph_peer
 from microros_gen.graph_server.server import GraphServer
 
@@ -25,11 +25,6 @@ def graph_server(wanted: bool, domain: int | None, log: EventLog) -> Iterator[No
         server = GraphServer(
             peer, lambda line: log.emit(Level.WARNING, "graph_server", "graph server: {reason}", reason=line)
         )
-        thread = threading.Thread(target=server.run, name="graph server", daemon=True)
-        thread.start()
-        log.emit(Level.INFO, "graph_server_ready", "graph server ready: {node}", node=peer.name)
-        try:
+        with in_background("graph server", server.run, server.stop):
+            log.emit(Level.INFO, "graph_server_ready", "graph server ready: {node}", node=peer.name)
             yield
-        finally:
-            server.stop()
-            thread.join()

@@ -18,7 +18,7 @@ _PACKAGE = "microros_graph_msgs"
 
 @dataclass(frozen=True, kw_only=True)
 class GraphPlan:
-    """`name_size` is the bytes of a name or type with its NUL; the others are counts."""
+    """`name_size` is the bytes of a name or type with its NUL; the others are counts, 0 without a graph server."""
 
     name_size: int
     names: int
@@ -34,9 +34,12 @@ class GraphPlan:
 def plan(context: PlanContext, diagnostics: Diagnostics) -> GraphPlan:
     """Return the sizes: what every name and every response has room for."""
     refuse_own_limits(context, "graph", diagnostics)
-    name, endpoint = _bounds(context, "msg", "Name"), _bounds(context, "msg", "Endpoint")
-    names = _bounds(context, "srv", "ListNames_Response")["names"][1]
-    endpoints = _bounds(context, "srv", "ListEndpoints_Response")["endpoints"][1]
+    if context.selection.has("graph_topic"):
+        name_size = _bounds(context, "micro_ros_msgs", "msg", "Entity")["name"][0] + 1
+        return GraphPlan(name_size=name_size, names=0, types=0, endpoints=0)
+    name, endpoint = _bounds(context, _PACKAGE, "msg", "Name"), _bounds(context, _PACKAGE, "msg", "Endpoint")
+    names = _bounds(context, _PACKAGE, "srv", "ListNames_Response")["names"][1]
+    endpoints = _bounds(context, _PACKAGE, "srv", "ListEndpoints_Response")["endpoints"][1]
     strings = (name["name"], name["types"], endpoint["node"], endpoint["type"])
     return GraphPlan(
         name_size=min(string for string, _ in strings) + 1,
@@ -52,7 +55,12 @@ def record(part: GraphPlan) -> object:
 
 
 def limits(application: Application) -> tuple[LimitRule, ...]:
-    """Return the bounds of requests and responses; those of requests follow the application's bound of a name."""
+    """Return the bounds of requests and responses; those of requests follow the application's bound of a name.
+
+    None where another source than the graph server answers.
+    """
+    if not any(e.type.startswith(_PACKAGE) for node in application.nodes for e in node.endpoints):
+        return ()
     own_rules = {rule.path: rule for rule in application.limits}
     own = own_rules.get((f"{_PACKAGE}/msg/Name", "name"))
     longest = own.string if own is not None and own.string is not None else LONGEST_NAME
@@ -75,9 +83,9 @@ def _rule(name: str, member: str, string: int | None, sequence: int | None = Non
     return LimitRule((f"{_PACKAGE}/{name}", member), string, sequence)
 
 
-def _bounds(context: PlanContext, kind: str, name: str) -> dict[str, tuple[int, int]]:
+def _bounds(context: PlanContext, package: str, kind: str, name: str) -> dict[str, tuple[int, int]]:
     """Return the bound of the string and of the sequence of each member that has one."""
-    planned = context.types[TypeName(_PACKAGE, kind, name)]
+    planned = context.types[TypeName(package, kind, name)]
     fields = planned.limits.fields if planned.limits is not None else ()
     return {
         member.name: (bound.string or 0, bound.sequence or 0)

@@ -8,6 +8,7 @@ align for its element type; a wstring has no terminator and writes each of its U
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import cached_property
 
 from microros_gen.interfaces.types import (
     ArrayType,
@@ -45,6 +46,14 @@ class TypeLimits:
     """Limits of a type, one entry for each of its fields (None: fixed size)."""
 
     fields: tuple[FieldLimits | None, ...]
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        """The digest of all levels below: they are many, and each is looked up by it several times."""
+        return hash(self.fields)
 
 
 def members(message: Message) -> tuple[Field, ...]:

@@ -1,36 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A node that queries the graph in the hands of the test: one call for each line of standard input. */
+#include "fake_program.h"
+#include "fake_steps.h"
 #include "graph_calls.h"
-#include "port_fake.h"
 
-#include "microros/port.h"
-
-enum { STEP_MS = 5 };
-
-/* Time passes in steps: the test delivers between them. */
-void port_wait(intptr_t handle, uint32_t timeout_ms)
+static void work(char * line)
 {
-  (void)handle;
-  port_sleep_ms(timeout_ms < (uint32_t)STEP_MS ? timeout_ms : (uint32_t)STEP_MS);
-}
-
-void port_wake(void)
-{
+  calls_report(calls_call(line));
 }
 
 int main(void)
 {
-  for (;;) {
-    char * line = fake_read_line();
-
-    if (strcmp(line, "quit") == 0) {
-      return 0;
-    }
-    if (!fake_take_line(line)) {
-      char copy[256]; /* the line's memory is used again when time passes */
-
-      (void)snprintf(copy, sizeof(copy), "%s", line);
-      calls_report(calls_call(copy));
-    }
-  }
+  return run_calls(work);
 }

@@ -1,35 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`microros-gen graph-server` in a process."""
+"""`microros-gen graph-server` in a process, or a program in its place."""
 
 from __future__ import annotations
 
-import select
 import subprocess
-import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
-from tests.support.agent.process import environment
-from tests.support.patience import seconds
+from tests.support.e2e.server_process import server_process
 
 READY = "graph server ready: /microros_graph\n"
 
 
+SHORT = ("-m", "tests.support.graph_server.short_server")
+"""A program in its place, for `command`."""
+
+
 @contextmanager
-def graph_server(domain: int) -> Iterator[subprocess.Popen[str]]:
+def graph_server(
+    domain: int, command: Sequence[str] = ("-m", "microros_gen", "graph-server")
+) -> Iterator[subprocess.Popen[str]]:
     """Start one in a ROS domain and wait until it serves; kill it afterwards."""
-    process = subprocess.Popen(
-        [sys.executable, "-m", "microros_gen", "graph-server"],
-        env=environment(domain),
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-    assert process.stdout is not None
-    try:
-        assert select.select([process.stdout], [], [], seconds(15))[0]
-        assert process.stdout.readline() == READY
+    with server_process(domain, READY, command) as process:
         yield process
-    finally:
-        process.kill()
-        process.wait()
-        process.stdout.close()

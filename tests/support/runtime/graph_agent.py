@@ -74,7 +74,8 @@ class GraphAgent(ServingAgent):
     """`requests` are what the server was asked; without `server` requests get no response.
 
     `first_client` is the index of the first client of the graph on the wire, `reader` that of the subscription of
-    changes. `change` gets each response before it is encoded, and `damage` its bytes.
+    changes. `change` gets each response before it is encoded, and `damage` its bytes. Requests are appended to
+    `held`, if it is a list, and get their responses by `release`.
     """
 
     graph: MadeGraph = field(default_factory=MadeGraph)
@@ -82,6 +83,7 @@ class GraphAgent(ServingAgent):
     first_client: int = 0
     reader: int = 0
     server: bool = True
+    held: list[bytes] | None = None
     requests: list[tuple[str, dict[str, Any]]] = field(default_factory=list)
     change: Callable[[dict[str, Any]], dict[str, Any]] = lambda response: response
     damage: Callable[[bytes], bytes] = lambda body: body
@@ -96,6 +98,19 @@ class GraphAgent(ServingAgent):
         super()._write(payload)
         if payload[2:4] not in self.objects or payload[3] & 15 != 7 or not self.server:
             return
+        if self.held is not None:
+            self.held.append(payload)
+        else:
+            self._respond(payload)
+
+    def release(self) -> list[bytes]:
+        """Return the datagrams with the responses to the requests that are held; later ones are answered at once."""
+        held, self.held = self.held or [], None
+        for payload in held:
+            self._respond(payload)
+        return [datagram for payload in held for datagram in self._kept(self._flow(payload[2:4]))]
+
+    def _respond(self, payload: bytes) -> None:
         place = (int.from_bytes(payload[2:4], "big") >> 4) - self.first_client
         if place not in LISTS:
             return

@@ -5,6 +5,7 @@
  */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
+#include "microros/xrce_topic_prefix.h"
 #include "microros/xrce_wire.h"
 
 #include <stddef.h>
@@ -37,8 +38,14 @@ static uint8_t * xml_put_topic(
   uint8_t * at, const xrce_endpoint_t * endpoint, const char * before, const char * after)
 {
   const char * const texts[] = {
-    before, "<name>rt", endpoint->name, "</name><dataType>", endpoint->type->dds_type_name, "</dataType>",
-    after,  NULL};
+    before,
+    xrce_topic_prefix_xml(endpoint),
+    endpoint->name,
+    "</name><dataType>",
+    endpoint->type->dds_type_name,
+    "</dataType>",
+    after,
+    NULL};
 
   return xml_put(at, texts);
 }

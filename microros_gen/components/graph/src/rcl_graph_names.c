@@ -1,172 +1,98 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
 #include "microros/rcl_graph.h"
+#include "microros/rcl_names_given.h"
 
-#include <string.h>
-
-/* Names with types: the request, and where they are stored. */
-typedef struct names_list_t {
-  rcl_graph_names_t names; /* first: a list of names is one of these */
-  rcl_names_and_types_t * into;
-  rcl_allocator_t * allocator;
-} names_list_t;
-
-static microros_graph_msgs__msg__Name names_page[MICROROS_GRAPH_NAMES_MAX];
-
-static void names_bind(void * response)
+static rcl_ret_t names_check_arguments(
+  const rcl_node_t * node, const rcl_allocator_t * allocator, rcl_names_and_types_t * into)
 {
-  static rosidl_runtime_c__String names_types[MICROROS_GRAPH_NAMES_MAX][MICROROS_GRAPH_TYPES_MAX];
-  microros_graph_msgs__srv__ListNames_Response * names = response;
-  size_t text = 0;
-
-  for (size_t i = 0; i < MICROROS_GRAPH_NAMES_MAX; ++i) {
-    rcl_graph_bind_text(&names_page[i].name, text++);
-    for (size_t j = 0; j < MICROROS_GRAPH_TYPES_MAX; ++j) {
-      rcl_graph_bind_text(&names_types[i][j], text++);
-    }
-    names_page[i].types.data = names_types[i];
-    names_page[i].types.size = 0;
-    names_page[i].types.capacity = MICROROS_GRAPH_TYPES_MAX;
-  }
-  names->names.data = names_page;
-  names->names.size = 0;
-  names->names.capacity = MICROROS_GRAPH_NAMES_MAX;
-}
-
-rcl_ret_t rcl_graph_ask_names(rcl_graph_names_t * names, uint32_t first, rcl_graph_page_t * page)
-{
-  const microros_graph_msgs__srv__ListNames_Response * response = &names->response;
-  microros_graph_msgs__srv__ListNames_Request request;
-  rcl_ret_t result;
-
-  (void)memset(&request, 0, sizeof(request));
-  request.what = names->what;
-  rcl_graph_lend(&request.node, names->node);
-  request.first = first;
-  request.names_max = MICROROS_GRAPH_NAMES_MAX;
-  request.name_size = MICROROS_GRAPH_NAME_SIZE;
-  request.types_max = names->types_max;
-  result = rcl_graph_ask(&rcl_graph_names_client, &request, &names->response, names_bind);
-  if (result != RCL_RET_OK) {
-    return result;
-  }
-  page->version = response->version;
-  page->total = response->total;
-  page->next = response->next;
-  page->size = response->names.size;
-  page->truncated = response->truncated;
-  return rcl_graph_status(response->status, "the node", names->node);
-}
-
-static rcl_ret_t names_ask(void * list, uint32_t first, rcl_graph_page_t * page)
-{
-  names_list_t * wanted = list;
-
-  return rcl_graph_ask_names(&wanted->names, first, page);
-}
-
-static rcl_ret_t names_make(void * list, size_t size)
-{
-  const names_list_t * wanted = list;
-
-  return rmw_names_and_types_init(wanted->into, size, wanted->allocator);
-}
-
-static rcl_ret_t names_put(void * list, size_t item, size_t index)
-{
-  const names_list_t * wanted = list;
-  const microros_graph_msgs__msg__Name * name = &names_page[item];
-  rcutils_string_array_t * types = &wanted->into->types[index];
-
-  wanted->into->names.data[index] = rcl_graph_copy(name->name.data, name->name.size, wanted->allocator);
-  if (
-    wanted->into->names.data[index] == NULL ||
-    rcutils_string_array_init(types, name->types.size, wanted->allocator) != RCUTILS_RET_OK) {
-    return RCL_RET_BAD_ALLOC;
-  }
-  for (size_t i = 0; i < name->types.size; ++i) {
-    types->data[i] = rcl_graph_copy(name->types.data[i].data, name->types.data[i].size, wanted->allocator);
-    if (types->data[i] == NULL) {
-      return RCL_RET_BAD_ALLOC;
-    }
-  }
-  return RCL_RET_OK;
-}
-
-static void names_drop(void * list)
-{
-  const names_list_t * wanted = list;
-
-  (void)rmw_names_and_types_fini(wanted->into); /* cannot fail: it was made with a valid allocator */
-}
-
-/* `full`: the node whose names are listed, or NULL. */
-static rcl_ret_t names_read(
-  const rcl_node_t * node, rcl_allocator_t * allocator, uint8_t what, char * full,
-  rcl_names_and_types_t * into)
-{
-  static const rcl_graph_reader_t reader = {names_ask, names_make, names_put, names_drop};
-  names_list_t list;
-
   if (!rcl_graph_node_is_valid(node)) {
     return RCL_RET_NODE_INVALID;
   }
   if (!rcutils_allocator_is_valid(allocator) || rmw_names_and_types_check_zero(into) != RMW_RET_OK) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "allocator or names_and_types");
   }
-  (void)memset(&list, 0, sizeof(list));
-  list.names.what = what;
-  list.names.node = full;
-  list.names.types_max = MICROROS_GRAPH_TYPES_MAX;
-  list.into = into;
-  list.allocator = allocator;
-  return rcl_graph_read(&reader, &list);
+  return RCL_RET_OK;
+}
+
+static rcl_ret_t names_read(
+  const rcl_node_t * node, rcl_allocator_t * allocator, rcl_graph_what_t what, rcl_names_and_types_t * into)
+{
+  const rcl_ret_t result = names_check_arguments(node, allocator, into);
+
+  return result == RCL_RET_OK ? rcl_graph_list_names(what, NULL, allocator, into) : result;
 }
 
 rcl_ret_t rcl_get_topic_names_and_types(
   const rcl_node_t * node, rcl_allocator_t * allocator, bool no_demangle,
   rcl_names_and_types_t * topic_names_and_types)
 {
-  const uint8_t what = no_demangle ? (uint8_t)microros_graph_msgs__srv__ListNames_Request__DDS_TOPICS
-                                   : (uint8_t)microros_graph_msgs__srv__ListNames_Request__TOPICS;
+  const rcl_graph_what_t what = no_demangle ? RCL_GRAPH_DDS_TOPICS : RCL_GRAPH_TOPICS;
 
-  return names_read(node, allocator, what, NULL, topic_names_and_types);
+  return names_read(node, allocator, what, topic_names_and_types);
 }
 
 rcl_ret_t rcl_get_service_names_and_types(
   const rcl_node_t * node, rcl_allocator_t * allocator, rcl_names_and_types_t * service_names_and_types)
 {
-  const uint8_t what = (uint8_t)microros_graph_msgs__srv__ListNames_Request__SERVICES;
+  return names_read(node, allocator, RCL_GRAPH_SERVICES, service_names_and_types);
+}
 
-  return names_read(node, allocator, what, NULL, service_names_and_types);
+/* In the order of rcl, which needs the slash at the start. */
+static rcl_ret_t names_check_node(const char * name, const char * namespace_)
+{
+  const char * fault = namespace_[0] == '/' ? rcl_names_given_namespace(namespace_)
+                                            : MICROROS_ERROR_WORDS("a namespace begins with /");
+
+  if (fault != NULL) {
+    microros_error_set(microros_error_name, namespace_, fault, 0, 0);
+    return RCL_RET_NODE_INVALID_NAMESPACE;
+  }
+  fault = rcl_names_given_node(name);
+  if (fault != NULL) {
+    microros_error_set(microros_error_name, name, fault, 0, 0);
+    return RCL_RET_NODE_INVALID_NAME;
+  }
+  return RCL_RET_OK;
+}
+
+/* Writes the fully qualified name of a node; an empty namespace is the root. */
+static rcl_ret_t names_write_node(
+  const char * name, const char * namespace_, char full[MICROROS_GRAPH_NAME_SIZE])
+{
+  const char * valid = namespace_[0] == '\0' ? "/" : namespace_;
+  const rcl_ret_t result = names_check_node(name, valid);
+
+  if (result == RCL_RET_OK) {
+    const rmw_name_t parts = {{valid[1] == '\0' ? "" : valid, "/", name, ""}};
+
+    return rcl_graph_write_name(&parts, full);
+  }
+  return result;
 }
 
 static rcl_ret_t names_of_node(
-  const rcl_node_t * node, rcl_allocator_t * allocator, uint8_t what, const char * node_name,
+  const rcl_node_t * node, rcl_allocator_t * allocator, rcl_graph_what_t what, const char * node_name,
   const char * node_namespace, rcl_names_and_types_t * into)
 {
   char full[MICROROS_GRAPH_NAME_SIZE];
-  rcl_ret_t result;
+  rcl_ret_t result = names_check_arguments(node, allocator, into);
 
+  if (result != RCL_RET_OK) {
+    return result;
+  }
   if (node_name == NULL || node_namespace == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "node_name or node_namespace");
   }
-  {
-    const bool is_root = node_namespace[0] == '\0' || node_namespace[1] == '\0';
-    const rmw_name_t name = {{is_root ? "" : node_namespace, "/", node_name, ""}};
-
-    result = rcl_graph_write_name(&name, full);
-  }
-  return result == RCL_RET_OK ? names_read(node, allocator, what, full, into) : result;
+  result = names_write_node(node_name, node_namespace, full);
+  return result == RCL_RET_OK ? rcl_graph_list_names(what, full, allocator, into) : result;
 }
 
 rcl_ret_t rcl_get_publisher_names_and_types_by_node(
   const rcl_node_t * node, rcl_allocator_t * allocator, bool no_demangle, const char * node_name,
   const char * node_namespace, rcl_names_and_types_t * topic_names_and_types)
 {
-  const uint8_t what = no_demangle
-                         ? (uint8_t)microros_graph_msgs__srv__ListNames_Request__DDS_PUBLISHERS_OF_NODE
-                         : (uint8_t)microros_graph_msgs__srv__ListNames_Request__PUBLISHERS_OF_NODE;
+  const rcl_graph_what_t what = no_demangle ? RCL_GRAPH_DDS_PUBLISHERS_OF_NODE : RCL_GRAPH_PUBLISHERS_OF_NODE;
 
   return names_of_node(node, allocator, what, node_name, node_namespace, topic_names_and_types);
 }
@@ -175,9 +101,8 @@ rcl_ret_t rcl_get_subscriber_names_and_types_by_node(
   const rcl_node_t * node, rcl_allocator_t * allocator, bool no_demangle, const char * node_name,
   const char * node_namespace, rcl_names_and_types_t * topic_names_and_types)
 {
-  const uint8_t what = no_demangle
-                         ? (uint8_t)microros_graph_msgs__srv__ListNames_Request__DDS_SUBSCRIPTIONS_OF_NODE
-                         : (uint8_t)microros_graph_msgs__srv__ListNames_Request__SUBSCRIPTIONS_OF_NODE;
+  const rcl_graph_what_t what =
+    no_demangle ? RCL_GRAPH_DDS_SUBSCRIPTIONS_OF_NODE : RCL_GRAPH_SUBSCRIPTIONS_OF_NODE;
 
   return names_of_node(node, allocator, what, node_name, node_namespace, topic_names_and_types);
 }
@@ -186,18 +111,16 @@ rcl_ret_t rcl_get_service_names_and_types_by_node(
   const rcl_node_t * node, rcl_allocator_t * allocator, const char * node_name, const char * node_namespace,
   rcl_names_and_types_t * service_names_and_types)
 {
-  const uint8_t what = (uint8_t)microros_graph_msgs__srv__ListNames_Request__SERVICES_OF_NODE;
-
-  return names_of_node(node, allocator, what, node_name, node_namespace, service_names_and_types);
+  return names_of_node(
+    node, allocator, RCL_GRAPH_SERVICES_OF_NODE, node_name, node_namespace, service_names_and_types);
 }
 
 rcl_ret_t rcl_get_client_names_and_types_by_node(
   const rcl_node_t * node, rcl_allocator_t * allocator, const char * node_name, const char * node_namespace,
   rcl_names_and_types_t * service_names_and_types)
 {
-  const uint8_t what = (uint8_t)microros_graph_msgs__srv__ListNames_Request__CLIENTS_OF_NODE;
-
-  return names_of_node(node, allocator, what, node_name, node_namespace, service_names_and_types);
+  return names_of_node(
+    node, allocator, RCL_GRAPH_CLIENTS_OF_NODE, node_name, node_namespace, service_names_and_types);
 }
 
 rcl_ret_t rcl_names_and_types_init(

@@ -1,17 +1,21 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
-#include "microros/rcl_graph.h"
-#include "rcl/error_handling.h"
+#include "microros/rcl_graph_server.h"
 
 enum { PAGES_ATTEMPTS = 5 }; /* of a list that changes while it is read */
+
+rcl_ret_t rcl_graph_source_refuse_long(void)
+{
+  microros_error_set(
+    microros_error_graph_limits, NULL, NULL, MICROROS_GRAPH_NAME_SIZE - 1u, MICROROS_GRAPH_TYPES_MAX);
+  return RCL_RET_ERROR;
+}
 
 /* Refuses a page that is no continuation from item `first` on, or not all of it. */
 static rcl_ret_t pages_check(const rcl_graph_page_t * page, uint32_t first)
 {
   if (page->truncated) {
-    microros_error_set(
-      microros_error_graph_limits, NULL, NULL, MICROROS_GRAPH_NAME_SIZE - 1u, MICROROS_GRAPH_TYPES_MAX);
-    return RCL_RET_ERROR;
+    return rcl_graph_source_refuse_long();
   }
   if (
     page->next > page->total || page->next < first || page->next - first != page->size ||
@@ -99,9 +103,7 @@ rcl_ret_t rcl_graph_read(const rcl_graph_reader_t * reader, void * list)
     result = pages_attempt(reader, list, &changed);
   }
   rcl_graph_end();
-  if (result == RCL_RET_BAD_ALLOC && !rcutils_error_is_set()) { /* the default allocator names the key */
-    result = microros_error_named(result, microros_error_graph, "the allocator gives no memory");
-  }
+  result = rcl_graph_result(result);
   if (result == RCL_RET_OK && changed) {
     result = microros_error_named(RCL_RET_ERROR, microros_error_graph, "it changes faster than it is read");
   }

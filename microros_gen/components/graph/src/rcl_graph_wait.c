@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
 #include "microros/rcl_graph.h"
-#include "microros/rcl_waiting.h"
+#include "rcl/error_handling.h"
+
+static const int64_t wait_retry_ns = 100000000; /* after a query that failed */
 
 /* Rests until the graph has changed since `seen`; false: the time is over. */
 static bool wait_for_change(const rcl_waiting_t * waiting, uint32_t seen)
@@ -16,11 +18,53 @@ static bool wait_for_change(const rcl_waiting_t * waiting, uint32_t seen)
   return true;
 }
 
+/* A server or an agent that is silent, or restarts, may be there later; what is closed is not opened again. */
+static bool wait_can_continue(rcl_ret_t result)
+{
+  return result == RCL_RET_TIMEOUT || (result == RCL_RET_ERROR && rcl_graph_source_is_open());
+}
+
+static void wait_for_retry(const rcl_waiting_t * waiting)
+{
+  rcutils_reset_error();
+  rcl_waiting_rest(waiting, wait_retry_ns);
+  rcl_waiting_receive();
+}
+
+static rcl_ret_t wait_until(
+  rcl_graph_kind_t kind, char * topic, size_t count, const rcl_waiting_t * waiting, bool * success)
+{
+  for (;;) {
+    const uint32_t seen = rcl_graph_changes(); /* before the query: what changes meanwhile is not missed */
+    size_t found = 0;
+    const rcl_ret_t result = rcl_graph_count_named(kind, topic, waiting, &found);
+
+    *success = result == RCL_RET_OK && found >= count;
+    if (*success) {
+      return RCL_RET_OK;
+    }
+    if (result == RCL_RET_OK) {
+      if (!wait_for_change(waiting, seen)) {
+        return RCL_RET_TIMEOUT;
+      }
+    } else if (!wait_can_continue(result)) {
+      return result;
+    } else if (rcl_waiting_is_over(waiting)) {
+      return RCL_RET_TIMEOUT; /* with the text of the query */
+    } else {
+      wait_for_retry(waiting);
+    }
+  }
+}
+
 static rcl_ret_t wait_for_count(
-  const rcl_node_t * node, uint8_t what, const char * topic_name, size_t count, int64_t timeout,
+  const rcl_node_t * node, rcl_graph_kind_t kind, const char * topic_name, size_t count, int64_t timeout,
   bool * success)
 {
   const rcl_waiting_t waiting = rcl_waiting_begin(timeout);
+  const rmw_name_t name = {{topic_name, "", "", ""}};
+  char topic[MICROROS_GRAPH_NAME_SIZE];
+  rcl_ret_t result;
 
   if (!rcl_graph_node_is_valid(node)) {
     return RCL_RET_NODE_INVALID;
@@ -29,40 +73,22 @@ static rcl_ret_t wait_for_count(
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "topic_name or success");
   }
   *success = false;
-  for (;;) {
-    const uint32_t seen = rcl_graph_changes(); /* before the query: what changes meanwhile is not missed */
-    size_t found = 0;
-    const rcl_ret_t result = rcl_graph_count(what, topic_name, &found);
-
-    if (result != RCL_RET_OK) {
-      return result == RCL_RET_TIMEOUT ? RCL_RET_ERROR : result; /* no server, whatever the topic has */
-    }
-    if (found >= count) {
-      *success = true;
-      return RCL_RET_OK;
-    }
-    if (!wait_for_change(&waiting, seen)) {
-      return RCL_RET_TIMEOUT;
-    }
-  }
+  result = rcl_graph_write_name(&name, topic);
+  return result == RCL_RET_OK ? wait_until(kind, topic, count, &waiting, success) : result;
 }
 
 rcl_ret_t rcl_wait_for_publishers(
   const rcl_node_t * node, rcl_allocator_t * allocator, const char * topic_name, const size_t count,
   rcutils_duration_value_t timeout, bool * success)
 {
-  const uint8_t what = (uint8_t)microros_graph_msgs__srv__ListEndpoints_Request__PUBLISHERS;
-
   (void)allocator;
-  return wait_for_count(node, what, topic_name, count, timeout, success);
+  return wait_for_count(node, RCL_GRAPH_PUBLISHERS, topic_name, count, timeout, success);
 }
 
 rcl_ret_t rcl_wait_for_subscribers(
   const rcl_node_t * node, rcl_allocator_t * allocator, const char * topic_name, const size_t count,
   rcutils_duration_value_t timeout, bool * success)
 {
-  const uint8_t what = (uint8_t)microros_graph_msgs__srv__ListEndpoints_Request__SUBSCRIPTIONS;
-
   (void)allocator;
-  return wait_for_count(node, what, topic_name, count, timeout, success);
+  return wait_for_count(node, RCL_GRAPH_SUBSCRIPTIONS, topic_name, count, timeout, success);
 }

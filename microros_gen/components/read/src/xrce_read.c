@@ -2,6 +2,7 @@
 #include "microros/xrce_read.h"
 
 #include "microros/xrce_client.h"
+#include "microros/xrce_sinks.h"
 #include "microros/xrce_wire.h"
 
 #include <string.h>
@@ -270,6 +271,9 @@ void xrce_read_on_data(xrce_client_t * client, const uint8_t * submessage, size_
   sample.arrived_ms = now;
   sample.size = (uint16_t)(size - XRCE_OBJECT_PREFIX);
   sample.big_endian = (xrce_flags_of(submessage) & XRCE_FLAG_LITTLE_ENDIAN) == 0u;
+  if (xrce_sinks_take(client, receiver, &sample)) {
+    return;
+  }
   if (sample.size > xrce_read_largest(client, receiver)) {
     read_refuse(client, receiver, sample.size);
   } else {

@@ -2,6 +2,7 @@
 #include "microros/xrce_fragments.h"
 
 #include "microros/xrce_client.h"
+#include "microros/xrce_sinks.h"
 #include "microros/xrce_wire.h"
 
 #include <string.h>
@@ -21,19 +22,23 @@ static bool fragments_begin(xrce_client_t * client, const uint8_t * begin, size_
   xrce_fragments_t * fragments = &client->fragments;
   uint16_t length;
 
-  if (size < BEGIN_SIZE || begin[0] != XRCE_DATA) {
-    ++client->session.statistics.malformed;
-    return false;
-  }
-  length = xrce_get_le16(&begin[FRAGMENTS_LENGTH_AT]);
-  if (length <= XRCE_OBJECT_PREFIX || (begin[1] & XRCE_READ_FORMATS) != 0u) {
+  if (size < BEGIN_SIZE || begin[0] != XRCE_DATA || (begin[1] & XRCE_READ_FORMATS) != 0u) {
     ++client->session.statistics.malformed;
     return false;
   }
   fragments->sample.request = xrce_get_be16(&begin[FRAGMENTS_REQUEST_AT]);
   fragments->sample.object = xrce_get_be16(&begin[FRAGMENTS_OBJECT_AT]);
-  fragments->sample.size = (uint16_t)(length - XRCE_OBJECT_PREFIX);
   fragments->sample.flags = begin[1];
+  if (xrce_sinks_begin(client, &fragments->sample)) { /* of any length: the last fragment ends it */
+    fragments->begun = true;
+    return true;
+  }
+  length = xrce_get_le16(&begin[FRAGMENTS_LENGTH_AT]);
+  if (length <= XRCE_OBJECT_PREFIX) {
+    ++client->session.statistics.malformed;
+    return false;
+  }
+  fragments->sample.size = (uint16_t)(length - XRCE_OBJECT_PREFIX);
   fragments->arrived = 0;
   fragments->begun = true;
   return xrce_read_begin(client, &fragments->sample);
@@ -43,8 +48,12 @@ static bool fragments_begin(xrce_client_t * client, const uint8_t * begin, size_
 static bool fragments_add(xrce_client_t * client, const uint8_t * fragment, size_t size)
 {
   xrce_fragments_t * fragments = &client->fragments;
-  uint8_t * place = xrce_read_place(client, &fragments->sample);
+  uint8_t * place;
 
+  if (xrce_sinks_add(client, &fragments->sample, fragment, size)) {
+    return true;
+  }
+  place = xrce_read_place(client, &fragments->sample);
   if (place == NULL) {
     return false;
   }
@@ -90,7 +99,7 @@ void xrce_fragments_on_fragment(xrce_client_t * client, const uint8_t * submessa
     fragments->skipping = !fragments_take(client, xrce_payload_of(submessage), size);
   }
   if ((xrce_flags_of(submessage) & XRCE_FLAG_LAST_FRAGMENT) != 0u) {
-    if (!fragments->skipping) {
+    if (!xrce_sinks_end(client, &fragments->sample, !fragments->skipping) && !fragments->skipping) {
       fragments_finish(client, now);
     }
     xrce_fragments_reset(fragments);

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Exchange with the graph server. Internal. */
+/*
+ * The functions of rcl/graph.h over one source of the graph: the graph server (rcl_graph_server.h), or with
+ * the component `graph_topic` the topic of micro_ros_agent. Internal. */
 #ifndef MICROROS_RCL_GRAPH_INTERNAL_H
 #define MICROROS_RCL_GRAPH_INTERNAL_H
 
@@ -7,24 +9,37 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "microros/rcl_waiting.h"
 #include "microros/rmw_names.h"
+#include "microros/xrce_objects.h"
 #include "microros_config.h"
-#include "microros_graph_msgs/msg/name.h"
-#include "microros_graph_msgs/srv/list_endpoints.h"
-#include "microros_graph_msgs/srv/list_names.h"
-#include "rcl/client.h"
 #include "rcl/graph.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* Clients of the server's services; invalid while their node is closed. */
-extern rcl_client_t rcl_graph_names_client;
-extern rcl_client_t rcl_graph_endpoints_client;
+/* What is listed; the values are those of microros_graph_msgs/srv/ListNames. */
+typedef enum rcl_graph_what_t {
+  RCL_GRAPH_NODES = 0,
+  RCL_GRAPH_TOPICS = 1,
+  RCL_GRAPH_SERVICES = 2,
+  RCL_GRAPH_PUBLISHERS_OF_NODE = 3,
+  RCL_GRAPH_SUBSCRIPTIONS_OF_NODE = 4,
+  RCL_GRAPH_SERVICES_OF_NODE = 5,
+  RCL_GRAPH_CLIENTS_OF_NODE = 6,
+  RCL_GRAPH_DDS_TOPICS = 7,
+  RCL_GRAPH_DDS_PUBLISHERS_OF_NODE = 8,
+  RCL_GRAPH_DDS_SUBSCRIPTIONS_OF_NODE = 9
+} rcl_graph_what_t;
 
-/* Names and types of the response that is read; one query is made at a time. */
-extern char rcl_graph_texts[MICROROS_GRAPH_TEXTS][MICROROS_GRAPH_NAME_SIZE];
+/* Endpoints; the values are those of microros_graph_msgs/srv/ListEndpoints and of micro_ros_msgs/msg/Entity. */
+typedef enum rcl_graph_kind_t {
+  RCL_GRAPH_PUBLISHERS = 0,
+  RCL_GRAPH_SUBSCRIPTIONS = 1,
+  RCL_GRAPH_SERVERS = 2,
+  RCL_GRAPH_CLIENTS = 3
+} rcl_graph_kind_t;
 
 /* --- rcl_graph.c --- */
 
@@ -35,79 +50,64 @@ bool rcl_graph_node_is_valid(const rcl_node_t * node);
 rcl_ret_t rcl_graph_begin(void);
 void rcl_graph_end(void);
 
-/* What an exchange does before it reads a response into memory. */
-typedef void (*rcl_graph_bind_t)(void * response);
-
-/*
- * Sends a request, once more if it gets no answer in half of the time, and waits for the response.
- * RCL_RET_TIMEOUT or RCL_RET_ERROR, with a text. */
-rcl_ret_t rcl_graph_ask(
-  const rcl_client_t * client, const void * request, void * response, rcl_graph_bind_t bind);
-
-/* Returns the code for a `status` of a response, with a text about `kind` and `name`. */
-rcl_ret_t rcl_graph_status(uint8_t status, const char * kind, const char * name);
-
-/* Sets `string` to a text of others, which is only read; NULL: to an empty one. */
-void rcl_graph_lend(rosidl_runtime_c__String * string, char * text);
-
-/* Gives `string` the memory of text `index`. */
-void rcl_graph_bind_text(rosidl_runtime_c__String * string, size_t index);
-
 /* Writes a name of parts to `full`; RCL_RET_ERROR, with a text, if it is too long to be asked for. */
 rcl_ret_t rcl_graph_write_name(const rmw_name_t * name, char full[MICROROS_GRAPH_NAME_SIZE]);
+
+/* Begins to wait for at most `most_ms`, and not longer than `limit` has left; NULL: no limit. */
+rcl_waiting_t rcl_graph_waiting(uint32_t most_ms, const rcl_waiting_t * limit);
+
+/* Returns how long a query waited at most, for its text. */
+uint32_t rcl_graph_waited_ms(const rcl_waiting_t * limit);
 
 /* Returns a copy of `size` bytes and a NUL in memory of the allocator, or NULL. */
 char * rcl_graph_copy(const char * text, size_t size, const rcutils_allocator_t * allocator);
 
-/* Splits a fully qualified node name: copies of its name and of its namespace, which is "/" for the root. */
+/* Splits a fully qualified node name of `size` bytes: copies of its name and of its namespace, which is "/" for
+ * the root. After an error, what is not NULL is the caller's. */
 rcl_ret_t rcl_graph_split(
-  const rosidl_runtime_c__String * full, const rcutils_allocator_t * allocator, char ** name,
-  char ** namespace_);
+  const char * full, size_t size, const rcutils_allocator_t * allocator, char ** name, char ** namespace_);
 
-/* --- rcl_graph_pages.c --- */
-
-/* A page of a response, whatever its items are. */
-typedef struct rcl_graph_page_t {
-  uint32_t version;
-  uint32_t total;
-  uint32_t next;
-  size_t size;
-  bool truncated;
-} rcl_graph_page_t;
-
-/* How a list is read. `list` is the caller's. A function that returns an error has set a text. */
-typedef struct rcl_graph_reader_t {
-  rcl_ret_t (*ask)(void * list, uint32_t first, rcl_graph_page_t * page); /* the page from item `first` on */
-  rcl_ret_t (*make)(void * list, size_t size);                            /* makes room for that many items */
-  rcl_ret_t (*put)(void * list, size_t item, size_t index); /* stores an item of the page as item `index` */
-  void (*drop)(void * list);                                /* frees what `make` and `put` allocated */
-} rcl_graph_reader_t;
-
-/* Reads all pages, and begins again if the graph changes meanwhile. On an error the list is dropped. */
-rcl_ret_t rcl_graph_read(const rcl_graph_reader_t * reader, void * list);
-
-/* --- rcl_graph_names.c --- */
-
-/* A request for names, and the page of the last response. */
-typedef struct rcl_graph_names_t {
-  char * node; /* fully qualified, for names of a node; otherwise NULL */
-  uint8_t what;
-  uint16_t types_max;
-  microros_graph_msgs__srv__ListNames_Response response;
-} rcl_graph_names_t;
-
-/* Asks for a page of names. */
-rcl_ret_t rcl_graph_ask_names(rcl_graph_names_t * names, uint32_t first, rcl_graph_page_t * page);
-
-/* --- rcl_graph_counts.c --- */
-
-/* Asks for the number of endpoints of a topic or service. */
-rcl_ret_t rcl_graph_count(uint8_t what, const char * name, size_t * count);
+/* Returns the code of a query that ended with `result`, with a text where the allocator has set none. */
+rcl_ret_t rcl_graph_result(rcl_ret_t result);
 
 /* --- rcl_graph_follow.c --- */
 
 /* Returns a counter of the changes of the graph. */
 uint32_t rcl_graph_changes(void);
+
+/* --- the source of the graph; a function that returns an error has set a text, and allocated nothing --- */
+
+/* Opens its endpoints with a node, and waits for the agent; after an error the node is closed, and so are they. */
+rcl_ret_t rcl_graph_source_open(rcl_node_t * node);
+void rcl_graph_source_close(rcl_node_t * node);
+bool rcl_graph_source_is_open(void);
+
+/* Returns once for each change of the graph whether it has changed; called after receiving. */
+bool rcl_graph_source_has_changed(void);
+
+/* Returns RCL_RET_ERROR, with the text for a name that is too long. */
+rcl_ret_t rcl_graph_source_refuse_long(void);
+
+/* Lists names; `node` is the fully qualified one for names of a node, otherwise NULL. The other arguments are valid. */
+rcl_ret_t rcl_graph_list_names(
+  rcl_graph_what_t what, char * node, rcutils_allocator_t * allocator, rcl_names_and_types_t * into);
+
+/* Lists the nodes; the arguments are valid. */
+rcl_ret_t rcl_graph_list_nodes(
+  const rcutils_allocator_t * allocator, rcutils_string_array_t * nodes, rcutils_string_array_t * namespaces);
+
+/* Lists the publishers or subscriptions of a topic; the arguments are valid. */
+rcl_ret_t rcl_graph_list_endpoints(
+  rcl_graph_kind_t kind, char * topic, rcutils_allocator_t * allocator,
+  rcl_topic_endpoint_info_array_t * into);
+
+/* Counts the endpoints of a topic or service; `name` is fully qualified. RCL_RET_TIMEOUT also when `limit` has expired;
+ * NULL: no limit. */
+rcl_ret_t rcl_graph_count_named(
+  rcl_graph_kind_t kind, char * name, const rcl_waiting_t * limit, size_t * count);
+
+/* Counts the endpoints that match an own one, which is of the other kind. */
+rcl_ret_t rcl_graph_count_matched(rcl_graph_kind_t kind, const xrce_endpoint_t * own, size_t * count);
 
 #ifdef __cplusplus
 }

@@ -1,17 +1,21 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Queries of the ROS graph. A graph server (`microros-gen graph-server`, or one in the agent) answers them.
+ * Queries of the ROS graph. A graph server (`microros-gen graph-server`, or one in the agent) answers them,
+ * or with the component `graph_topic` the last sample of ros_to_microros_graph, which the agent then sends
+ * once more. That has neither QoS, type hash and GID (unknown, zero) nor names of DDS (RCL_RET_UNSUPPORTED),
+ * and matched counts are those of the own type.
  *
- * Every query waits for the server: for each page of a list at most MICROROS_CREATE_TIMEOUT_MS, without
- * calling callbacks. One task at a time may query; a second one gets RCL_RET_ERROR. Lists are memory of the
+ * Every query waits: for each page of a list, or each piece of the sample, at most
+ * MICROROS_CREATE_TIMEOUT_MS, without calling callbacks. One task at a time may query; a second one gets RCL_RET_ERROR. Lists are memory of the
  * given allocator, and the caller frees them; the default allocator has `memory: {arena: N}` bytes.
  * On an error nothing is allocated. Codes, each with a text:
  *
- * RCL_RET_TIMEOUT: no answer of a server. RCL_RET_BAD_ALLOC: the list has no room. RCL_RET_ERROR: a name is
- * longer than `limits` of microros_graph_msgs, the session is lost, or the graph changes faster than it is
+ * RCL_RET_TIMEOUT: no answer of a server, or no sample. RCL_RET_BAD_ALLOC: the list has no room. RCL_RET_ERROR: a name is
+ * longer than `limits` of microros_graph_msgs (micro_ros_msgs), the session is lost, or the graph changes faster than it is
  * read. RCL_RET_INVALID_ARGUMENT: an argument is NULL, an output is not zero-initialized, or a name is not
  * a fully qualified one. RCL_RET_UNSUPPORTED: `no_mangle` is true.
- * RCL_RET_NODE_NAME_NON_EXISTENT: the graph has no such node.
+ * RCL_RET_NODE_NAME_NON_EXISTENT: the graph has no such node. RCL_RET_NODE_INVALID_NAMESPACE, RCL_RET_NODE_INVALID_NAME:
+ * no node can have this name.
  */
 #ifndef MICROROS_RCL_GRAPH_H
 #define MICROROS_RCL_GRAPH_H
@@ -117,8 +121,9 @@ const rcl_guard_condition_t * rcl_node_get_graph_guard_condition(const rcl_node_
 
 /*
  * Wait until the topic has `count` publishers or subscriptions. `timeout` is in nanoseconds; a negative one
- * means no time-out, and a query that has begun is finished. RCL_RET_TIMEOUT: *success is false;
- * RCL_RET_ERROR, with a text: a query failed. `allocator` is not used. */
+ * means no time-out. Each query takes a round trip, so a shorter timeout always expires. A query that fails is repeated:
+ * the server or the agent may restart meanwhile. RCL_RET_TIMEOUT: *success is false; a text is set if the last query got
+ * no answer. RCL_RET_ERROR, with a text: the name is too long, or the endpoints are closed. `allocator` is not used. */
 rcl_ret_t rcl_wait_for_publishers(
   const rcl_node_t * node, rcl_allocator_t * allocator, const char * topic_name, const size_t count,
   rcutils_duration_value_t timeout, bool * success);
