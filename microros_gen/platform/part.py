@@ -50,7 +50,8 @@ class Driver:
 class Image:
     """Names of an image's first steps: where it begins, what is first in flash and in which section.
 
-    `uart_handler` handles the interrupt of the serial line, `no_handler` those of nobody; empty: the table has 0.
+    `uart_handler` handles the interrupt of the serial line, `console_handler` the one that sends the console's bytes
+    (empty: its drivers can only wait), `no_handler` those of nobody; empty: the table has 0.
     """
 
     entry: str
@@ -58,6 +59,7 @@ class Image:
     first_section: str
     uart_handler: str
     no_handler: str = ""
+    console_handler: str = ""
 
 
 @dataclass(frozen=True)

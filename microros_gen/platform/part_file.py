@@ -206,8 +206,9 @@ def _image(value: YamlNode | None, diagnostics: Diagnostics) -> Image | None:
     node = expect_mapping(value, "'image'", diagnostics)
     if node is None:
         return None
-    check_keys(node, (*_IMAGE_KEYS, "no_handler"), _IMAGE_KEYS, diagnostics)
-    return Image(*(text_at(node, key, diagnostics) for key in (*_IMAGE_KEYS, "no_handler")))
+    keys = (*_IMAGE_KEYS, "no_handler", "console_handler")
+    check_keys(node, keys, _IMAGE_KEYS, diagnostics)
+    return Image(*(text_at(node, key, diagnostics) for key in keys))
 
 
 def _vector_table(value: YamlNode | None, diagnostics: Diagnostics) -> VectorTable | None:

@@ -30,7 +30,10 @@ class Region:
 
 @dataclass(frozen=True)
 class Memory:
-    """A further memory; `holds`: `stack`, `serial` (the rings of the line), or sections of the program (`.dma`)."""
+    """A further memory.
+
+    `holds`: `stack`, `serial` (the rings of the line and of the console), or sections of the program (`.dma`).
+    """
 
     name: str
     region: Region
@@ -39,7 +42,7 @@ class Memory:
     @property
     def sections(self) -> tuple[str, ...]:
         """Patterns of the sections that it holds, as a linker script names them."""
-        rings = ("*(.bss.port_ring .bss.port_output)",) if "serial" in self.holds else ()
+        rings = ("*(.bss.port_ring .bss.port_output .bss.port_console)",) if "serial" in self.holds else ()
         return (*rings, *(f"*({name} {name}.*)" for name in self.holds if name.startswith(".")))
 
     @property
@@ -52,7 +55,8 @@ class Memory:
 class Stdio:
     """Where the C library's standard output goes: `to` is none, semihosting, uart or application.
 
-    `driver`, `base` and `baud` are those of the uart; `floats`: newlib's printf formats %f.
+    `driver`, `base` and `baud` are those of the uart, `interrupt` its transmit interrupt; None: printing waits for
+    the line. `floats`: newlib's printf formats %f.
     """
 
     to: str
@@ -60,6 +64,7 @@ class Stdio:
     base: int = 0
     baud: int = 115_200
     floats: bool = False
+    interrupt: int | None = None
 
     @property
     def memory(self) -> int:
@@ -157,6 +162,12 @@ class Target:
         """What is known of the operating system."""
         return next((part.os for part in self.parts if part.os is not None), Os())
 
+    @property
+    def cpu_name(self) -> str:
+        """The component of the processor, or of the operating system where none is named, for messages."""
+        part = self.part("cpu") or self.part("os")
+        return part.component.name if part is not None else "the target"
+
     def part(self, kind: str) -> Part | None:
         """Return the part of a kind."""
         return next((part for part in self.parts if part.kind == kind), None)
@@ -203,8 +214,17 @@ class Target:
     @property
     def has_unique_id(self) -> bool:
         """Whether the port supplies a client key that no other device has (`session: {key: device}`)."""
+        return self.has_id_words or self._always_provides("unique_id")
+
+    @property
+    def sends_console(self) -> bool:
+        """Whether an interrupt or DMA sends the lines of the console, so that no call waits for them."""
+        sends = self.stdio is not None and self.stdio.interrupt is not None
+        return not self.hosted and (sends or self._always_provides("console_send"))
+
+    def _always_provides(self, capability: str) -> bool:
         named = {p.capability for part in self.parts for p in part.component.provides if _has_file(p)}
-        return self.has_id_words or "unique_id" in (*named, *self.provides)
+        return capability in (*named, *self.provides)
 
     @property
     def has_id_words(self) -> bool:

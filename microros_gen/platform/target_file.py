@@ -22,12 +22,12 @@ from microros_gen.documents.yaml_tree import (
 from microros_gen.platform.capabilities import capabilities
 from microros_gen.platform.part import KINDS, Part
 from microros_gen.platform.part_file import read_part
+from microros_gen.platform.stdio_file import check_stdio, read_stdio, tx_offset
 from microros_gen.platform.target import (
     OWN_DRIVER,
     Emulator,
     Memory,
     Region,
-    Stdio,
     Target,
     Uart,
     UniqueId,
@@ -155,7 +155,7 @@ def _target(node: MappingNode, parts: tuple[Part, ...]) -> Target:
         memories=tuple(_memory(e) for e in entries(node.get("memories"))),
         clocks_hook=text_of(child(node.get("hooks"), "clocks")) or "",
         watchdog_hook=text_of(child(node.get("hooks"), "watchdog")) or "",
-        stdio=_stdio(node.get("stdio")),
+        stdio=read_stdio(node.get("stdio"), parts),
         provides=_texts(node.get("provides")),
     )
 
@@ -172,15 +172,6 @@ def _memory(entry: Entry) -> Memory:
     return Memory(entry.key, region, _texts(child(entry.value, "holds")))
 
 
-def _stdio(node: YamlNode | None) -> Stdio | None:
-    if node is None:
-        return None
-    base, baud = (int_of(child(node, key)) for key in ("base", "baud"))
-    driver = text_of(child(node, "driver")) or Stdio.driver
-    floats = bool_of(child(node, "floats")) or False
-    return Stdio(text_of(child(node, "to")) or "", driver, base or 0, baud or Stdio.baud, floats)
-
-
 def _uart(node: YamlNode | None, parts: tuple[Part, ...]) -> Uart | None:
     if node is None:
         return None
@@ -189,8 +180,7 @@ def _uart(node: YamlNode | None, parts: tuple[Part, ...]) -> Uart | None:
     tx_pin, rx_pin = (-1 if pin is None else pin for pin in pins)
     driver, tx_irq = text_of(child(node, "driver")) or "", int_of(child(node, "tx_irq"))
     if tx_irq is None:
-        known = (part.cpu.driver(driver) for part in parts if part.cpu is not None)
-        tx_irq = irq + next((found.tx_irq for found in known if found is not None), 0)
+        tx_irq = irq + tx_offset(driver, parts)
     return Uart(driver, base, irq, clock_hz, tx_pin, rx_pin, tx_irq)
 
 
@@ -213,13 +203,13 @@ def _check(node: MappingNode, target: Target, diagnostics: Diagnostics) -> None:
     _check_memory(node, diagnostics)
     _check_uart(node, target, diagnostics)
     _check_interrupts(node, target, diagnostics)
-    _check_stdio(node, target, diagnostics)
+    check_stdio(node, target, diagnostics)
     _check_image_keys(node, target, diagnostics)
     _check_registers(node, target, diagnostics)
     if target.linker_script is not None and target.cpu.image is None:
         hint = "Add `image: {entry: …, first: …, first_section: …, uart_handler: …}` to its cpu.yaml"
         diagnostics.error(
-            f"{_cpu_name(target)} has no start-up code for an image", node.span, hint, id="MG-6012"
+            f"{target.cpu_name} has no start-up code for an image", node.span, hint, id="MG-6012"
         )
 
 
@@ -232,7 +222,7 @@ def _check_provides(node: MappingNode, diagnostics: Diagnostics) -> None:
 
 
 def _check_registers(node: MappingNode, target: Target, diagnostics: Diagnostics) -> None:
-    cpu, name_of = target.cpu, _cpu_name(target)
+    cpu, name_of = target.cpu, target.cpu_name
     known = (*cpu.registers, *cpu.optional_registers)
     for entry in entries(node.get("registers")):
         if entry.key not in known:
@@ -244,12 +234,6 @@ def _check_registers(node: MappingNode, target: Target, diagnostics: Diagnostics
         if child(node.get("registers"), name) is None:
             hint = f"Add `registers: {{{name}: 0x…}}`"
             diagnostics.error(f"{name_of} needs the address of {name}", node.span, hint, id="MG-6015")
-
-
-def _cpu_name(target: Target) -> str:
-    """Return the component of the processor, or of the operating system where none is named, for messages."""
-    part = target.part("cpu") or target.part("os")
-    return part.component.name if part is not None else "the target"
 
 
 def _check_uart(node: MappingNode, target: Target, diagnostics: Diagnostics) -> None:
@@ -274,7 +258,7 @@ def _check_uart(node: MappingNode, target: Target, diagnostics: Diagnostics) -> 
         known = (*(item.name for item in target.cpu.drivers), OWN_DRIVER)
         has = f"Its drivers are: {', '.join(known)}. Without `uart:` the application provides port_serial_*"
         diagnostics.error(
-            f"{_cpu_name(target)} has no driver '{name}'",
+            f"{target.cpu_name} has no driver '{name}'",
             driver.span,
             nearest(name, known) or has,
             id="MG-6018",
@@ -343,39 +327,21 @@ def _check_image_keys(node: MappingNode, target: Target, diagnostics: Diagnostic
             )
 
 
-def _check_stdio(node: MappingNode, target: Target, diagnostics: Diagnostics) -> None:
-    stdio = node.get("stdio")
-    to = text_of(child(stdio, "to"))
-    for key in ("driver", "base", "baud"):
-        found = child(stdio, key)
-        if found is not None and to != "uart":
-            diagnostics.error(
-                f"stdio: {to} has no `{key}`", found.span, f"Remove `{key}`, or use to: uart", id="MG-6026"
-            )
-        if found is None and to == "uart" and key != "baud":
-            diagnostics.error(
-                f"missing key '{key}' in 'stdio'", (stdio or node).span, f"Add `{key}: …`", id="MG-6027"
-            )
-    floats = child(stdio, "floats")
-    if floats is not None and not target.cpu.stdio_heap:
-        name = _cpu_name(target)
-        text = f"'stdio.floats' has no effect with {name}: its C library, picolibc, always formats %f"
-        diagnostics.error(text, floats.span, "Remove `floats`", id="MG-6028")
-    driver = child(stdio, "driver")
-    drivers = [item.name for item in target.cpu.drivers if item.stdio]
-    if driver is not None and to == "uart" and text_of(driver) not in drivers:
-        hint = f"Its drivers for output are: {', '.join(drivers) or 'none'}. With `to: application` the program has one"
-        diagnostics.error(
-            f"{_cpu_name(target)} has no driver '{text_of(driver)}'", driver.span, hint, id="MG-6029"
-        )
-
-
 def _check_interrupts(node: MappingNode, target: Target, diagnostics: Diagnostics) -> None:
-    taken = target.uart.interrupts if target.uart else ()
+    taken = dict.fromkeys(target.uart.interrupts if target.uart else (), "uart")
+    irq, stdio = child(node.get("stdio"), "irq"), target.stdio
+    if irq is not None and stdio is not None and stdio.interrupt is not None:
+        if stdio.interrupt in taken and target.uart is not None and target.uart.base != stdio.base:
+            text = f"interrupt {stdio.interrupt} is taken by 'uart'"
+            diagnostics.error(text, irq.span, "Write the interrupt of this UART", id="MG-6034")
+        taken.setdefault(stdio.interrupt, "stdio")
     for entry in entries(node.get("interrupts")):
-        if int(entry.key) in taken:
-            hint = "Remove it here, or remove `uart:`"
-            diagnostics.error(f"interrupt {entry.key} is taken by 'uart'", entry.key_span, hint, id="MG-6030")
+        owner = taken.get(int(entry.key))
+        if owner is not None:
+            hint = f"Remove it here, or remove `{owner}:`"
+            diagnostics.error(
+                f"interrupt {entry.key} is taken by '{owner}'", entry.key_span, hint, id="MG-6030"
+            )
 
 
 def _text(node: MappingNode, key: str) -> str:

@@ -37,7 +37,7 @@ session: {liveliness_period: 200 ms, liveliness_timeout: 300 ms, retry_max: 500 
 
 @pytest.mark.parametrize("name", BOARDS)
 def test_the_example_publishes_from_each_board(builds: Builds, name: str) -> None:
-    built = builds.build(name)
+    built = builds.merged(name)
     with board(built) as running, scripted_agent(running.device, FakeAgent()) as agent:
         running.go_on()
         running.wait_for(lambda: len(agent.values()) >= 3)
@@ -46,7 +46,7 @@ def test_the_example_publishes_from_each_board(builds: Builds, name: str) -> Non
 
 @pytest.mark.parametrize("name", ["qemu-mps2-an385", "qemu-riscv32-virt"])
 def test_over_a_bad_line_every_reliable_sample_arrives_once_and_in_order(builds: Builds, name: str) -> None:
-    built = builds.build(name)
+    built = builds.merged(name)
     image = builds.application(built, "counter.c", "-DCOUNTER_LAST=60")
     agent = FakeAgent()
     with board(built, image) as running, Relay(running.device) as relay:
@@ -65,7 +65,7 @@ def test_over_a_bad_line_every_reliable_sample_arrives_once_and_in_order(builds:
 
 @pytest.mark.parametrize("name", FAULTS)
 def test_a_fault_restarts_the_board_and_leaves_its_cause(builds: Builds, name: str) -> None:
-    built = builds.build(name)
+    built = builds.merged(name)
     address, cause = FAULTS[name]
     image = builds.application(built, "fault.c", f"-DFAULT_ADDRESS={address}u")
     with board(built, image, restarts=True) as running:
@@ -82,7 +82,7 @@ def test_a_fault_restarts_the_board_and_leaves_its_cause(builds: Builds, name: s
 
 @pytest.mark.parametrize("name", ["qemu-microbit", "qemu-mps2-an385"])
 def test_a_stack_that_overflows_meets_the_end_of_ram_and_leaves_a_cause(builds: Builds, name: str) -> None:
-    built = builds.build(name)
+    built = builds.merged(name)
     image = builds.application(built, "fault.c", "-DFAULT_STACK")
     with board(built, image, restarts=True) as running:
         running.go_on()
@@ -93,7 +93,7 @@ def test_a_stack_that_overflows_meets_the_end_of_ram_and_leaves_a_cause(builds: 
 
 
 def test_a_main_that_returns_restarts_the_board_until_there_is_an_agent(builds: Builds) -> None:
-    built = builds.build("qemu-mps2-an386")
+    built = builds.merged("qemu-mps2-an386")
     with board(built, restarts=True) as running:
         running.go_on()
         time.sleep(2.5)  # a second of waiting for the agent, a second of pause
@@ -107,7 +107,7 @@ def test_a_main_that_returns_restarts_the_board_until_there_is_an_agent(builds: 
 @pytest.mark.parametrize("loop", ["keeps the session", "begins again"])
 def test_the_usual_loops_outlive_an_outage_of_the_agent(builds: Builds, loop: str) -> None:
     """The one line is the session's: a ping while it is looked for must not close it."""
-    built = builds.build("qemu-mps2-an385", IMPATIENT)
+    built = builds.merged("qemu-mps2-an385", IMPATIENT)
     keeps = loop == "keeps the session"
     image = builds.application(built, "usual_loop.c", *(["-DLOOP_KEEPS"] if keeps else []))
     agent = FakeAgent()
@@ -131,7 +131,7 @@ def test_the_usual_loops_outlive_an_outage_of_the_agent(builds: Builds, loop: st
 
 
 def test_bytes_not_read_in_time_are_counted_and_the_line_recovers(builds: Builds) -> None:
-    built = builds.build("qemu-mps2-an385")
+    built = builds.merged("qemu-mps2-an385")
     image = builds.application(built, "counter.c", "-DCOUNTER_LAST=20", "-DCOUNTER_PERIOD_MS=100u")
     agent = FakeAgent()
     with board(built, image) as running, scripted_agent(running.device, agent):
@@ -148,7 +148,7 @@ def test_bytes_not_read_in_time_are_counted_and_the_line_recovers(builds: Builds
 
 
 def test_a_device_with_a_unique_number_is_known_by_it(builds: Builds) -> None:
-    built = builds.build("qemu-microbit", DEVICE_KEY)
+    built = builds.merged("qemu-microbit", DEVICE_KEY)
     with board(built) as running, scripted_agent(running.device, FakeAgent()) as agent:
         running.go_on()
         running.wait_for(lambda: agent.values())

@@ -12,11 +12,21 @@ import pytest
 
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.platform.find import read_target
-from tests.support.firmware.board import C_FILES, Built, board, build, check, need
+from tests.support.firmware.board import (
+    C_FILES,
+    Built,
+    board,
+    build,
+    check,
+    compile_merged_image,
+    need,
+    run_tool,
+)
 from tests.support.firmware.line import scripted_agent
 from tests.support.firmware.unneeded import NOT_NEEDED
 from tests.support.patience import deadline
 from tests.support.runtime.fake_agent import FakeAgent
+from tests.support.slices import only
 
 DMA, FAST, OFFSET = 0x21800000, 0x21000000, 0x10000
 BOOTED = f"""\
@@ -45,14 +55,20 @@ PRINTING = {
 }
 
 
+SHORT = ("uart", "float", "riscv float")
+"""What the default suite has."""
+
+
 def built(home: Path, text: str) -> Built:
-    """Build for a target file of the user's."""
+    """Generate for a target file of the user's, and compile."""
     (home / "mine.yaml").write_text(text)
     found = read_target("mine.yaml", home, None, Diagnostics())
     assert found is not None
-    done = build(home, "mine.yaml")
+    done = run_tool("generate", home, "mine.yaml")
     assert done.returncode == 0, done.stdout + done.stderr
-    return Built(home / "out", found.target)
+    firmware = Built(home / "out", found.target)
+    compile_merged_image(firmware)
+    return firmware
 
 
 def test_an_image_after_a_bootloader_has_its_vectors_hooks_and_memories(tmp_path: Path) -> None:
@@ -90,7 +106,7 @@ def test_a_hook_missing_in_the_application_is_named(tmp_path: Path) -> None:
     assert "feed_the_dog" in str(error.value)
 
 
-@pytest.mark.parametrize("way", PRINTING)
+@pytest.mark.parametrize("way", only(SHORT, PRINTING))
 def test_printf_goes_where_the_target_file_says(tmp_path: Path, way: str) -> None:
     name, stdio = PRINTING[way]
     need(name, emulator=True)

@@ -27,7 +27,7 @@ nodes: [{name: device, namespace: /arm}]
 def test_rclpy_receives_what_the_board_logged_before_a_fault(
     builds: Builds, domain: int, observer: Observer
 ) -> None:
-    built = builds.build(NAME, APPLICATION)
+    built = builds.merged(NAME, APPLICATION)
     need(NAME, emulator=True)
     image = builds.application(built, "log_ring.c", f"-DFAULT_ADDRESS={NO_MEMORY}u")
     observer.subscribe("/rosout", "rcl_interfaces/msg/Log", transient_local=True)

@@ -44,7 +44,7 @@ def done(running: Board) -> bool:
 
 @pytest.mark.ros
 def test_rclpy_receives_what_the_board_logs(builds: Builds, domain: int, observer: Observer) -> None:
-    built = builds.build(NAME, APPLICATION)
+    built = builds.merged(NAME, APPLICATION)
     need(NAME, emulator=True)
     image = builds.application(built, "logs.c")
     observer.subscribe("/rosout", "rcl_interfaces/msg/Log", transient_local=True)

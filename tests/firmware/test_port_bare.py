@@ -40,6 +40,17 @@ def test_time_sleep_epoch_and_ring(tmp_path: Path) -> None:
     check([str(program)])
 
 
+def test_the_ring_of_the_console(tmp_path: Path) -> None:
+    (tmp_path / "microros").mkdir()
+    (tmp_path / "microros" / "port_board.h").write_text("#define PORT_BOARD_CONSOLE_SIZE 200u\n")
+    bare, console = BARE, COMPONENTS / "logging_console"
+    folders = (tmp_path, bare / "src", bare / "include", console / "include", COMPONENTS / "base" / "include")
+    includes = [f"-I{path}" for path in folders]
+    program = tmp_path / "unit"
+    check(["gcc", *WARNINGS, *SANITIZE, *includes, str(C_FILES / "unit_console.c"), "-o", str(program)])
+    check([str(program)])
+
+
 def test_timers_and_steady_time_over_sixty_days(tmp_path: Path) -> None:
     (tmp_path / "microros_config.h").write_text("#define MICROROS_TIMERS_MAX 2u\n")
     bare, base = BARE, COMPONENTS / "base"

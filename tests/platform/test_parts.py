@@ -110,6 +110,7 @@ def test_functions_missing_from_a_kernel_are_named_and_can_be_pasted(demo: Path,
     assert "nobody: define port_time_steady_ns" in table
 
 
+@pytest.mark.system
 @pytest.mark.builds
 @pytest.mark.skipif(not shutil.which("arm-none-eabi-gcc"), reason="tests/tools/system_packages.py names it")
 def test_nothing_of_bare_metal_is_in_the_archive(demo: Path, run: Runner) -> None:

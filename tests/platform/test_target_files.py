@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,7 @@ from microros_gen.platform.part import KINDS
 from microros_gen.platform.part_file import builtin_parts, read_part
 from microros_gen.platform.target import Region
 from microros_gen.platform.target_file import SCHEMA as TARGET_SCHEMA
+from microros_gen.selection.find_components import parts_folder
 from tests.support.ids import without_id
 
 SCHEMA = load_schema(TARGET_SCHEMA)
@@ -63,12 +65,30 @@ def test_each_driver_of_a_processor_has_its_files(name: str) -> None:
     assert drivers == {driver.name for driver in part.cpu.drivers}
     output = {dict(source.when)["board.stdio_driver"] for source in provides["stdio_put"]}
     assert output == {driver.name for driver in part.cpu.drivers if driver.stdio}
+    by_interrupt = {dict(source.when)["board.console_driver"] for source in provides["console_send"]}
+    assert by_interrupt == output
     described = SCHEMA["properties"]["uart"]["properties"]["driver"]["description"]
     assert all(driver in described for driver in drivers)
     registers = SCHEMA["properties"]["registers"]["description"]
     assert all(
         f"`{register}`" in registers for register in (*part.cpu.registers, *part.cpu.optional_registers)
     )
+
+
+def test_an_interrupt_of_standard_output_needs_a_handler(tmp_path: Path) -> None:
+    shutil.copytree(parts_folder() / "cpu" / "cortex_m", tmp_path / "cpu")
+    facts = tmp_path / "cpu" / "cpu.yaml"
+    facts.write_text(
+        "".join(line for line in facts.open(encoding="utf-8") if "console_handler" not in line),
+        encoding="utf-8",
+    )
+    stdio = "cpu: ./cpu\nstdio: {to: uart, driver: cmsdk, base: 64, irq: 5}\n"
+    found, messages = read(tmp_path, BOARD + stdio)
+    assert found is None
+    assert any(
+        "7:49: error: 'stdio.irq' has no effect: port_cortex_m sends standard output" in m for m in messages
+    ), messages
+    assert read(tmp_path, BOARD + stdio.replace(", irq: 5", ""))[0] is not None
 
 
 def test_a_file_adds_a_board_to_a_cpu(tmp_path: Path) -> None:
@@ -136,6 +156,19 @@ def test_extends_is_relative_to_the_file_that_says_it(tmp_path: Path) -> None:
         (
             BOARD + "uart: {driver: cmsdk, base: 0, irq: 3}\ninterrupts: {4: usart}\n",
             "7:14: error: interrupt 4 is taken by 'uart'",
+        ),
+        (
+            BOARD + "stdio: {to: uart, driver: cmsdk, base: 64, irq: 5}\ninterrupts: {6: usart}\n",
+            "7:14: error: interrupt 6 is taken by 'stdio'. Remove it here, or remove `stdio:`",
+        ),
+        (
+            BOARD
+            + "uart: {driver: cmsdk, base: 0, irq: 3}\nstdio: {to: uart, driver: cmsdk, base: 64, irq: 3}\n",
+            "7:49: error: interrupt 4 is taken by 'uart'. Write the interrupt of this UART",
+        ),
+        (
+            BOARD + "stdio: {to: semihosting, irq: 3}\n",
+            "6:31: error: stdio: semihosting has no `irq`",
         ),
         (
             BOARD + "uart: {driver: application, irq: 3}\n",

@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 from microros_gen.application.model import Application
+from microros_gen.client.plan.console import console_size
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.streams import usual_frame
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.platform.part import Divisor, Fraction
+from microros_gen.platform.part import Divisor, Fraction, Image
 from microros_gen.platform.target import OWN_DRIVER, Target, Uart
 from microros_gen.records import dataclass
 
@@ -34,7 +35,8 @@ class BoardPlan:
 
     `entry` is where the program begins, `first` what lies first in flash, in the section `first_section`. `hooks`
     are functions of the application that the target file names. `serial_driver` is `none` where nothing uses the
-    line, or the board has none.
+    line, or the board has none. `stdio_driver` waits for the line, `console_driver` sends by interrupt from a ring of
+    `console_size` bytes.
     """
 
     stack_size: int = 0
@@ -56,11 +58,23 @@ class BoardPlan:
     stdio: str = "absent"
     stdio_driver: str = "none"
     stdio_divisor: int = 0
+    console_driver: str = "none"
+    console_size: int = 0
 
     @property
     def has_stdio(self) -> bool:
         """Whether the port has what the C library's standard output needs."""
         return self.stdio != "absent"
+
+    @property
+    def sends_console(self) -> bool:
+        """Whether an interrupt or DMA sends the lines of the console from a ring."""
+        return self.console_size != 0
+
+    @property
+    def stdio_sends(self) -> bool:
+        """Whether printed text takes the way of the console."""
+        return self.console_driver != "none"
 
     @property
     def has_serial_driver(self) -> bool:
@@ -87,15 +101,20 @@ def plan_board(
             ring_size=ring_size(runtime),
             output_size=runtime.transport.send_buffer,
             serial_driver=driver,
+            console_size=console_size(application, target),
         )
     uart = target.uart if driver not in ("none", OWN_DRIVER) else None
     image = target.cpu.image
     assert image is not None
-    _check_vectors(target, uart, application, diagnostics)
+    vectors = _vectors(target, uart, image)
+    _check_vectors(target, len(vectors), application, diagnostics)
     stdio = target.stdio
+    sends = stdio is not None and stdio.interrupt is not None
     return BoardPlan(
         stdio=stdio.to if stdio else "absent",
-        stdio_driver=stdio.driver if stdio else "none",
+        stdio_driver=stdio.driver if stdio and not sends else "none",
+        console_driver=stdio.driver if stdio and sends else "none",
+        console_size=console_size(application, target),
         stdio_divisor=_stdio_divisor(target, uart, runtime, application, diagnostics),
         stack_size=_stack_size(application, target, diagnostics),
         ring_size=ring_size(runtime),
@@ -107,7 +126,7 @@ def plan_board(
         tx_pin=uart.tx_pin & 0xFFFFFFFF if uart else 0,
         rx_pin=uart.rx_pin & 0xFFFFFFFF if uart else 0,
         has_fpu=any(flag in target.cpu.fpu_flags for flag in target.c_flags),
-        vectors=_vectors(target, uart, image.uart_handler, image.no_handler),
+        vectors=vectors,
         handlers=tuple(sorted({name for _, name in target.interrupts})),
         entry=image.entry,
         first=image.first,
@@ -142,11 +161,13 @@ def ring_size(runtime: RuntimePlan) -> int:
     return min((needed + 4) & ~3, 1 << 15)
 
 
-def _vectors(target: Target, uart: Uart | None, handler: str, unused: str) -> tuple[str, ...]:
+def _vectors(target: Target, uart: Uart | None, image: Image) -> tuple[str, ...]:
     named = dict(target.interrupts)
     if uart is not None:
-        named |= dict.fromkeys(uart.interrupts, handler)
-    return tuple(named.get(number, unused) for number in range(max(named, default=0) + 1))
+        named |= dict.fromkeys(uart.interrupts, image.uart_handler)
+    if target.stdio is not None and target.stdio.interrupt is not None:
+        named[target.stdio.interrupt] = image.console_handler
+    return tuple(named.get(number, image.no_handler) for number in range(max(named, default=0) + 1))
 
 
 def _check_unique_id(
@@ -176,14 +197,14 @@ def _check_unique_id(
 
 
 def _check_vectors(
-    target: Target, uart: Uart | None, application: Application, diagnostics: Diagnostics
+    target: Target, interrupts: int, application: Application, diagnostics: Diagnostics
 ) -> None:
     """Report a vector table where the processor cannot have one."""
     flash = target.flash
     table = target.cpu.vector_table
     if flash is None or not flash.offset or table is None:
         return
-    words = table.words + len(_vectors(target, uart, "", ""))
+    words = table.words + interrupts
     alignment = max(table.least, 1 << (4 * words - 1).bit_length())
     fixed = next((name for flag, name in table.fixed if flag in target.c_flags), "")
     if fixed:

@@ -6,21 +6,13 @@
 #include "port_bare_serial.c"
 #include "port_bare_sleep.c"
 
-#include <stdio.h>
+#include "unit_expect.h"
+
 #include <string.h>
 
-static int failures;
 static uint32_t waits;
 static uint32_t started;
 static uint32_t asked; /* calls of port_uart_send */
-
-#define EXPECT(condition) \
-  do { \
-    if (!(condition)) { \
-      (void)printf("%d: %s\n", __LINE__, #condition); \
-      ++failures; \
-    } \
-  } while (0)
 
 void port_bare_wait(void)
 {

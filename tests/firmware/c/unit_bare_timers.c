@@ -4,20 +4,11 @@
 
 #include "port_bare_steady.c"
 
-#include <stdio.h>
+#include "unit_expect.h"
 
 enum { STEPS = 12, DAY_MS = 86400000, LONG = 0, SHORT = 1 };
 
-static int failures;
 static uint32_t ticks[2];
-
-#define EXPECT(condition) \
-  do { \
-    if (!(condition)) { \
-      (void)printf("%d: %s\n", __LINE__, #condition); \
-      ++failures; \
-    } \
-  } while (0)
 
 static void on_tick(uint16_t timer)
 {

@@ -10,7 +10,9 @@
 extern "C" {
 #endif
 
-/* Writes one line, all of it or nothing, and keeps no pointer to it. Returns false if it cannot be written now. */
+/* Writes one line, all of it or nothing, and keeps no pointer to it. Returns false if it cannot be written now; the writer
+ * counts and reports it. Does not wait for the line, except on a board whose target file names neither an interrupt for
+ * its UART nor `provides: [console_send]` (a warning of the build names that board). */
 bool port_console_write(const char * line, size_t size);
 
 #ifdef __cplusplus

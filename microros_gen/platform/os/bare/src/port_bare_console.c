@@ -4,7 +4,8 @@
 
 #include "microros/port_stdio.h"
 
-/* Waits as long as the line of a UART takes for `size` bytes; a byte is lost on one that stands still (port_stdio_put). */
+/* Waits as long as the line of a UART takes for `size` bytes, and loses a byte on a line that sends nothing
+ * (port_stdio_put). */
 bool port_console_write(const char * line, size_t size)
 {
   for (size_t i = 0; i < size; ++i) {

@@ -34,6 +34,9 @@ void port_riscv_interrupt_enable(uint32_t number);
 /* The serial line's interrupt. */
 void port_riscv_uart_interrupt(void);
 
+/* The transmit interrupt of the console. */
+void port_riscv_console_interrupt(void);
+
 #ifdef __cplusplus
 }
 #endif
