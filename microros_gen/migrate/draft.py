@@ -62,14 +62,30 @@ class DraftTimer:
 
 
 @dataclass(frozen=True)
+class DraftClient:
+    """Another node whose parameters are used; empty: not known. `settings`: the other keys of `parameter_clients`."""
+
+    node: str
+    settings: Mapping[str, Setting] = field(default_factory=lambda: MappingProxyType({}))
+    span: Span | None = None
+    remarks: tuple[Remark, ...] = ()
+
+
+@dataclass(frozen=True)
 class DraftNode:
-    """A node and what it owns; `name` empty: not known."""
+    """A node and what it owns; `name` empty: not known.
+
+    `at_agent`: its parameters are held there, `may_be_at_agent`: they can be.
+    """
 
     name: str
     namespace: str = ""
     domain_id: int = 0
     endpoints: tuple[DraftEndpoint, ...] = ()
     timers: tuple[DraftTimer, ...] = ()
+    clients: tuple[DraftClient, ...] = ()
+    at_agent: bool = False
+    may_be_at_agent: bool = False
     span: Span | None = None
     remarks: tuple[Remark, ...] = ()
 
@@ -108,6 +124,7 @@ class Draft:
             found += node.remarks
             found += [remark for endpoint in node.endpoints for remark in endpoint.remarks]
             found += [remark for timer in node.timers for remark in timer.remarks]
+            found += [remark for client in node.clients for remark in client.remarks]
         return tuple(found)
 
 

@@ -12,6 +12,7 @@ from microros_gen.application.kinds import KIND, KINDS
 from microros_gen.diagnostics import Span
 from microros_gen.migrate.draft import (
     Draft,
+    DraftClient,
     DraftEndpoint,
     DraftNode,
     DraftTimer,
@@ -145,6 +146,13 @@ def _node(node: DraftNode) -> Iterator[str]:
         yield from _list(key, [(_endpoint(e), bool(e.name and e.type), e.span, e.remarks) for e in endpoints])
     timers = [(_timer(t), t.period_ns is not None, t.span, t.remarks) for t in node.timers]
     yield from _list("timers", timers)
+    clients = [(_client(c), bool(c.node), c.span, c.remarks) for c in node.clients]
+    yield from _list("parameter_clients", clients)
+    if node.at_agent:
+        yield "    parameters: {at: agent}"
+    elif node.may_be_at_agent:
+        yield "    # A parameter server can hold them, also while the board is away (Let the agent hold parameters)."
+        yield "    # parameters: {at: agent}"
 
 
 def _list(key: str, entries: list[tuple[str, bool, Span | None, tuple[Remark, ...]]]) -> Iterator[str]:
@@ -176,6 +184,13 @@ def _endpoint(endpoint: DraftEndpoint) -> str:
 def _timer(timer: DraftTimer) -> str:
     period = "?" if timer.period_ns is None else period_text(timer.period_ns)
     return f"{{name: {_scalar(timer.name)}, period: {period}}}"
+
+
+def _client(client: DraftClient) -> str:
+    if not client.settings:
+        return _scalar(client.node)
+    inside = "".join(f", {key}: {_scalar(value)}" for key, value in client.settings.items())
+    return f"{{node: {_scalar(client.node or '?')}{inside}}}"
 
 
 def period_text(nanoseconds: int) -> str:

@@ -13,6 +13,7 @@ from microros_gen.migrate.c_values import Values, handle_of
 from microros_gen.migrate.capacities import Fact, find_capacities
 from microros_gen.migrate.draft import Draft, DraftNode, DraftValue, Remark, place
 from microros_gen.migrate.missing import find_missing, selected_by
+from microros_gen.migrate.parameter_clients import find_clients, owner, watches
 from microros_gen.migrate.rclc_calls import (
     ENDPOINT_CALLS,
     NODE_CALLS,
@@ -44,6 +45,8 @@ _TASKS = frozenset(
 _THREADS = frozenset(("std", "thread"))
 _AXES = ("transport_", "entities_", "port_", "liveliness_", "clock_ros", "ping", "stream_")
 _GIVEN = (("publish", "pure_sender"), ("subscribe", "pure_reader"))
+_SERVERS = ("rclc_parameter_server_init_default", "rclc_parameter_server_init_with_option")
+_HELD = ("rclc_parameter_check_held", "rclc_parameter_count_overruled")
 _PROFILES = (("pure_sender", "publisher"), ("pure_reader", "subscription"))
 
 
@@ -69,7 +72,7 @@ def rclc_draft(
     _check_one(files, diagnostics)
     values = Values(files)
     calls = [call for file in files for call in file.calls]
-    nodes, remarks = _nodes(calls, values)
+    nodes, remarks = _nodes(files, calls, values)
     endpoints = {endpoint.kind for node in nodes for endpoint in node.endpoints}
     profiles = tuple(profile for profile, kind in _PROFILES if kind in endpoints)
     own = {function.name for file in files for function in file.functions}
@@ -86,7 +89,11 @@ def rclc_draft(
     groups = {**settings, **({"pools": pools} if pools else {})}
     draft = Draft(
         profiles=profiles,
-        components=_components(_wanted(files, called, selected, catalogue), catalogue, profiles),
+        components=_components(
+            _wanted(files, called, selected, catalogue) | ({"subscribe"} if watches(calls) else set()),
+            catalogue,
+            profiles,
+        ),
         interfaces=_types_without_entity(nodes),
         nodes=nodes,
         groups=groups,
@@ -132,7 +139,9 @@ def _check_one(files: Iterable[CFile], diagnostics: Diagnostics) -> None:
             )
 
 
-def _nodes(calls: list[Call], values: Values) -> tuple[tuple[DraftNode, ...], list[Remark]]:
+def _nodes(
+    files: tuple[CFile, ...], calls: list[Call], values: Values
+) -> tuple[tuple[DraftNode, ...], list[Remark]]:
     """Return the nodes with what they own."""
     found = _unique(find_nodes(calls, values))
     endpoints = find_endpoints(calls, values)
@@ -148,11 +157,24 @@ def _nodes(calls: list[Call], values: Values) -> tuple[tuple[DraftNode, ...], li
                 endpoint, draft=replace(endpoint.draft, remarks=(*endpoint.draft.remarks, mark))
             )
         owned[index or 0].append(endpoint)
+    clients = find_clients(files, calls, values)
+    servers = [handle_of(call.arguments[1]) for call in calls if call.name in _SERVERS and call.arguments[1:]]
+    is_held = any(call.name in _HELD for call in calls)
     nodes: list[DraftNode] = []
     for index, node in enumerate(found):
         own = tuple(endpoint.draft for endpoint in _once(owned[index]))
         domain = _domain(calls, values, remarks) if index == 0 else nodes[0].domain_id
-        nodes.append(replace(node.draft, endpoints=own, timers=() if index else timers, domain_id=domain))
+        nodes.append(
+            replace(
+                node.draft,
+                endpoints=own,
+                timers=() if index else timers,
+                clients=tuple(client.draft for client in clients if owner(client, found) == index),
+                at_agent=is_held,
+                may_be_at_agent=node.handle in servers or (len(found) == 1 and bool(servers)),
+                domain_id=domain,
+            )
+        )
     return tuple(nodes), remarks
 
 

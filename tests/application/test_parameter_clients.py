@@ -33,6 +33,17 @@ def test_a_text_is_short_for_the_node() -> None:
     assert (third.string, third.elements) == (0, 7)
 
 
+def test_types_of_values() -> None:
+    clients, errors = parse(
+        "[{node: /a, elements: 3}, {node: /b, types: ['double[]'], elements: 5}, {node: /c, types: []}, /d]"
+    )
+    assert errors == []
+    every = ("string", "byte[]", "bool[]", "integer[]", "double[]", "string[]")
+    assert [client.types for client in clients] == [every, ("double[]",), (), ("string",)]
+    (client,), _ = parse("[{node: /a, operations: [describe, get_types], description: 20}]")
+    assert (client.operations, client.description) == (("describe", "get_types"), 20)
+
+
 ERRORS = {
     "twice": ("[/motor, {node: /motor}]", "duplicate parameter client '/motor'; the first is in line 4"),
     "no node": ("[{operations: [get]}]", "missing key 'node'"),
@@ -49,6 +60,21 @@ ERRORS = {
     ),
     "no parameter": ("[{node: /motor, parameters: 0}]", "parameters"),
     "a string of less than nothing": ("[{node: /motor, string: -1}]", "string"),
+    "arrays without a size": (
+        "[{node: /motor, types: [string, 'bool[]']}]",
+        "the client of '/motor' has values of type bool[], and its arrays have no size. "
+        "Add the most elements that an array has: elements: 8",
+    ),
+    "a size without arrays": (
+        "[{node: /motor, types: [string], elements: 8}]",
+        "the client of '/motor' has 8 elements of an array, and no type in `types` is one",
+    ),
+    "a size without strings": (
+        "[{node: /motor, types: ['double[]'], elements: 8, string: 9}]",
+        "the client of '/motor' has a size of strings, and no type in `types` is one",
+    ),
+    "an unknown type": ("[{node: /motor, types: ['int[]']}]", "types"),
+    "a type twice": ("[{node: /motor, types: [string, string]}]", "types"),
     "an unknown key": ("[{node: /motor, element: 3}]", "Did you mean 'elements'?"),
 }
 

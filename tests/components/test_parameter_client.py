@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+from itertools import product
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -12,8 +14,10 @@ from microros_gen.components.parameter_client.plan import ParameterClientPlan
 from microros_gen.diagnostics import UserError
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.interfaces.types import TypeName
+from microros_gen.ros.codec import ENCAPSULATION_BYTES
 from microros_gen.typesupport.plan.types import TypePlan
 from tests.support.ids import without_id
+from tests.support.runtime.parameter_agent import parameter_codec
 
 HEAD = "version: 1\nprofiles: [pure_sender]\ncomponents: [+parameter_client, +subscribe, +parameters]\n"
 NODES = """\
@@ -60,6 +64,53 @@ def test_limits_are_the_larger_of_client_and_server(tmp_path: Path) -> None:
     assert part.message_size >= type_of(planned_, "srv", "GetParameters_Response").max_encoded_size
 
 
+SIZED = """\
+version: 1
+profiles: [pure_sender]
+components: [+parameter_client]
+nodes:
+  - name: device
+    publishers: [{topic: count, type: std_msgs/msg/Int32}]
+    parameter_clients: [{node: /motor, operations: [get], parameters: 3, CLIENT}]
+"""
+FULL: dict[str, tuple[int, dict[str, Any]]] = {
+    "string": (4, {"string_value": "x" * 20}),
+    "byte[]": (5, {"byte_array_value": bytes(7)}),
+    "bool[]": (6, {"bool_array_value": [True] * 7}),
+    "integer[]": (7, {"integer_array_value": [1] * 7}),
+    "double[]": (8, {"double_array_value": [0.5] * 7}),
+    "string[]": (9, {"string_array_value": ["x" * 20] * 7}),
+}
+"""By type: a value that is as large as the application allows."""
+
+
+def message_size(folder: Path, client: str) -> int:
+    part = planned(folder, SIZED.replace("CLIENT", client)).project.runtime.features.of("parameter_client")
+    assert isinstance(part, ParameterClientPlan)
+    return part.message_size
+
+
+def response_size(*kinds: str) -> int:
+    """Return the bytes of a response with values of these types, as the codec of the ROS side writes it."""
+    values = [{"type": FULL[kind][0], **FULL[kind][1]} for kind in kinds]
+    body = parameter_codec().encode("rcl_interfaces/srv/GetParameters_Response", {"values": values})
+    return len(body) - ENCAPSULATION_BYTES
+
+
+@pytest.mark.parametrize("kind", [kind for kind in FULL if kind != "string"])
+def test_memory_is_that_of_the_types_that_are_declared(kind: str, tmp_path: Path) -> None:
+    """Of the members of a value one has content: no response with the declared types is larger, one is as large."""
+    types = {"string", kind} if kind == "string[]" else {"string", "byte[]", kind}
+    size = message_size(
+        tmp_path, f"string: 20, types: [{', '.join(repr(t) for t in sorted(types))}], elements: 7"
+    )
+    responses = [response_size(*chosen) for chosen in product(types, repeat=3)]
+    assert max(responses) == size
+    every = message_size(tmp_path, "string: 20, elements: 7")
+    assert (size < every) == (kind != "string[]")
+    assert every == response_size(*["string[]"] * 3)
+
+
 def test_own_limits_win(tmp_path: Path) -> None:
     own = "limits: {rcl_interfaces/srv/GetParameters_Response: {values: 2}}\n"
     larger, smaller = (planned(tmp_path, text + NODES) for text in (HEAD, HEAD + own))
@@ -90,6 +141,27 @@ def test_only_what_is_declared_is_there(tmp_path: Path) -> None:
     plan = planned(tmp_path, f"{text}    parameter_clients: [{{node: /motor, operations: [get]}}]\n")
     files = {Path(name).name for name in compiler.render(plan)}
     assert "rclc_parameter_client_get.c" in files
-    others = ("set", "atomic", "outcome", "list", "watch")
+    others = ("set", "atomic", "outcome", "list", "describe", "get_types", "watch")
     assert not files & {f"rclc_parameter_client_{part}.c" for part in others}
     assert plan.project.runtime.entities.subscriptions.declared == ()
+
+
+def test_descriptors_have_their_own_size(tmp_path: Path) -> None:
+    text = "version: 1\nprofiles: [pure_sender]\ncomponents: [+parameter_client]\nnodes:\n  - name: device\n"
+    text += "    parameter_clients: [{node: /motor, operations: [describe, get_types], description: 30}]\n"
+    plan = planned(tmp_path, f"{text}    publishers: [{{topic: count, type: std_msgs/msg/Int32}}]\n")
+    files = {Path(name).name for name in compiler.render(plan)}
+    parts = ("describe", "get_types", "named")
+    assert files >= {f"rclc_parameter_client_{part}.c" for part in parts}
+    assert "rclc_parameter_client_get.c" not in files
+    full: dict[str, Any] = {"name": "n" * 49, "description": "d" * 30, "additional_constraints": "c" * 30}
+    full |= {
+        f"{kind}_range": [{"from_value": 0, "to_value": 1, "step": 1}]
+        for kind in ("integer", "floating_point")
+    }
+    body = parameter_codec().encode(
+        "rcl_interfaces/srv/DescribeParameters_Response", {"descriptors": [full] * 4}
+    )
+    part = plan.project.runtime.features.of("parameter_client")
+    assert isinstance(part, ParameterClientPlan)
+    assert part.message_size == len(body) - ENCAPSULATION_BYTES

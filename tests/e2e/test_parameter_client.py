@@ -30,7 +30,11 @@ nodes:
     namespace: /arm
     publishers: [{topic: count, type: std_msgs/msg/Int32}]
     parameter_clients:
-      - {node: /motor, operations: [get, set, set_atomically, list, watch], parameters: 16, string: 20, elements: 3}
+      - node: /motor
+        operations: [get, set, set_atomically, list, describe, get_types, watch]
+        parameters: 16
+        string: 20
+        elements: 3
 """
 STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror", f"-I{TESTS / 'runtime' / 'c'}")
 OK, TIMEOUT, REJECTED, MISMATCH, UNKNOWN = 0, 2, 4001, 4002, 4011
@@ -144,6 +148,23 @@ def test_what_the_node_refuses(device: Device, peer: LineProcess) -> None:
     assert (code, len(lines), peer.ask(do="value", name="limited")) == (REJECTED, 1, 5)
     assert device.call("get 2 nothing")[0] == UNKNOWN
     assert device.call("get 3 gain")[0] == MISMATCH
+
+
+def test_what_the_node_says_of_its_parameters(device: Device, peer: LineProcess) -> None:
+    device.until("types gain labels", "type 2", "type 9")
+    device.until("describe gain", "descriptor 'gain' 2 '' '' 0 0")
+    assert device.lines("describe limited fixed label") == [
+        "descriptor 'limited' 2 '' '' 0 0 0..10 by 1",
+        "descriptor 'fixed' 2 '' '' 1 0",
+        "descriptor 'label' 4 '' '' 0 0",
+    ]
+    assert device.lines("get_descriptor share") == [
+        "descriptor 'share' 3 'Share of power' 'a multiple of 0.25' 0 0 0..1 by 0.25"
+    ]
+    for name, shown in SHOWN.items():
+        assert device.lines(f"get_type {name}") == [f"type {shown[0]}"]
+    assert device.call("describe gain nothing")[0] == UNKNOWN
+    assert device.call("types nothing gain")[0] == UNKNOWN
 
 
 def test_changes_and_a_restart_of_the_node(device: Device, peer: LineProcess) -> None:

@@ -16,6 +16,7 @@ from tests.support.paths import ROOT
 pytestmark = pytest.mark.builds
 
 
+@pytest.mark.system
 def test_a_budget_is_checked_when_the_image_is_linked(init: Init, tmp_path: Path) -> None:
     assert init("app", "--profile", "pure_sender")[0] == 0
     config = tmp_path / "app/microros.yaml"

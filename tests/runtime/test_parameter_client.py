@@ -7,6 +7,7 @@ tests/e2e/test_parameter_client.py has rclpy.
 from __future__ import annotations
 
 import random
+import re
 import struct
 from collections.abc import Iterator
 from pathlib import Path
@@ -15,7 +16,7 @@ from typing import Any
 import pytest
 
 from tests.support.runtime.driver import Client, Result
-from tests.support.runtime.harness import Tree, build
+from tests.support.runtime.harness import build
 from tests.support.runtime.parameter_agent import ParameterAgent
 from tests.support.runtime.surface import write_application
 
@@ -28,7 +29,10 @@ nodes:
     namespace: /arm
     publishers: [{topic: count, type: std_msgs/msg/Int32}]
     parameter_clients:
-      - {node: /motor, operations: [get, set, set_atomically, list, watch], string: 12, elements: 3}
+      - node: /motor
+        operations: [get, set, set_atomically, list, describe, get_types, watch]
+        string: 12
+        elements: 3
 """
 OK, ERROR, TIMEOUT, INVALID = 0, 1, 2, 11
 REJECTED, MISMATCH, UNKNOWN, BUSY, IN_CALLBACK, LIMIT = 4001, 4002, 4011, 4012, 4013, 4014
@@ -53,8 +57,7 @@ VALUES: dict[int, tuple[Any, str]] = {
 @pytest.fixture(scope="module")
 def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
     tree = write_application(tmp_path_factory.mktemp("parameter_client") / "tree", APPLICATION)
-    sources = tuple(s for s in tree.sources if not s.parent.name.startswith("port_posix"))
-    return build(Tree(tree.folder, sources), ["port_fake.c", "client_parameter_client.c"], "parameter_client")
+    return build(tree.without_port(), ["port_fake.c", "client_parameter_client.c"], "parameter_client")
 
 
 class Device:
@@ -175,6 +178,54 @@ def test_several_are_set_each_by_itself_or_all_or_none(device: Device) -> None:
     assert device.agent.parameters["a"] == (INT, 1)
     assert device.lines("several atomically a=5 d=6") == ["outcome 0 ''"]
     assert device.agent.parameters["d"] == (INT, 6)
+
+
+def test_parameters_are_described(device: Device) -> None:
+    device.agent.parameters |= {"gain": (INT, 3), "rate": (DOUBLE, 0.5), "label": (STRING, "left")}
+    device.agent.descriptors |= {
+        "gain": {
+            "description": "Gain of the loop",
+            "read_only": True,
+            "integer_range": [{"from_value": -5, "to_value": 2**40, "step": 3}],
+        },
+        "rate": {
+            "additional_constraints": "positive",
+            "dynamic_typing": True,
+            "floating_point_range": [{"from_value": -0.5, "to_value": 1e10, "step": 0.25}],
+        },
+    }
+    gain = f"descriptor 'gain' 2 'Gain of the loop' '' 1 0 -5..{2**40} by 3"
+    rate = "descriptor 'rate' 3 '' 'positive' 0 1 -0.5..1e+10 by 0.25"
+    label = "descriptor 'label' 4 '' '' 0 0"
+    assert device.lines("describe gain rate label") == [gain, rate, label]
+    assert device.agent.seen[-1] == ("DescribeParameters", {"names": ["gain", "rate", "label"]})
+    assert device.lines("get_descriptor rate") == [rate]
+    device.client.ok("async_describe label gain")
+    assert device.result() == ["done 0 ''", label, gain]
+    assert "unknown name" in device.fails("get_descriptor nothing", UNKNOWN)
+    assert "unknown name" in device.fails("describe gain nothing", UNKNOWN)
+    device.agent.damage = lambda body: body[:-3]
+    device.fails("describe gain", ERROR)
+    device.agent.damage = lambda body: body
+    device.agent.running = False
+    assert "no response" in device.fails("describe gain", TIMEOUT)
+
+
+def test_types_are_got(device: Device) -> None:
+    device.agent.parameters |= {f"p{kind}": (kind, content) for kind, (content, _) in VALUES.items()}
+    for kind in VALUES:
+        assert device.lines(f"get_type p{kind}") == [f"type {kind}"]
+    assert device.lines("types p9 p1 p4") == ["type 9", "type 1", "type 4"]
+    device.client.ok("async_types p2 p8")
+    assert device.result() == ["done 0 ''", "type 2", "type 8"]
+    assert "unknown name" in device.fails("types p1 nothing", UNKNOWN)
+    device.agent.known_alone = False
+    assert device.lines("types p1 nothing") == ["type 1", "no type 4011"]
+    assert "unknown name" in device.fails("get_type nothing", UNKNOWN)
+    device.agent.change = lambda response: {"types": bytes([10])}
+    device.fails("types p1", ERROR)
+    device.agent.running = False
+    assert "no response" in device.fails("get_type p1", TIMEOUT)
 
 
 def test_names_are_listed(device: Device) -> None:
@@ -320,15 +371,21 @@ def test_time_outs_that_are_none(device: Device) -> None:
 
 def test_responses_above_the_limits(device: Device) -> None:
     """What has no room ends the call with its size; what has is given, whatever its limit."""
+    large = re.compile(r"parameters of /motor: a response has \d+, \d+ fit: raise the limits")
     device.agent.parameters["label"] = (STRING, "x" * 4000)
-    assert "/motor/get_parameters: received 4" in device.fails("get 4 label", ERROR)
+    assert large.match(device.fails("get 4 label", LIMIT))
     device.agent.parameters["label"] = (STRINGS, ["", "", "", ""])
-    assert "string_array_value" in device.fails("get 9 label", ERROR)
+    assert "string_array_value" in device.fails("get 9 label", LIMIT)
     device.agent.rejects["label"] = "y" * 4000
-    assert "/motor/set_parameters: received 4" in device.fails("set 2 label 1", ERROR)
+    assert large.match(device.fails("set 2 label 1", LIMIT))
     device.agent.rejects.clear()
     device.agent.parameters = {f"{'n' * 300}{n}": (INT, n) for n in range(20)}
-    assert "/motor/list_parameters: received" in device.fails("list", ERROR)
+    assert large.match(device.fails("list", LIMIT))
+    device.agent.parameters = {"gain": (INT, 1)}
+    device.agent.descriptors["gain"] = {"description": "d" * 4000}
+    assert large.match(device.fails("describe gain", LIMIT))
+    device.client.ok("async_describe gain")
+    assert device.result()[0].startswith(f"done {LIMIT} 'parameters of /motor: a response has ")
     device.agent.parameters = {"gain": (INT, 1)}
     assert device.lines("get 2 gain") == ["value 2 1"]
 
@@ -351,10 +408,16 @@ def test_damaged_responses(device: Device) -> None:
             changed[dice.randrange(len(changed))] = dice.choice((0, 1, 4, 127, 128, 255))
         return bytes(changed[: dice.randrange(len(changed)) if dice.random() < 0.3 else None])
 
+    for kind in (INT, DOUBLE):
+        name = f"{'integer' if kind == INT else 'floating_point'}_range"
+        device.agent.descriptors[str(kind)] = {name: [{"from_value": 0, "to_value": 1, "step": 1}]}
     device.agent.damage = damage
     codes = set()
     for _ in range(60):
-        for command in ("names 4 7 9 5", "several each a=1 b=2", "list", "names 6 8 1 3"):
+        for command in (
+            *("names 4 7 9 5", "several each a=1 b=2", "list", "names 6 8 1 3"),
+            *("describe 2 3 4", "types 1 2 3 4"),
+        ):
             codes.add(device.client.call(command).code)
     assert OK in codes
     assert ERROR in codes

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from microros_gen.application.model import Application, EndpointDecl, LimitRule, NodeDecl, Qos
 from microros_gen.client.plan.features import PlanContext, refuse_own_limits
+from microros_gen.components.parameter_client.sizes import VALUE_TYPES, largest
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
@@ -34,7 +35,8 @@ class Service:
     @property
     def name(self) -> str:
         """The service below the name of the other node."""
-        return f"{self.call}_parameters" if self.call != "set_atomically" else "set_parameters_atomically"
+        others = {"set_atomically": "set_parameters_atomically", "get_types": "get_parameter_types"}
+        return others.get(self.call, f"{self.call}_parameters")
 
     @property
     def header(self) -> str:
@@ -47,6 +49,8 @@ SERVICES = (
     Service("set", "SetParameters", "parameters", "results"),
     Service("set_atomically", "SetParametersAtomically", "parameters", "result"),
     Service("list", "ListParameters", "prefixes", "names"),
+    Service("describe", "DescribeParameters", "names", "descriptors"),
+    Service("get_types", "GetParameterTypes", "names", "types"),
 )
 
 
@@ -59,18 +63,19 @@ class Remote:
     operations: tuple[str, ...]
 
     @property
-    def calls(self) -> int:
-        """Return the bits of the calls."""
-        return sum(1 << place for place, service in enumerate(SERVICES) if service.call in self.operations)
+    def calls(self) -> tuple[str, ...]:
+        """Return the names of the calls in C, in the order of SERVICES."""
+        return tuple(service.call.upper() for service in SERVICES if service.call in self.operations)
 
 
 @dataclass(frozen=True, kw_only=True)
 class ParameterClientPlan:
-    """Sizes are bytes, with the NUL of a text. `parameters` of a call; `elements` of an array."""
+    """Sizes are bytes, with the NUL of a text. `parameters` of a call; `types` of values; `elements` of an array."""
 
     remotes: tuple[Remote, ...]
     services: tuple[Service, ...]
     parameters: int
+    types: tuple[str, ...]
     elements: int
     name_size: int
     string_size: int
@@ -86,6 +91,16 @@ class ParameterClientPlan:
     def node_size(self) -> int:
         """Return the bytes of the longest name of another node."""
         return max((len(remote.name) for remote in self.remotes), default=0) + 1
+
+    @property
+    def type_bits(self) -> int:
+        """Return a bit of rcl_interfaces/msg/ParameterType for each type."""
+        return sum(1 << VALUE_TYPES[kind] for kind in self.types)
+
+    @property
+    def strings(self) -> int:
+        """Return the strings of an array."""
+        return self.elements if "string[]" in self.types else 0
 
     @property
     def gets(self) -> bool:
@@ -111,6 +126,21 @@ class ParameterClientPlan:
     def lists(self) -> bool:
         """Return whether a client lists."""
         return self._has("list")
+
+    @property
+    def describes(self) -> bool:
+        """Return whether a client gets descriptors."""
+        return self._has("describe")
+
+    @property
+    def gets_types(self) -> bool:
+        """Return whether a client gets types."""
+        return self._has("get_types")
+
+    @property
+    def any_names(self) -> bool:
+        """Return whether a client asks for something of names that a node may not know."""
+        return self.gets or self.describes or self.gets_types
 
     def _has(self, call: str) -> bool:
         return any(service.call == call for service in self.services)
@@ -163,10 +193,11 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> ParameterClientPlan:
         remotes=remotes,
         services=services,
         parameters=_most(application, "parameters"),
+        types=_types(application),
         elements=_most(application, "elements"),
         name_size=LONGEST_NAME + 1,
-        string_size=_most(application, "string") + 1,
-        message_size=max((context.types[name].max_encoded_size for name in received), default=0),
+        string_size=_string(application) + 1,
+        message_size=max((largest(context.types, name) for name in received), default=0),
         watches="watch" in used,
     )
 
@@ -175,9 +206,11 @@ def record(part: ParameterClientPlan) -> object:
     """Return what the plan id is made of."""
     return {
         "remotes": [
-            [remote.name, remote.node, remote.calls, "watch" in remote.operations] for remote in part.remotes
+            [remote.name, remote.node, list(remote.calls), "watch" in remote.operations]
+            for remote in part.remotes
         ],
         "sizes": [part.parameters, part.elements, part.name_size, part.string_size, part.message_size],
+        "types": part.type_bits,
     }
 
 
@@ -185,8 +218,8 @@ def limits(application: Application) -> tuple[LimitRule, ...]:
     """Return the limits of what is exchanged, which the declarations of the clients have."""
     clients = [client for node in application.nodes for client in node.parameter_clients]
     used = {operation for client in clients for operation in client.operations}
-    count, string = _most(application, "parameters"), _most(application, "string")
-    rules = [*_values(string, _most(application, "elements"))] if used - {"list"} else []
+    count = _most(application, "parameters")
+    rules = [*_values(application)] if used & {"get", "set", "set_atomically", "watch"} else []
     if "get" in used:
         rules.append(_rule("srv/GetParameters_Request", "names", LONGEST_NAME, count))
         rules.append(_rule("srv/GetParameters_Response", "values", None, count))
@@ -202,18 +235,35 @@ def limits(application: Application) -> tuple[LimitRule, ...]:
         rules += [
             _rule("msg/ListParametersResult", part, LONGEST_NAME, count) for part in ("names", "prefixes")
         ]
+    if "describe" in used:
+        rules += _descriptors(count, _most(application, "description"))
+    if "get_types" in used:
+        rules.append(_rule("srv/GetParameterTypes_Request", "names", LONGEST_NAME, count))
+        rules.append(_rule("srv/GetParameterTypes_Response", "types", None, count))
     if "watch" in used:
         rules += _event(max(len(client.node) for client in clients), count)
     configured = {rule.path for rule in application.limits}
     return tuple(rule for rule in rules if rule.path not in configured)
 
 
-def _values(string: int, elements: int) -> Iterator[LimitRule]:
+def _values(application: Application) -> Iterator[LimitRule]:
+    """Yield the limits of a value: 0 for the types that no client has."""
+    types, string, elements = _types(application), _string(application), _most(application, "elements")
     yield _rule("msg/Parameter", "name", LONGEST_NAME)
-    yield _rule("msg/ParameterValue", "string_value", string)
+    yield _rule("msg/ParameterValue", "string_value", string if "string" in types else 0)
     for kind in ("byte", "bool", "integer", "double"):
-        yield _rule("msg/ParameterValue", f"{kind}_array_value", None, elements)
-    yield _rule("msg/ParameterValue", "string_array_value", string if elements else 0, elements)
+        size = elements if f"{kind}[]" in types else 0
+        yield _rule("msg/ParameterValue", f"{kind}_array_value", None, size)
+    size = elements if "string[]" in types else 0
+    yield _rule("msg/ParameterValue", "string_array_value", string if size else 0, size)
+
+
+def _descriptors(count: int, text: int) -> Iterator[LimitRule]:
+    yield _rule("srv/DescribeParameters_Request", "names", LONGEST_NAME, count)
+    yield _rule("srv/DescribeParameters_Response", "descriptors", None, count)
+    yield _rule("msg/ParameterDescriptor", "name", LONGEST_NAME)
+    for member in ("description", "additional_constraints"):
+        yield _rule("msg/ParameterDescriptor", member, text)
 
 
 def _event(node: int, count: int) -> Iterator[LimitRule]:
@@ -221,6 +271,19 @@ def _event(node: int, count: int) -> Iterator[LimitRule]:
     yield _rule("msg/ParameterEvent", "new_parameters", None, 1)
     yield _rule("msg/ParameterEvent", "changed_parameters", None, count)
     yield _rule("msg/ParameterEvent", "deleted_parameters", None, 1)
+
+
+def _types(application: Application) -> tuple[str, ...]:
+    """Return the types of values that some client has, in the order of VALUE_TYPES."""
+    declared = {
+        kind for node in application.nodes for client in node.parameter_clients for kind in client.types
+    }
+    return tuple(kind for kind in VALUE_TYPES if kind in declared)
+
+
+def _string(application: Application) -> int:
+    """Return the bytes of the longest string; 0 where no client has strings."""
+    return _most(application, "string") if {"string", "string[]"} & {*_types(application)} else 0
 
 
 def _most(application: Application, key: str) -> int:

@@ -85,6 +85,47 @@ static void print_value(const rclc_parameter_client_value_t * value)
   printf("\n");
 }
 
+static void print_descriptor(const rclc_parameter_client_descriptor_t * descriptor)
+{
+  printf("descriptor");
+  print_text(descriptor->name);
+  printf(" %d", (int)descriptor->type);
+  print_text(descriptor->description);
+  print_text(descriptor->additional_constraints);
+  printf(" %d %d", descriptor->read_only ? 1 : 0, descriptor->dynamic_typing ? 1 : 0);
+  if (descriptor->has_integer_range) {
+    printf(
+      " %" PRId64 "..%" PRId64 " by %" PRIu64, descriptor->integer_range.from_value,
+      descriptor->integer_range.to_value, descriptor->integer_range.step);
+  }
+  if (descriptor->has_floating_point_range) {
+    printf(
+      " %g..%g by %g", descriptor->floating_point_range.from_value, descriptor->floating_point_range.to_value,
+      descriptor->floating_point_range.step);
+  }
+  printf("\n");
+}
+
+/* Prints item `index` of descriptors or types; false: the call was another one. */
+static bool print_described(size_t index)
+{
+  rclc_parameter_client_descriptor_t descriptor;
+  rclc_parameter_type_t type;
+  rcl_ret_t result = rclc_parameter_client_descriptor(&client, index, &descriptor);
+
+  if (result == RCL_RET_OK) {
+    print_descriptor(&descriptor);
+    return true;
+  }
+  result = rclc_parameter_client_type(&client, index, &type);
+  if (result == RCL_RET_OK) {
+    printf("type %d\n", (int)type);
+  } else if (result != RCL_RET_INVALID_ARGUMENT) {
+    printf("no type %d\n", (int)result);
+  }
+  return result != RCL_RET_INVALID_ARGUMENT;
+}
+
 /* Prints what the last call got. */
 static void print_response(void)
 {
@@ -107,7 +148,7 @@ static void print_response(void)
       if (result == RCL_RET_OK) {
         printf("value");
         print_value(&value);
-      } else {
+      } else if (result != RCL_RET_INVALID_ARGUMENT || !print_described(i)) {
         printf("no value %d\n", (int)result);
       }
     }
@@ -330,6 +371,49 @@ static rcl_ret_t names(const words_t * words)
   return result;
 }
 
+/* What a node says of names: describe, types, and the same with async_ */
+static rcl_ret_t describe_names(const words_t * words)
+{
+  const char * const * first = &words->word[1];
+  const size_t count = words->count - 1u;
+  rcl_ret_t result;
+
+  if (strcmp(words->word[0], "async_describe") == 0) {
+    return rclc_parameter_client_describe_async(&client, first, count, timeout_ms, on_result, &timeout_ms);
+  }
+  if (strcmp(words->word[0], "async_types") == 0) {
+    return rclc_parameter_client_get_types_async(&client, first, count, timeout_ms, on_result, &timeout_ms);
+  }
+  result = strcmp(words->word[0], "describe") == 0
+             ? rclc_parameter_client_describe(&client, first, count, timeout_ms)
+             : rclc_parameter_client_get_types(&client, first, count, timeout_ms);
+  if (result == RCL_RET_OK) {
+    print_response();
+  }
+  return result;
+}
+
+/* get_type NAME, get_descriptor NAME */
+static rcl_ret_t describe_one(const words_t * words)
+{
+  rclc_parameter_client_descriptor_t descriptor;
+  rclc_parameter_type_t type;
+  rcl_ret_t result;
+
+  if (strcmp(words->word[0], "get_type") == 0) {
+    result = rclc_parameter_client_get_type(&client, words->word[1], &type, timeout_ms);
+    if (result == RCL_RET_OK) {
+      printf("type %d\n", (int)type);
+    }
+    return result;
+  }
+  result = rclc_parameter_client_get_descriptor(&client, words->word[1], &descriptor, timeout_ms);
+  if (result == RCL_RET_OK) {
+    print_descriptor(&descriptor);
+  }
+  return result;
+}
+
 static rcl_ret_t call_words(words_t * words)
 {
   const char * word = words->word[0];
@@ -376,6 +460,12 @@ static rcl_ret_t call_words(words_t * words)
   }
   if (strcmp(word, "set") == 0) {
     return set_one(words);
+  }
+  if (strcmp(word, "get_type") == 0 || strcmp(word, "get_descriptor") == 0) {
+    return describe_one(words);
+  }
+  if (strstr(word, "describe") != NULL || strstr(word, "types") != NULL) {
+    return describe_names(words);
   }
   if (strcmp(word, "several") == 0) {
     result = set_several(words, false);

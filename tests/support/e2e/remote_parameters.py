@@ -27,7 +27,7 @@ VALUES: dict[str, Any] = {
     "rates": [0.5, -2.0],
     "labels": ["a", "left"],
 }
-"""What the node declares, besides `limited`: an integer from 0 to 10, and `fixed`: read only."""
+"""What the node declares, besides `limited`: an integer from 0 to 10, `share`: a double, and `fixed`: read only."""
 
 
 @contextmanager
@@ -44,13 +44,20 @@ class _Peer:
 
     def start(self) -> bool:
         import rclpy
-        from rcl_interfaces.msg import IntegerRange, ParameterDescriptor
+        from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 
         self._node = rclpy.create_node("motor")
         for name, content in VALUES.items():
             self._node.declare_parameter(name, content)
         limits = ParameterDescriptor(integer_range=[IntegerRange(from_value=0, to_value=10, step=1)])
         self._node.declare_parameter("limited", 1, limits)
+        part = FloatingPointRange(from_value=0.0, to_value=1.0, step=0.25)
+        share = ParameterDescriptor(
+            description="Share of power",
+            additional_constraints="a multiple of 0.25",
+            floating_point_range=[part],
+        )
+        self._node.declare_parameter("share", 0.5, share)
         self._node.declare_parameter("fixed", 1, ParameterDescriptor(read_only=True))
         self._executor.add_node(self._node)
         return True

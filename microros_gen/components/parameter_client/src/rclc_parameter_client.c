@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-enum { LONGEST_SERVICE = 28 }; /* bytes of the longest of client_services, with its NUL */
+enum { LONGEST_SERVICE = 28 }; /* bytes of the longest of rclc_parameter_client_services, with its NUL */
 
 static rclc_parameter_client_t * parameter_client_first; /* of those that are open */
 
@@ -42,7 +42,7 @@ static void parameter_client_link(rclc_parameter_client_t * client)
   microros_unlock();
 }
 
-/* Returns whether the client was open; it is not any longer. */
+/* Closes the client; returns whether it was open. */
 static bool parameter_client_unlink(const rclc_parameter_client_t * client)
 {
   rclc_parameter_client_t ** link = &parameter_client_first;
@@ -77,17 +77,16 @@ static const rclc_parameter_client_remote_t * parameter_client_remote(
 
 static rcl_ret_t parameter_client_open(rclc_parameter_client_t * client)
 {
-  static const char * const services[RCLC_PARAMETER_CLIENT_CALLS] = {
-    "/get_parameters", "/set_parameters", "/set_parameters_atomically", "/list_parameters"};
   const size_t size = microros_text_size(client->remote->name);
   rcl_ret_t result = RCL_RET_OK;
 
   for (uint32_t i = 0; i < (uint32_t)RCLC_PARAMETER_CLIENT_CALLS && result == RCL_RET_OK; ++i) {
+    const char * service = rclc_parameter_client_services[i];
     char name[MICROROS_PARAMETER_CLIENT_NODE_SIZE + LONGEST_SERVICE];
 
-    if ((client->remote->calls >> i & 1u) != 0u) {
+    if (service != NULL && (client->remote->calls >> i & 1u) != 0u) {
       (void)memcpy(name, client->remote->name, size);
-      (void)memcpy(&name[size], services[i], microros_text_size(services[i]) + 1u);
+      (void)memcpy(&name[size], service, microros_text_size(service) + 1u);
       result = rclc_client_init(
         &client->services[i], client->node, rclc_parameter_client_types[i], name,
         &rmw_qos_profile_parameters);

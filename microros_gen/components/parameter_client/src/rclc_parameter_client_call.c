@@ -12,7 +12,7 @@ static rmw_client_t * parameter_call_handle(const rclc_parameter_client_t * clie
   return client->services[client->call].impl;
 }
 
-/* Takes the rest of former calls: late responses, and reports of losses. */
+/* Discards late responses and loss reports of earlier calls. */
 static void parameter_call_drain(rclc_parameter_client_t * client)
 {
   const uint32_t most = (uint32_t)MICROROS_REQUESTS_MAX + (uint32_t)CLIENT_REPORTS;
@@ -131,20 +131,39 @@ bool rclc_parameter_client_is_due(const rclc_parameter_client_t * client)
                              rclc_parameter_client_left_ms(client) == 0u);
 }
 
-/* Returns the result of the response that is kept. */
+/* Returns the result of the kept response. */
 static rcl_ret_t parameter_call_judge(rclc_parameter_client_t * client)
 {
-#if MICROROS_PARAMETER_CLIENT_GETS
-  if (client->call == (uint8_t)RCLC_PARAMETER_CLIENT_GET) {
-    return rclc_parameter_client_judge_values(client);
-  }
-#endif
 #if MICROROS_PARAMETER_CLIENT_SETS || MICROROS_PARAMETER_CLIENT_SETS_ATOMICALLY
-  if (client->call <= (uint8_t)RCLC_PARAMETER_CLIENT_SET_ATOMICALLY) {
+  if (
+    client->call == (uint8_t)RCLC_PARAMETER_CLIENT_SET ||
+    client->call == (uint8_t)RCLC_PARAMETER_CLIENT_SET_ATOMICALLY) {
     return rclc_parameter_client_judge_results(client);
   }
 #endif
+#if MICROROS_PARAMETER_CLIENT_GETS || MICROROS_PARAMETER_CLIENT_DESCRIBES || \
+  MICROROS_PARAMETER_CLIENT_GETS_TYPES
+  if (client->call != (uint8_t)RCLC_PARAMETER_CLIENT_LIST) {
+    return rclc_parameter_client_judge_names(client);
+  }
+#endif
   return RCL_RET_OK;
+}
+
+/* Takes the response, if it has arrived. A response that does not fit ends the call. */
+static rcl_ret_t parameter_call_take(
+  rclc_parameter_client_t * client, rmw_service_info_t * info, bool * taken)
+{
+  uint16_t fits = 0;
+  const uint16_t large = rclc_parameter_client_take_large(client, &fits);
+  rcl_ret_t result;
+
+  if (large != 0u) {
+    return rclc_parameter_client_refuse_limit(client, MICROROS_ERROR_WORDS("a response"), large, fits);
+  }
+  client->exceeds = false;
+  result = rmw_requester_take(parameter_call_handle(client), info, client, taken);
+  return result != RCL_RET_OK && client->exceeds ? RCLC_PARAMETER_CLIENT_LIMIT : result;
 }
 
 /* Ends the call. */
@@ -167,7 +186,7 @@ bool rclc_parameter_client_is_done(rclc_parameter_client_t * client, rcl_ret_t *
     return parameter_call_end(client);
   }
   client->size = 0;
-  *result = rmw_requester_take(parameter_call_handle(client), &info, client, &taken);
+  *result = parameter_call_take(client, &info, &taken);
   if (taken && info.request_id.sequence_number == client->sequence) {
     *result = parameter_call_judge(client);
     return parameter_call_end(client);
@@ -176,7 +195,7 @@ bool rclc_parameter_client_is_done(rclc_parameter_client_t * client, rcl_ret_t *
   if (
     *result != RCL_RET_OK &&
     (info.request_id.sequence_number == 0 || info.request_id.sequence_number == client->sequence)) {
-    return parameter_call_end(client); /* else it is the late response of a former call */
+    return parameter_call_end(client); /* otherwise it is the late response of an earlier call */
   }
   if (rclc_parameter_client_left_ms(client) == 0u) {
     microros_error_set(

@@ -22,7 +22,7 @@ static rcl_ret_t parameter_client_look(
   return RCL_RET_OK;
 }
 
-/* One thing in a round: its callback may end the client. */
+/* One event per round: its callback may finalize the client. */
 static rcl_ret_t parameter_client_call(rclc_executor_handle_t * handle)
 {
   rclc_parameter_client_t * client = handle->callback_context;
@@ -38,7 +38,7 @@ static rcl_ret_t parameter_client_call(rclc_executor_handle_t * handle)
   return RCL_RET_OK;
 }
 
-/* A call of a client that no executor runs would never end: only what waits can be called. */
+/* Without an executor an asynchronous call would never end: only the waiting forms are possible. */
 static rcl_client_t * parameter_client_service(rclc_parameter_client_t * client)
 {
   for (uint32_t i = 0; i < (uint32_t)RCLC_PARAMETER_CLIENT_CALLS; ++i) {

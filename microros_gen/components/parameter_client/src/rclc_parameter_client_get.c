@@ -5,18 +5,6 @@
 
 #include <stddef.h>
 
-/* Why a name has no value. */
-static rcl_ret_t get_parameter_refuse(const rclc_parameter_client_t * client)
-{
-  return rclc_parameter_client_refuse(
-    client, RCLC_PARAMETER_CLIENT_UNKNOWN, MICROROS_ERROR_WORDS("unknown name"));
-}
-
-rcl_ret_t rclc_parameter_client_judge_values(rclc_parameter_client_t * client)
-{
-  return client->count == client->requested ? RCL_RET_OK : get_parameter_refuse(client);
-}
-
 rcl_ret_t rclc_parameter_client_get_async(
   rclc_parameter_client_t * client, const char * const * names, size_t count, uint32_t timeout_ms,
   rclc_parameter_client_callback_t callback, void * context)
@@ -55,7 +43,7 @@ rcl_ret_t rclc_parameter_client_value(
   for (size_t i = 0; i <= index; ++i) {
     rclc_parameter_client_read_value(client, &in, value);
   }
-  return value->type != RCLC_PARAMETER_NOT_SET ? RCL_RET_OK : get_parameter_refuse(client);
+  return value->type != RCLC_PARAMETER_NOT_SET ? RCL_RET_OK : rclc_parameter_client_refuse_name(client);
 }
 
 /* Gets one value of a type and waits for it. */
@@ -66,7 +54,7 @@ static rcl_ret_t get_parameter(
   static const rclc_parameter_client_value_t nothing = {.type = RCLC_PARAMETER_NOT_SET};
   rcl_ret_t result = rclc_parameter_client_get(client, &name, 1u, timeout_ms);
 
-  *value = nothing; /* what is refused leaves it so */
+  *value = nothing; /* unchanged if the value is refused */
   if (result == RCL_RET_OK) {
     result = rclc_parameter_client_value(client, 0u, value);
   }

@@ -20,9 +20,15 @@ static rcl_ret_t check_parameter_count(
                MICROROS_PARAMETER_CLIENT_PARAMETERS);
 }
 
-/* `room` is bytes with the NUL. */
+/* Returns the size limit of values of a type; 0 if no client has this type. */
+static size_t check_parameter_most(rclc_parameter_type_t type, size_t most)
+{
+  return ((uint32_t)MICROROS_PARAMETER_CLIENT_TYPES >> (uint32_t)type & 1u) != 0u ? most : 0u;
+}
+
+/* `most` is bytes without the NUL. */
 static rcl_ret_t check_parameter_text(
-  const rclc_parameter_client_t * client, const char * text, size_t room, const char * what)
+  const rclc_parameter_client_t * client, const char * text, size_t most, const char * what)
 {
   size_t size;
 
@@ -30,19 +36,21 @@ static rcl_ret_t check_parameter_text(
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "a name or string");
   }
   size = microros_text_size(text);
-  return size < room ? RCL_RET_OK : rclc_parameter_client_refuse_limit(client, what, size, room - 1u);
+  return size <= most ? RCL_RET_OK : rclc_parameter_client_refuse_limit(client, what, size, most);
 }
 
 static rcl_ret_t check_parameter_name(const rclc_parameter_client_t * client, const char * name)
 {
   return check_parameter_text(
-    client, name, MICROROS_PARAMETER_CLIENT_NAME_SIZE, MICROROS_ERROR_WORDS("a name"));
+    client, name, (size_t)MICROROS_PARAMETER_CLIENT_NAME_SIZE - 1u, MICROROS_ERROR_WORDS("a name"));
 }
 
-static rcl_ret_t check_parameter_string(const rclc_parameter_client_t * client, const char * text)
+static rcl_ret_t check_parameter_string(
+  const rclc_parameter_client_t * client, const char * text, rclc_parameter_type_t type)
 {
   return check_parameter_text(
-    client, text, MICROROS_PARAMETER_CLIENT_STRING_SIZE, MICROROS_ERROR_WORDS("a string"));
+    client, text, check_parameter_most(type, (size_t)MICROROS_PARAMETER_CLIENT_STRING_SIZE - 1u),
+    MICROROS_ERROR_WORDS("a string"));
 }
 
 rcl_ret_t rclc_parameter_client_check_names(
@@ -59,18 +67,18 @@ rcl_ret_t rclc_parameter_client_check_names(
 static rcl_ret_t check_parameter_array(
   const rclc_parameter_client_t * client, const rclc_parameter_client_value_t * value)
 {
+  const size_t most = check_parameter_most(value->type, MICROROS_PARAMETER_CLIENT_ELEMENTS);
   rcl_ret_t result = RCL_RET_OK;
 
-  if (value->count > MICROROS_PARAMETER_CLIENT_ELEMENTS) {
-    return rclc_parameter_client_refuse_limit(
-      client, MICROROS_ERROR_WORDS("an array"), value->count, MICROROS_PARAMETER_CLIENT_ELEMENTS);
+  if (value->count > most) {
+    return rclc_parameter_client_refuse_limit(client, MICROROS_ERROR_WORDS("an array"), value->count, most);
   }
   if (value->count != 0u && value->as.byte_array_value == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "an array");
   }
   if (value->type == RCLC_PARAMETER_STRING_ARRAY) {
     for (size_t i = 0; i < value->count && result == RCL_RET_OK; ++i) {
-      result = check_parameter_string(client, value->as.string_array_value[i]);
+      result = check_parameter_string(client, value->as.string_array_value[i], value->type);
     }
   }
   return result;
@@ -86,7 +94,7 @@ static rcl_ret_t check_parameter_value(
     case RCLC_PARAMETER_DOUBLE:
       return RCL_RET_OK;
     case RCLC_PARAMETER_STRING:
-      return check_parameter_string(client, value->as.string_value);
+      return check_parameter_string(client, value->as.string_value, value->type);
     case RCLC_PARAMETER_BYTE_ARRAY:
     case RCLC_PARAMETER_BOOL_ARRAY:
     case RCLC_PARAMETER_INT_ARRAY:
@@ -150,7 +158,7 @@ uint32_t rclc_parameter_client_write_prefixes(
   return write_parameters_end(&out, fault);
 }
 
-/* Writes the array of a type; an empty one where the value has another type. */
+/* Writes the array of a type; an empty one if the value has another type. */
 static void write_parameter_array(
   parameter_out_t * out, const rclc_parameter_client_value_t * value, rclc_parameter_type_t type,
   uint32_t width)

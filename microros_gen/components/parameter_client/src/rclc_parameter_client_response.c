@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Responses and events stay as they are on the wire: they are checked when they arrive, copied once, and read again where
- * the application asks for a value. So no message of their types takes memory, and strings and arrays are read in place.
+ * Responses and events are kept in their encoded form: checked when they arrive, copied once, and read again when the
+ * application reads a value. So no decoded message takes memory, and strings and arrays are read in place.
  */
 #include "microros/rclc_parameter_client.h"
 #include "microros/rclc_parameter_in.h"
@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* The arrays of a value in their order, without that of strings. */
+/* The arrays of a value in order, except the array of strings. */
 enum { CLIENT_ARRAYS = 4, CLIENT_WIDEST = 8 };
 
 cdr_in_t rclc_parameter_client_keep(rclc_parameter_client_t * client, cdr_in_t * in)
@@ -67,9 +67,9 @@ static uint32_t read_parameter_strings(rclc_parameter_client_t * client, cdr_in_
 {
   const uint32_t count = rclc_parameter_in_length(in);
 
-#if MICROROS_PARAMETER_CLIENT_ELEMENTS > 0u
-  if (count > MICROROS_PARAMETER_CLIENT_ELEMENTS) {
-    cdr_in_refuse(in, CDR_FAULT_CAPACITY, "string_array_value", count, MICROROS_PARAMETER_CLIENT_ELEMENTS);
+#if MICROROS_PARAMETER_CLIENT_STRINGS > 0u
+  if (count > MICROROS_PARAMETER_CLIENT_STRINGS) {
+    cdr_in_refuse(in, CDR_FAULT_CAPACITY, "string_array_value", count, MICROROS_PARAMETER_CLIENT_STRINGS);
   }
   for (uint32_t i = 0; i < count && !in->failed; ++i) {
     client->strings[i] = rclc_parameter_client_read_text(in);
@@ -104,7 +104,7 @@ static void parameter_value_take_array(
     case RCLC_PARAMETER_DOUBLE:
     case RCLC_PARAMETER_STRING:
     case RCLC_PARAMETER_STRING_ARRAY:
-    default: /* of arrays, no other one comes here */
+    default: /* only types of arrays are passed to this function */
       value->as.double_array_value = elements;
       break;
   }
@@ -130,7 +130,7 @@ static void parameter_value_take_scalar(
     case RCLC_PARAMETER_INT_ARRAY:
     case RCLC_PARAMETER_DOUBLE_ARRAY:
     case RCLC_PARAMETER_STRING_ARRAY:
-    default: /* no array comes here */
+    default: /* arrays are not passed to this function */
       value->as.string_value = text;
       break;
   }
@@ -164,7 +164,7 @@ void rclc_parameter_client_read_value(
     }
   }
   strings = read_parameter_strings(client, in);
-#if MICROROS_PARAMETER_CLIENT_ELEMENTS > 0u
+#if MICROROS_PARAMETER_CLIENT_STRINGS > 0u
   if (type == (uint8_t)RCLC_PARAMETER_STRING_ARRAY) {
     value->count = strings;
     value->as.string_array_value = client->strings;
@@ -174,7 +174,7 @@ void rclc_parameter_client_read_value(
 #endif
 }
 
-/* Returns an element of the message that can be changed. */
+/* Returns an element of the message for changes. */
 static uint8_t * parameter_value_at(rclc_parameter_client_t * client, const void * element)
 {
   return &client->message.bytes[(const uint8_t *)element - client->message.bytes];
@@ -217,11 +217,11 @@ void rclc_parameter_client_settle_value(rclc_parameter_client_t * client, cdr_in
   }
 }
 
-/* Notes the count of a response, or that it was refused. */
-static void parameter_response_settle(
+void rclc_parameter_client_settle(
   rclc_parameter_client_t * client, cdr_in_t * in, const cdr_in_t * kept, uint32_t count)
 {
   if (kept->failed) {
+    client->exceeds = kept->fault->kind == CDR_FAULT_CAPACITY;
     client->size = 0;
     in->failed = true;
   }
@@ -236,7 +236,7 @@ void rclc_parameter_client_decode_values(cdr_in_t * in, void * client)
   for (uint32_t i = 0; i < count && !kept.failed; ++i) {
     rclc_parameter_client_settle_value(client, &kept);
   }
-  parameter_response_settle(client, in, &kept, count);
+  rclc_parameter_client_settle(client, in, &kept, count);
 }
 
 static void parameter_response_pass_result(cdr_in_t * in)
@@ -255,7 +255,7 @@ void rclc_parameter_client_decode_results(cdr_in_t * in, void * client)
   for (uint32_t i = 0; i < count && !kept.failed; ++i) {
     parameter_response_pass_result(&kept);
   }
-  parameter_response_settle(client, in, &kept, count);
+  rclc_parameter_client_settle(client, in, &kept, count);
 }
 
 void rclc_parameter_client_decode_result(cdr_in_t * in, void * client)
@@ -263,7 +263,7 @@ void rclc_parameter_client_decode_result(cdr_in_t * in, void * client)
   cdr_in_t kept = rclc_parameter_client_keep(client, in);
 
   parameter_response_pass_result(&kept);
-  parameter_response_settle(client, in, &kept, 1u);
+  rclc_parameter_client_settle(client, in, &kept, 1u);
 }
 
 void rclc_parameter_client_decode_names(cdr_in_t * in, void * client)
@@ -274,5 +274,5 @@ void rclc_parameter_client_decode_names(cdr_in_t * in, void * client)
   for (uint32_t i = 0; i < count && !kept.failed; ++i) {
     (void)rclc_parameter_client_read_text(&kept);
   }
-  parameter_response_settle(client, in, &kept, count);
+  rclc_parameter_client_settle(client, in, &kept, count);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Events of all nodes arrive on one subscription of each own node. One that is of no watched node is read no further than
- * to the node's name. Of another one the client keeps what follows the name.
+ * Events of all nodes arrive on one subscription of each local node. An event is read up to the node's name; if a
+ * client watches that node, it keeps the rest.
  */
 #include "microros/error.h"
 #include "microros/lock.h"
@@ -16,8 +16,8 @@
 
 #include <stddef.h>
 
-/* Bytes of an event that is too large: the time, the length of the node's name and its beginning. No whole event has this
- * size. */
+/* First bytes of an event that is too large: the time, the length of the node's name and its first characters. No
+ * complete event has this size. */
 enum { WATCH_STAMP = 8, WATCH_NAME_AT = 12, WATCH_BEGINNING = 27 };
 
 /* The subscriptions, by node; NULL: none. */
@@ -26,7 +26,7 @@ static rmw_subscription_t * watch_subscriptions[MICROROS_NODES_MAX];
 /* An event that is taken, for the clients of a node. */
 typedef struct watch_event_t {
   const rcl_node_t * node;
-  rclc_parameter_client_t * client; /* that watches the event's node; NULL: none does */
+  rclc_parameter_client_t * client; /* that watches the event's node; NULL: no client does */
   bool missed;
 } watch_event_t;
 
@@ -41,7 +41,7 @@ static bool watch_is_alike(const char * name, const char * other, uint32_t size)
   return i == size;
 }
 
-/* Returns the client that watches a node of which the name, without a NUL, is known, or its first bytes. */
+/* Returns the client that watches the node with this name, without a NUL, or with these first bytes of a name. */
 static rclc_parameter_client_t * watch_find(
   const rcl_node_t * node, const parameter_text_t * name, uint32_t known)
 {
@@ -224,7 +224,7 @@ void rclc_parameter_client_take_event(const rclc_parameter_client_t * client)
   watch_event_t event = {client->node, NULL, false};
   bool taken = false;
 
-  /* What is refused was counted for the subscription; the node of a damaged one is not known. */
+  /* The subscription has counted a refused event; the node of a damaged event is unknown. */
   (void)rmw_subscription_take(watch_subscriptions[rmw_node_index(client->node->impl)], &event, &taken);
   if (taken && event.client != NULL) {
     if (!event.client->is_busy) {

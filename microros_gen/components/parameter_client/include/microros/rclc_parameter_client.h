@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Calls of a client of parameters, and the messages that it exchanges. Internal. */
+/* Calls of a parameter client and their messages. Internal. */
 #ifndef MICROROS_RCLC_PARAMETER_CLIENT_INTERNAL_H
 #define MICROROS_RCLC_PARAMETER_CLIENT_INTERNAL_H
 
@@ -15,8 +15,8 @@
 extern "C" {
 #endif
 
-/* A node that is declared in the application file: its fully qualified name, the index of the own node whose clients it
- * has, and the operations, a bit for each call. */
+/* A remote node of the application file: its fully qualified name, the index of the local node with the client, and the
+ * operations, one bit for each call. */
 typedef struct rclc_parameter_client_remote_t {
   const char * name;
   uint16_t node;
@@ -36,13 +36,13 @@ rclc_parameter_client_t * rclc_parameter_client_first(void);
 rcl_ret_t rclc_parameter_client_refuse(
   const rclc_parameter_client_t * client, rcl_ret_t result, const char * why);
 
-/* The same with RCLC_PARAMETER_CLIENT_LIMIT, for `what` that has `found` where `fits` is the limit. */
+/* The same with RCLC_PARAMETER_CLIENT_LIMIT: `what` has the size `found`, and the limit is `fits`. */
 rcl_ret_t rclc_parameter_client_refuse_limit(
   const rclc_parameter_client_t * client, const char * what, size_t found, size_t fits);
 
 /* --- rclc_parameter_client_request.c: requests, whose message is the client --- */
 
-/* Whether `count` names, or parameters, are within the limits; else the result, with a text. */
+/* Returns RCL_RET_OK if `count` names or parameters are within the limits; otherwise the error, with a text. */
 rcl_ret_t rclc_parameter_client_check_names(
   const rclc_parameter_client_t * client, const char * const * names, size_t count);
 rcl_ret_t rclc_parameter_client_check_parameters(
@@ -55,22 +55,22 @@ uint32_t rclc_parameter_client_write_prefixes(
 uint32_t rclc_parameter_client_write_parameters(
   const rclc_parameter_client_t * client, uint8_t * body, uint32_t room, cdr_fault_t * fault);
 
-/* --- rclc_parameter_client_response.c: responses, which the client keeps as they are on the wire --- */
+/* --- rclc_parameter_client_response.c: responses, which the client keeps in their encoded form --- */
 
-/* Copies the body that is not read yet, the first byte to a place of the same alignment, and begins to read it. */
+/* Copies the unread part of the body with the same alignment, and begins to read it. */
 cdr_in_t rclc_parameter_client_keep(rclc_parameter_client_t * client, cdr_in_t * in);
 
-/* Begins to read the message of the client. It was checked when it arrived, so nothing in it fails. */
+/* Begins to read the message of the client. It was checked when it arrived, so reading cannot fail. */
 cdr_in_t rclc_parameter_client_begin(const rclc_parameter_client_t * client, cdr_fault_t * fault);
 
 /* Returns a string, which ends with its NUL. */
 const char * rclc_parameter_client_read_text(cdr_in_t * in);
 
-/* Reads a value. `value` is NULL to pass over it. */
+/* Reads a value, or skips it if `value` is NULL. */
 void rclc_parameter_client_read_value(
   rclc_parameter_client_t * client, cdr_in_t * in, rclc_parameter_client_value_t * value);
 
-/* Passes over a value when it arrives, and changes its arrays to those of this processor. */
+/* Skips a value when it arrives, and converts its arrays to the byte order of this processor. */
 void rclc_parameter_client_settle_value(rclc_parameter_client_t * client, cdr_in_t * in);
 
 /* Decoders of responses, whose message is the client. */
@@ -78,20 +78,37 @@ void rclc_parameter_client_decode_values(cdr_in_t * in, void * client);
 void rclc_parameter_client_decode_results(cdr_in_t * in, void * client);
 void rclc_parameter_client_decode_result(cdr_in_t * in, void * client);
 void rclc_parameter_client_decode_names(cdr_in_t * in, void * client);
+void rclc_parameter_client_decode_descriptors(cdr_in_t * in, void * client);
+void rclc_parameter_client_decode_types(cdr_in_t * in, void * client);
 
-/* --- by call: the result of a response that was kept, with the text of an error --- */
+/* Stores the number of items of a response that was read, or that it was refused. */
+void rclc_parameter_client_settle(
+  rclc_parameter_client_t * client, cdr_in_t * in, const cdr_in_t * kept, uint32_t count);
 
-rcl_ret_t rclc_parameter_client_judge_values(rclc_parameter_client_t * client);
+/* --- for each call: the result of a kept response, with the text of an error --- */
+
+rcl_ret_t rclc_parameter_client_judge_names(rclc_parameter_client_t * client);
 rcl_ret_t rclc_parameter_client_judge_results(rclc_parameter_client_t * client);
+
+/* --- rclc_parameter_client_named.c --- */
+
+/* Returns RCLC_PARAMETER_CLIENT_UNKNOWN with its text. */
+rcl_ret_t rclc_parameter_client_refuse_name(const rclc_parameter_client_t * client);
+
+/* --- rclc_parameter_client_large.c --- */
+
+/* Returns once the size of a response that was too large to be received; otherwise 0. */
+uint16_t rclc_parameter_client_take_large(const rclc_parameter_client_t * client, uint16_t * fits);
 
 /* --- rclc_parameter_client_types.c --- */
 
-/* The type of the service of a call; NULL: no client has it. */
+/* The name of the service of a call, relative to its node, and its type; NULL: no client uses it. */
+extern const char * const rclc_parameter_client_services[RCLC_PARAMETER_CLIENT_CALLS];
 extern const rosidl_service_type_support_t * const rclc_parameter_client_types[RCLC_PARAMETER_CLIENT_CALLS];
 
 /* --- rclc_parameter_client_call.c --- */
 
-/* Begins a call; its items were checked. */
+/* Begins a call with checked items. */
 rcl_ret_t rclc_parameter_client_send(
   rclc_parameter_client_t * client, uint8_t call, const void * items, size_t count, uint32_t timeout_ms,
   rclc_parameter_client_callback_t callback, void * context);
@@ -100,13 +117,13 @@ rcl_ret_t rclc_parameter_client_send(
 rcl_ret_t rclc_parameter_client_send_and_wait(
   rclc_parameter_client_t * client, uint8_t call, const void * items, size_t count, uint32_t timeout_ms);
 
-/* Returns whether a call has a response, or none in its time. */
+/* Returns whether a call has a response or has timed out. */
 bool rclc_parameter_client_is_due(const rclc_parameter_client_t * client);
 
-/* For a call that is due: returns whether it is over, with its result, and the text of an error. */
+/* For such a call: returns whether it is complete, with its result and the text of an error. */
 bool rclc_parameter_client_is_done(rclc_parameter_client_t * client, rcl_ret_t * result);
 
-/* Milliseconds until a call fails for want of a response. */
+/* Returns the milliseconds until a call times out. */
 uint32_t rclc_parameter_client_left_ms(const rclc_parameter_client_t * client);
 
 /* --- rclc_parameter_client_watch.c --- */
@@ -118,11 +135,11 @@ bool rclc_parameter_client_has_event(const rclc_parameter_client_t * client);
 /* Takes an event and calls the callback of the client that watches its node, if any. */
 void rclc_parameter_client_take_event(const rclc_parameter_client_t * client);
 
-/* Whether the clients of the same node that watch have this executor, or none; else a text is set. */
+/* Returns whether all watching clients of the same node have this executor or none; if not, a text is set. */
 bool rclc_parameter_client_may_watch(
   const rclc_parameter_client_t * client, const rclc_executor_t * executor);
 
-/* Closes the subscription of the client's node where no other client watches. */
+/* Closes the subscription of the client's node if no other client watches. */
 void rclc_parameter_client_unwatch(rclc_parameter_client_t * client);
 #else
 static inline bool rclc_parameter_client_has_event(const rclc_parameter_client_t * client)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the executor tells clients of parameters. Internal. */
+/* Called by the executor for parameter clients. Internal. */
 #ifndef MICROROS_RCLC_PARAMETER_CLIENT_HOOKS_H
 #define MICROROS_RCLC_PARAMETER_CLIENT_HOOKS_H
 

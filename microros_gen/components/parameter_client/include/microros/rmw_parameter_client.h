@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-/* Sets how many bytes of a sample that is too large for an open subscription reach it; 0: none. */
+/* Sets how many first bytes of a sample that is too large are passed to an open subscription; 0: none. */
 void rmw_parameter_client_keep_beginning(const rmw_subscription_t * subscription, uint8_t size);
 
 #ifdef __cplusplus

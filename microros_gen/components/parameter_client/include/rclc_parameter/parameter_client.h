@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Parameters of other nodes: get, set, list and watch. Each node is declared in the application file, below
- * `parameter_clients` of an own node, with the operations that are called. Nothing is allocated.
+ * Parameters of other nodes: get, set, list and watch. The application file declares each of them below
+ * `parameter_clients` of a local node, with the operations that are called. Nothing is allocated.
  *
- * Every call has two forms. The one that ends with _async returns at once, and its callback gets the result in a spin of
- * the executor that runs the client. The other one waits for the result; it is refused in a callback of that executor. A
- * client has one call at a time. The result of a call, whatever its form, is read by the functions below
- * (rclc_parameter_client_value and others); what they give is valid until the client's next call or spin.
+ * Every call has two forms. The form that ends with _async returns at once; its callback receives the result in a spin
+ * of the executor that runs the client. The other form waits for the result, and is refused in callbacks of that
+ * executor. A client has one call at a time. The functions below (rclc_parameter_client_value and others) read the
+ * result of either form; their results are valid until the client's next call or spin.
  *
- * All functions and the executor of a client belong to one task. A function that returns no RCL_RET_OK leaves a text behind
- * rcl_get_error_string(). So does a callback's result, during the callback.
+ * All functions and the executor of a client belong to one task. After any other code than RCL_RET_OK,
+ * rcl_get_error_string() has a text; likewise during a callback with such a result.
  */
 #ifndef MICROROS_RCLC_PARAMETER_CLIENT_H
 #define MICROROS_RCLC_PARAMETER_CLIENT_H
@@ -31,13 +31,13 @@
 extern "C" {
 #endif
 
-/* The node has no such parameter. */
+/* The node does not have this parameter. */
 #define RCLC_PARAMETER_CLIENT_UNKNOWN 4011
 /* A call has no result yet. */
 #define RCLC_PARAMETER_CLIENT_BUSY 4012
-/* A call that waits was made in a callback of the client's executor. */
+/* A waiting form was called in a callback of the client's executor. */
 #define RCLC_PARAMETER_CLIENT_IN_CALLBACK 4013
-/* More parameters, a longer name or a larger value than the limits of the application file. */
+/* More parameters, a longer name or a larger value than the limits of the application file, in a request or response. */
 #define RCLC_PARAMETER_CLIENT_LIMIT 4014
 
 /* A value. Strings end with a NUL; `count` is the number of elements of an array. */
@@ -57,13 +57,13 @@ typedef struct rclc_parameter_client_value_t {
   } as;
 } rclc_parameter_client_value_t;
 
-/* A parameter to be set. Without a type (RCLC_PARAMETER_NOT_SET) it is to be deleted. */
+/* A parameter to set, or to delete with the type RCLC_PARAMETER_NOT_SET. */
 typedef struct rclc_parameter_client_parameter_t {
   const char * name;
   rclc_parameter_client_value_t value;
 } rclc_parameter_client_parameter_t;
 
-/* What happened to a parameter that is watched. */
+/* A change of a watched parameter. */
 typedef enum rclc_parameter_client_change_t {
   RCLC_PARAMETER_CLIENT_NEW,
   RCLC_PARAMETER_CLIENT_CHANGED,
@@ -74,12 +74,12 @@ typedef enum rclc_parameter_client_change_t {
 struct rclc_parameter_client_t;
 struct rclc_parameter_client_remote_t; /* microros/rclc_parameter_client.h */
 
-/* `result` is what the waiting form of the call returns. The next call may be made. */
+/* `result` is the code that the waiting form returns. The callback may begin the next call. */
 typedef void (*rclc_parameter_client_callback_t)(
   struct rclc_parameter_client_t * client, rcl_ret_t result, void * context);
 
 /* Called once for each parameter of an event; `name` is "" and `value` NULL for RCLC_PARAMETER_CLIENT_MISSED. Both are
- * only valid during the call, in which no call of the client may be made, nor the client be finalized. */
+ * only valid during the callback, which must neither call nor finalize the client. */
 typedef void (*rclc_parameter_client_event_callback_t)(
   struct rclc_parameter_client_t * client, rclc_parameter_client_change_t change, const char * name,
   const rclc_parameter_client_value_t * value, void * context);
@@ -90,10 +90,16 @@ enum {
   RCLC_PARAMETER_CLIENT_SET,
   RCLC_PARAMETER_CLIENT_SET_ATOMICALLY,
   RCLC_PARAMETER_CLIENT_LIST,
+#if MICROROS_PARAMETER_CLIENT_DESCRIBES
+  RCLC_PARAMETER_CLIENT_DESCRIBE,
+#endif
+#if MICROROS_PARAMETER_CLIENT_GETS_TYPES
+  RCLC_PARAMETER_CLIENT_GET_TYPES,
+#endif
   RCLC_PARAMETER_CLIENT_CALLS
 };
 
-/* A client. The members are the library's; the struct stays where it was initialized. */
+/* A client. Its members are internal; do not move or copy the struct after its initialization. */
 typedef struct rclc_parameter_client_t {
   rcl_client_t services[RCLC_PARAMETER_CLIENT_CALLS];
   const rcl_node_t * node;
@@ -118,8 +124,9 @@ typedef struct rclc_parameter_client_t {
   bool is_busy;    /* a call has no result yet */
   bool is_calling; /* the executor calls callbacks */
   bool in_event;   /* the event's callback is called */
-#if MICROROS_PARAMETER_CLIENT_ELEMENTS > 0u
-  const char * strings[MICROROS_PARAMETER_CLIENT_ELEMENTS]; /* of the array that was read last */
+  bool exceeds;    /* the last response had more than fits */
+#if MICROROS_PARAMETER_CLIENT_STRINGS > 0u
+  const char * strings[MICROROS_PARAMETER_CLIENT_STRINGS]; /* of the array that was read last */
 #endif
   union {
     uint8_t bytes[MICROROS_PARAMETER_CLIENT_MESSAGE_SIZE];
@@ -129,42 +136,42 @@ typedef struct rclc_parameter_client_t {
 } rclc_parameter_client_t;
 
 /*
- * Opens the endpoints that are declared for `remote`, the fully qualified name of another node ("/arm/motor"), which need
- * not run. Waits for the agent at most MICROROS_CREATE_TIMEOUT_MS for each. `client` may be uninitialized; `node` must
- * outlive it. RCL_RET_INVALID_ARGUMENT; else what rcl_client_init returns.
+ * Opens the declared endpoints for `remote`, the fully qualified name of another node ("/arm/motor"), which need not be
+ * running. Waits for the agent at most MICROROS_CREATE_TIMEOUT_MS for each. `client` may be uninitialized; `node` must
+ * outlive it. RCL_RET_INVALID_ARGUMENT; otherwise the codes of rcl_client_init.
  */
 rcl_ret_t rclc_parameter_client_init_default(
   rclc_parameter_client_t * client, rcl_node_t * node, const char * remote);
 
-/* Closes the endpoints. A call without a result gets none. First remove the client from its executor. */
+/* Closes the endpoints. A pending call never gets a result. First remove the client from its executor. */
 rcl_ret_t rclc_parameter_client_fini(rclc_parameter_client_t * client, rcl_node_t * node);
 
-/* Runs the callbacks of a client: one handle. All clients of a node that watch have one executor. */
+/* Adds a client, as one handle. All watching clients of a node belong to the same executor. */
 rcl_ret_t rclc_executor_add_parameter_client(rclc_executor_t * executor, rclc_parameter_client_t * client);
 rcl_ret_t rclc_executor_remove_parameter_client(rclc_executor_t * executor, rclc_parameter_client_t * client);
 
 /* --- calls --- */
 /*
- * `timeout_ms`: how long the response may take, 1 ms to 24 days. What is passed is only read during the call.
+ * `timeout_ms`: how long the response may take, 1 ms to 24 days. Arguments are only read during the call.
  *
  * The waiting forms return RCL_RET_OK, or RCL_RET_TIMEOUT: no response, the node does not run or was restarted;
- * RCL_RET_ERROR: no session, the session was lost meanwhile (whether a value was set is not known), the response is larger
- * than the limits or damaged, or the operation is not declared; RCLC_PARAMETER_CLIENT_BUSY, _IN_CALLBACK and _LIMIT;
- * RCL_RET_INVALID_ARGUMENT. The asynchronous forms return the same where no request was sent, and call the callback
- * otherwise.
+ * RCL_RET_ERROR: no session, or it was lost during the call (a value may have been set), the response is damaged, or
+ * the operation is not declared; RCLC_PARAMETER_CLIENT_LIMIT: the request or response exceeds the limits (in case of
+ * the response, values have been set); RCLC_PARAMETER_CLIENT_BUSY and _IN_CALLBACK; RCL_RET_INVALID_ARGUMENT. The
+ * asynchronous forms return the same codes if no request was sent; otherwise they call the callback.
  */
 
 #if MICROROS_PARAMETER_CLIENT_GETS
-/* Gets parameters. RCLC_PARAMETER_CLIENT_UNKNOWN: the node knows one of them not, and gives none (rclcpp); rclpy gives the
- * others, and rclc_parameter_client_value tells. */
+/* Gets parameters. RCLC_PARAMETER_CLIENT_UNKNOWN: the node does not know all of them and returns no value, as rclcpp
+ * nodes do. rclpy nodes return the others; rclc_parameter_client_value reports the unknown ones. */
 rcl_ret_t rclc_parameter_client_get(
   rclc_parameter_client_t * client, const char * const * names, size_t count, uint32_t timeout_ms);
 rcl_ret_t rclc_parameter_client_get_async(
   rclc_parameter_client_t * client, const char * const * names, size_t count, uint32_t timeout_ms,
   rclc_parameter_client_callback_t callback, void * context);
 
-/* Gives value `index` of the names that were asked for. RCLC_PARAMETER_CLIENT_UNKNOWN: the node does not know it, or it
- * has no value; RCL_RET_INVALID_ARGUMENT: there is no such value. */
+/* Returns value `index`, in the order of the requested names. RCLC_PARAMETER_CLIENT_UNKNOWN: the node does not know the
+ * parameter, or it has no value; RCL_RET_INVALID_ARGUMENT: `index` is out of range. */
 rcl_ret_t rclc_parameter_client_value(
   rclc_parameter_client_t * client, size_t index, rclc_parameter_client_value_t * value);
 
@@ -196,8 +203,8 @@ rcl_ret_t rclc_parameter_client_get_string_array(
 #endif
 
 #if MICROROS_PARAMETER_CLIENT_SETS
-/* Sets parameters, each by itself. RCLC_PARAMETER_MODIFICATION_REJECTED: the node refused one of them, for the reason in
- * the text. */
+/* Sets parameters, each independently. RCLC_PARAMETER_MODIFICATION_REJECTED: the node refused one of them, for the
+ * reason in the text. */
 rcl_ret_t rclc_parameter_client_set(
   rclc_parameter_client_t * client, const rclc_parameter_client_parameter_t * parameters, size_t count,
   uint32_t timeout_ms);
@@ -232,7 +239,7 @@ rcl_ret_t rclc_parameter_client_set_string_array(
 #endif
 
 #if MICROROS_PARAMETER_CLIENT_SETS_ATOMICALLY
-/* Sets all of them, or none. */
+/* Sets all parameters, or none. */
 rcl_ret_t rclc_parameter_client_set_atomically(
   rclc_parameter_client_t * client, const rclc_parameter_client_parameter_t * parameters, size_t count,
   uint32_t timeout_ms);
@@ -242,13 +249,13 @@ rcl_ret_t rclc_parameter_client_set_atomically_async(
 #endif
 
 #if MICROROS_PARAMETER_CLIENT_SETS || MICROROS_PARAMETER_CLIENT_SETS_ATOMICALLY
-/* Tells what became of parameter `index` of a set; one set atomically has one result for all. *reason gets the node's
- * words, "" for success, and may be NULL. RCLC_PARAMETER_MODIFICATION_REJECTED; RCL_RET_INVALID_ARGUMENT. */
+/* Returns the result for parameter `index` of a set; an atomic set has one result for all. *reason gets the text of the
+ * node, "" for success; `reason` may be NULL. RCLC_PARAMETER_MODIFICATION_REJECTED; RCL_RET_INVALID_ARGUMENT. */
 rcl_ret_t rclc_parameter_client_outcome(rclc_parameter_client_t * client, size_t index, const char ** reason);
 #endif
 
 #if MICROROS_PARAMETER_CLIENT_LISTS
-/* Lists the names of parameters that begin with one of `count` prefixes; none: all. `depth` as in
+/* Lists the names of parameters that begin with one of `count` prefixes; without prefixes all names. `depth` as in
  * rcl_interfaces/srv/ListParameters; 0: any. */
 rcl_ret_t rclc_parameter_client_list(
   rclc_parameter_client_t * client, const char * const * prefixes, size_t count, uint64_t depth,
@@ -261,12 +268,71 @@ rcl_ret_t rclc_parameter_client_list_async(
 const char * rclc_parameter_client_name(rclc_parameter_client_t * client, size_t index);
 #endif
 
-/* Returns the number of values, results or names of the last call's response; 0 where it failed. */
+#if MICROROS_PARAMETER_CLIENT_DESCRIBES
+/* The descriptor of a parameter. Texts may be "". A step of 0: any value of the range. */
+typedef struct rclc_parameter_client_descriptor_t {
+  const char * name;
+  const char * description;
+  const char * additional_constraints;
+  rclc_parameter_type_t type;
+  bool read_only;
+  bool dynamic_typing;
+  bool has_integer_range;
+  bool has_floating_point_range;
+  struct {
+    int64_t from_value;
+    int64_t to_value;
+    uint64_t step;
+  } integer_range;
+  struct {
+    double from_value;
+    double to_value;
+    double step;
+  } floating_point_range;
+} rclc_parameter_client_descriptor_t;
+
+/* Gets the descriptors of parameters. RCLC_PARAMETER_CLIENT_UNKNOWN: the node does not know all of them. */
+rcl_ret_t rclc_parameter_client_describe(
+  rclc_parameter_client_t * client, const char * const * names, size_t count, uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_describe_async(
+  rclc_parameter_client_t * client, const char * const * names, size_t count, uint32_t timeout_ms,
+  rclc_parameter_client_callback_t callback, void * context);
+
+/* Returns descriptor `index`, in the order of the requested names. RCL_RET_INVALID_ARGUMENT: `index` is out of range.
+ */
+rcl_ret_t rclc_parameter_client_descriptor(
+  rclc_parameter_client_t * client, size_t index, rclc_parameter_client_descriptor_t * descriptor);
+
+/* Gets one descriptor and waits for it. */
+rcl_ret_t rclc_parameter_client_get_descriptor(
+  rclc_parameter_client_t * client, const char * name, rclc_parameter_client_descriptor_t * output,
+  uint32_t timeout_ms);
+#endif
+
+#if MICROROS_PARAMETER_CLIENT_GETS_TYPES
+/* Gets the types of parameters. RCLC_PARAMETER_CLIENT_UNKNOWN: the node does not know all of them. */
+rcl_ret_t rclc_parameter_client_get_types(
+  rclc_parameter_client_t * client, const char * const * names, size_t count, uint32_t timeout_ms);
+rcl_ret_t rclc_parameter_client_get_types_async(
+  rclc_parameter_client_t * client, const char * const * names, size_t count, uint32_t timeout_ms,
+  rclc_parameter_client_callback_t callback, void * context);
+
+/* Returns type `index`, in the order of the requested names. RCLC_PARAMETER_CLIENT_UNKNOWN: the parameter has no value;
+ * RCL_RET_INVALID_ARGUMENT: `index` is out of range. */
+rcl_ret_t rclc_parameter_client_type(
+  rclc_parameter_client_t * client, size_t index, rclc_parameter_type_t * type);
+
+/* Gets one type and waits for it. */
+rcl_ret_t rclc_parameter_client_get_type(
+  rclc_parameter_client_t * client, const char * name, rclc_parameter_type_t * output, uint32_t timeout_ms);
+#endif
+
+/* Returns the number of values, results, names, descriptors or types of the last call's response; 0 if it failed. */
 size_t rclc_parameter_client_count(const rclc_parameter_client_t * client);
 
 #if MICROROS_PARAMETER_CLIENT_WATCHES
-/* Calls `callback` for each change of the node's parameters from now on; NULL: no longer. RCL_RET_ERROR: the operation is
- * not declared, or another executor runs a client of this node that watches. */
+/* Calls `callback` for each change of the node's parameters from now on; NULL ends this. RCL_RET_ERROR: the operation
+ * is not declared, or another executor runs a watching client of this node. */
 rcl_ret_t rclc_parameter_client_watch(
   rclc_parameter_client_t * client, rclc_parameter_client_event_callback_t callback, void * context);
 #endif
