@@ -8,9 +8,9 @@ from collections.abc import Callable
 
 from microros_gen.agent.states import ClientState
 from microros_gen.ros.endpoints import Value
-from microros_gen.ros.errors import CodecError, RosError
 from microros_gen.ros.peer import Peer
 from microros_gen.ros.qos import Qos
+from microros_gen.ros.serving import Serving
 
 NODE = "microros_agent"
 TOPIC = f"/{NODE}/client_states"
@@ -21,7 +21,7 @@ LOOK_S = 0.2
 """Seconds between two checks for changes: several changes of a state in between are published once."""
 
 
-class StateNode:
+class StateNode(Serving):
     """The topic and the service, on the node of a peer; served in the thread that calls `turn`."""
 
     def __init__(
@@ -37,31 +37,17 @@ class StateNode:
         `report` gets a line about each request that could not be answered. Raises RosError if the node cannot have
         them.
         """
-        self._peer = peer
+        super().__init__(peer, report)
         self._states = states
-        self._report = report
         self._clock = clock
         self._published: dict[str, Value] = {}
         self._look_at = clock()
-        self._stop = False
         peer.serve(SERVICE, LIST_TYPE, lambda request: list_clients(self._states(), request))
         self._topic = peer.publisher(TOPIC, STATE_TYPE, Qos(transient_local=True, depth=depth))
 
-    def run(self) -> None:
-        """Serve until `stop`."""
-        while not self._stop:
-            self.turn()
-
-    def stop(self) -> None:
-        """Let `run` end within a second."""
-        self._stop = True
-
     def turn(self, wait_s: float = LOOK_S) -> None:
         """Wait for requests, at most `wait_s` seconds, and publish what has changed."""
-        try:
-            self._peer.spin_once(max(0.0, min(wait_s, self._look_at - self._clock())))
-        except (CodecError, RosError) as error:  # one request; the others are answered
-            self._report(str(error))
+        self._spin(min(wait_s, self._look_at - self._clock()))
         if self._clock() >= self._look_at:
             self._look_at = self._clock() + LOOK_S
             for value in changes(self._states(), self._published):

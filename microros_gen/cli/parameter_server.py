@@ -4,31 +4,27 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
-from contextlib import closing, contextmanager
+from contextlib import closing, nullcontext
 from pathlib import Path
 
 import click
 
 from microros_gen.agent.server import stopped_by_signals
-from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.cli.ros_node import node_of
+from microros_gen.diagnostics import Diagnostic
+from microros_gen.parameter_server.claims import STANDALONE
 from microros_gen.parameter_server.file import ParameterFile
-from microros_gen.parameter_server.server import NODE, ParameterServer
-from microros_gen.ros.errors import RosUnusableError
+from microros_gen.parameter_server.turns import ServerInTurn
 from microros_gen.ros.peer import Peer
 
 
-@contextmanager
-def parameter_peer(name: str, domain: int | None) -> Iterator[Peer]:
-    """Give the node of a parameter server; UserError without a usable ROS 2."""
-    try:
-        peer = Peer(name, domain=domain)
-    except RosUnusableError as error:
-        raise UserError(
-            [Diagnostic(f"the parameter server {error.reason}", hint=error.hint, id="MG-9728")]
-        ) from error
-    with peer:
-        yield peer
+def parameter_peer(name: str, domain: int | None) -> Peer:
+    """Return the node of a parameter server; UserError without a usable ROS 2."""
+    return node_of(
+        name,
+        domain,
+        lambda error: Diagnostic(f"the parameter server {error.reason}", hint=error.hint, id="MG-9728"),
+    )
 
 
 def usual_file(domain: int | None) -> Path:
@@ -54,8 +50,8 @@ def command(file: Path | None, domain: int | None) -> None:
 
     The node /microros_parameters serves the six parameter services in the name of each such node, also while its board
     sleeps or is away, keeps the values in a file, and brings both sides together when the board is back: the last
-    writer wins. The agent does the same by itself where no such node runs; run this on any machine of the domain, one
-    in a domain. Needs ROS 2 Jazzy, as the agent does.
+    writer wins. The agent does the same by itself where no such node runs; run this on any machine of the domain. Of
+    several ones one serves, and another takes over when that one is gone. Needs ROS 2 Jazzy, as the agent does.
 
     \b
     microros-gen parameter-server
@@ -64,8 +60,22 @@ def command(file: Path | None, domain: int | None) -> None:
     Prints 'parameter server ready: /microros_parameters' on stdout, and what was overruled on stderr. SIGINT and
     SIGTERM end it with status 0.
     """
-    with closing(ParameterFile(file or usual_file(domain))) as kept, parameter_peer(NODE, domain) as peer:
-        server = ParameterServer(peer, lambda line: click.echo(line, err=True), kept)
-        with stopped_by_signals(server):
-            click.echo(f"parameter server ready: {peer.name}")
-            server.run()
+    server = ServerInTurn(STANDALONE, lambda name: parameter_peer(name, domain), _Report())
+    with closing(ParameterFile(file or usual_file(domain))) as kept, stopped_by_signals(server):
+        server.run(lambda: nullcontext(kept))
+
+
+class _Report:
+    """Tells of turns on stdout, and of values on stderr."""
+
+    def waits(self, other: str) -> None:
+        """Tell that another one serves."""
+        click.echo(f"parameters are held by another server ({other}): this one waits", err=True)
+
+    def ready(self, node: str) -> None:
+        """Tell that this one serves."""
+        click.echo(f"parameter server ready: {node}")
+
+    def log(self, line: str) -> None:
+        """Pass on a line."""
+        click.echo(line, err=True)

@@ -118,7 +118,7 @@ def _holds_integer(value: int, low: int, high: int, step: int) -> bool:
 def _holds_double(value: float, low: float, high: float, step: float) -> bool:
     if _equal(value, low) or _equal(value, high):
         return True
-    if not low <= value <= high:
+    if value < low or value > high:  # as rclcpp compares: NaN is neither
         return False
     if step == 0 or math.isnan(step):
         return True

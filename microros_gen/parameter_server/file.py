@@ -25,11 +25,15 @@ _TYPES = {
 }
 
 
+class FileInUseError(UserError):
+    """Another server has the file."""
+
+
 class ParameterFile:
     """A file that one server at a time has; `close` releases it."""
 
     def __init__(self, path: Path) -> None:
-        """Raises UserError: the folder cannot be written, or another server has the file."""
+        """Raises UserError: the folder cannot be written; FileInUseError: another server has the file."""
         self.path = path
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -42,7 +46,7 @@ class ParameterFile:
         except OSError as error:
             os.close(self._lock)
             message, hint = f"another parameter server has '{path}'", "Stop it, or name another file"
-            raise UserError([Diagnostic(message, hint=hint, id="MG-9726")]) from error
+            raise FileInUseError([Diagnostic(message, hint=hint, id="MG-9726")]) from error
 
     def close(self) -> None:
         """Let others have the file."""

@@ -5,15 +5,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import Any
 
 from microros_gen.parameter_server.file import ParameterFile
 from microros_gen.parameter_server.node import HeldNode, Merged
 from microros_gen.parameter_server.served import ServedNode
 from microros_gen.ros.endpoints import Value
-from microros_gen.ros.errors import CodecError, RosError
 from microros_gen.ros.peer import Peer
 from microros_gen.ros.qos import Qos
+from microros_gen.ros.serving import Serving
 
 NODE = "microros_parameters"
 NOTICES_TOPIC = f"/{NODE}/notices"
@@ -24,7 +23,7 @@ _WAIT_S = 0.5
 _NS = 1_000_000_000
 
 
-class ParameterServer:
+class ParameterServer(Serving):
     """Serves on the node of a peer, in the thread that calls `turn`."""
 
     def __init__(
@@ -34,11 +33,9 @@ class ParameterServer:
 
         Raises UserError as `ParameterFile.load` does, RosError if the node cannot have the services.
         """
-        self._peer = peer
-        self._report = report
+        super().__init__(peer, report)
         self._file = file
         self._nodes: dict[str, ServedNode] = {}
-        self._stop = False
         self._events = peer.publisher(EVENTS_TOPIC, "rcl_interfaces/msg/ParameterEvent", EVENTS_QOS)
         nodes, damage = file.load(self._node) if file is not None else ((), "")
         if damage:
@@ -47,21 +44,17 @@ class ParameterServer:
             self._nodes[node.name] = ServedNode(node, peer, self)
         peer.subscribe(NOTICES_TOPIC, "microros_parameter_msgs/msg/Notice", self._noticed, NOTICES_QOS)
 
-    def run(self) -> None:
-        """Serve until `stop`."""
-        while not self._stop:
-            self.turn()
-
-    def stop(self) -> None:
-        """Let `run` end within a second."""
-        self._stop = True
+    @property
+    def pending(self) -> int:
+        """Return the number of values that their nodes do not have yet."""
+        return sum(len(node.held.pending()) for node in self._nodes.values())
 
     def turn(self) -> None:
         """Wait for requests, at most half a second, and serve them."""
         due_s = min((node.exchange.next_s() for node in self._nodes.values()), default=float("inf"))
-        self._try(lambda: self._peer.spin_once(min(_WAIT_S, max(0.0, due_s - time.monotonic()))))
+        self._spin(min(_WAIT_S, due_s - time.monotonic()))
         for node in list(self._nodes.values()):
-            self._try(node.exchange.step)
+            self._attempt(node.exchange.step)
 
     def keep(self) -> None:
         """Write the file."""
@@ -87,13 +80,6 @@ class ParameterServer:
     def log(self, text: str) -> None:
         """Report a line."""
         self._report(text)
-
-    def _try(self, work: Callable[[], Any]) -> None:
-        """Work on one request or message; where that fails, the others go on."""
-        try:
-            work()
-        except (CodecError, RosError) as error:
-            self._report(str(error))
 
     def _node(self, name: str) -> HeldNode:
         return HeldNode(name, time.time, self._report)

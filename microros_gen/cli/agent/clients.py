@@ -3,15 +3,15 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 from microros_gen.agent.core import Agent
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.state_node import NODE, StateNode
-from microros_gen.diagnostics import Diagnostic, UserError
-from microros_gen.ros.errors import RosUnusableError
+from microros_gen.cli.agent.background import in_background
+from microros_gen.cli.ros_node import node_of
+from microros_gen.diagnostics import Diagnostic
 from microros_gen.ros.peer import Peer
 
 
@@ -33,20 +33,14 @@ def client_state_node(
             2 * most,
             lambda line: log.emit(Level.WARNING, "client_state", "client state: {reason}", reason=line),
         )
-        thread = threading.Thread(target=node.run, name="client state", daemon=True)
-        thread.start()
-        log.emit(Level.INFO, "client_state_ready", "client state ready: {node}", node=peer.name)
-        try:
+        with in_background("client state", node.run, node.stop):
+            log.emit(Level.INFO, "client_state_ready", "client state ready: {node}", node=peer.name)
             yield
-        finally:
-            node.stop()
-            thread.join()
 
 
 def _peer(domain: int | None) -> Peer:
-    try:
-        return Peer(NODE, domain=domain)
-    except RosUnusableError as error:
-        raise UserError(
-            [Diagnostic(f"the client state {error.reason}", hint=error.hint, id="MG-9725")]
-        ) from error
+    return node_of(
+        NODE,
+        domain,
+        lambda error: Diagnostic(f"the client state {error.reason}", hint=error.hint, id="MG-9725"),
+    )
