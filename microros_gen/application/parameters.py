@@ -78,6 +78,7 @@ class Places:
 
 def check_declaration(parameter: ParameterDecl, places: Places, diagnostics: Diagnostics) -> None:
     """Report what contradicts itself in a declaration."""
+    before = len(tuple(diagnostics))
     _check_range(parameter, places.bounds, diagnostics)
     _check_choice(parameter, places, diagnostics)
     if parameter.is_array and not parameter.size:
@@ -89,6 +90,23 @@ def check_declaration(parameter: ParameterDecl, places: Places, diagnostics: Dia
         diagnostics.error(message, parameter.span, "Remove `size`", id="MG-3055")
     if places.default is not None and parameter.default is not None:
         _check_default(parameter, places.default, diagnostics)
+    elif len(tuple(diagnostics)) == before:
+        diagnostics.extend(_missing_default(parameter))
+
+
+def _missing_default(parameter: ParameterDecl) -> Iterator[Diagnostic]:
+    """Yield that a parameter starts with a value that it does not accept: without a default it is 0, or empty."""
+    what = f"the parameter '{parameter.name}' has no default and starts with"
+    low, high = parameter.minimum, parameter.maximum
+    if parameter.type in _NUMBERS and low is not None and high is not None and not low <= 0 <= high:
+        message = f"{what} 0, which is not in its range"
+        yield Diagnostic(message, parameter.span, f"Write `default: {low}`", id="MG-3096")
+    if not parameter.one_of:
+        return
+    start: _Scalar = "" if parameter.type == "string" else 0
+    if start not in parameter.one_of:
+        message = f"{what} {start!r}, which is none of its values"
+        yield Diagnostic(message, parameter.span, f"Write `default: {parameter.one_of[0]}`", id="MG-3097")
 
 
 def _fits(value: _Scalar, kind: str) -> bool:
@@ -97,8 +115,8 @@ def _fits(value: _Scalar, kind: str) -> bool:
         return True
     if not isinstance(value, wanted) or (isinstance(value, bool) and kind != "bool"):
         return False
-    low, high = _LIMITS.get(kind, (value, value))
-    return low <= value <= high  # type: ignore[operator]
+    limits = _LIMITS.get(kind)
+    return limits is None or limits[0] <= value <= limits[1]  # type: ignore[operator]
 
 
 def _check_default(parameter: ParameterDecl, node: YamlNode, diagnostics: Diagnostics) -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -173,7 +174,9 @@ def test_a_node_has_those_of_the_file_first(tmp_path: Path) -> None:
     names = [p.name for p in found.resolved.request.application.nodes[0].parameters]
     assert (names[0], names[-1], len(names)) == ("gains.p", "own", 13)
     files = compiler.render(found)
-    assert b'"gains.p", 0.0, 10.0, 0.0' in files["src/parameters/rclc_parameter_declared.c"]
+    declared = files["src/parameters/rclc_parameter_declared.c"].decode()
+    [symbol] = re.findall(r'\{\.name = "gains\.p",[^}]* \.range = &(\w+)\}', declared)
+    assert f"{symbol} = {{.floating_point = {{0.0, 10.0, 0.0}}}};" in declared
     assert b"parameter file motor.yaml" in files[MANIFEST]
     assert file in set(read_paths(found))
 

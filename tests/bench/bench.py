@@ -3,7 +3,7 @@
 firmware, whole images, the client, the agent, the agent under attack.
 
 Times depend on the machine; so each stands besides a peer that ran in the same minutes. Instruction counts come
-from callgrind and repeat exactly with one compiler.
+from callgrind or QEMU and repeat exactly with one compiler.
 """
 
 from __future__ import annotations

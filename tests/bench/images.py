@@ -14,6 +14,8 @@ from tests.bench.selections import bench_selections
 from tests.support.firmware.board import Builds, Built
 from tests.support.firmware.everything import APPLICATION as EVERYTHING
 from tests.support.firmware.footprint import SERVES, Sender, bounded_stack, image_sections
+from tests.support.firmware.parameters import ADDED
+from tests.support.firmware.parameters import APPLICATION as PARAMETERS
 from tests.support.firmware.ticker import APPLICATION as TICKS
 from tests.support.firmware.ticker import LISTENS
 
@@ -71,6 +73,14 @@ IMAGES = (
     ),
     Image("3 server of SetBool, executor", SERVES, "setbool.c", (), "66,624 + 4,616 / 14,464, 1,560"),
     Image("client of SetBool", ASKS),
+    Image(
+        "4 parameter server: four parameters, six services, executor",
+        PARAMETERS,
+        "parameters.c",
+        (),
+        "112,304 + 30,376 / 16,120 + 8,545 of heap, 1,808",
+    ),
+    Image("the same, the program adds them as sources for rclc do", PARAMETERS, "parameters.c", ADDED),
     Image("6 publisher of JointState, 6 joints", JOINTS, existing="54,340 + 3,604 / 13,048"),
     Image("the same with a history of two", f"{JOINTS}pools: {{history: 2}}\n"),
     Image(

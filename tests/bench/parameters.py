@@ -1,48 +1,33 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Instructions of a parameter server on this host, counted by callgrind inside the call."""
+"""A parameter server on three processors: image, instructions in QEMU, and what one more parameter takes."""
 
 from __future__ import annotations
 
-import shutil
-import sys
 from pathlib import Path
 
-from tests.bench.instructions import HERE, IDL, agent, count, run, version
+from tests.bench.images import PROCESSORS
+from tests.support.firmware.board import Builds
+from tests.support.firmware.parameters import ADDED, TYPES, cost, taken, work
 
-APPLICATION = """\
-version: 1
-profiles: [pure_sender]
-components: [+parameters]
-entities: preconfigured
-errors: code
-nodes: [{name: device}]
-"""
-CALLS = 20
-COUNTED = {
-    "init, seven entities, without waiting for an agent": ("rclc_parameter_server_init_default", 1),
-    "set of an integer, with its event": ("rclc_parameter_set_int", CALLS),
-    "get of an integer": ("rclc_parameter_get_int", CALLS),
-}
-"""What is counted: the function, and how often the program calls it."""
+CORTEX_M4 = "qemu-mps2-an386"
 
 
-def bench_parameters(work: Path) -> None:
-    """Build a program and print its table."""
-    if shutil.which("valgrind") is None:
-        sys.exit("instructions need valgrind: apt-get install valgrind")
-    work.mkdir()
-    config = work / "microros.yaml"
-    config.write_text(APPLICATION)
-    out = work / "out"
-    with agent() as port:
-        command = [sys.executable, "-m", "microros_gen", "build", "-c", str(config), "-o", str(out)]
-        run([*command, "--interface-path", str(IDL), "--agent", f"127.0.0.1:{port}"])
-        program = work / "parameters"
-        compiler = ["cc", "-std=c99", "-O0", "-g", f"-I{out / 'include'}", str(HERE / "parameters.c")]
-        run([*compiler, str(out / "lib/libmicroros.a"), "-o", str(program)])
-        print(f"parameters: callgrind inside the call, {version('cc')}, -O2, this host; no system calls")
-        for what, (function, calls) in COUNTED.items():
-            # The program prints the calls of `set` and `get`.
-            total = count(program, what, function, work) * CALLS
-            print(f"  {what:<56} {total / calls:8.0f}")
+def bench_parameters(folder: Path) -> None:
+    """Print one table for each."""
+    builds = Builds(folder)
+    print("parameters: four of them, six services, executor; flash / RAM / worst stack that `size` proves")
+    for board, processor in PROCESSORS.items():
+        for label, flags in (("declared", ()), ("added by the program", ADDED)):
+            found = taken(builds, board, flags)
+            print(f"  {processor:12} {label:24} {found.flash:,} / {found.size.ram:,} / {found.stack:,}")
+    print("  instructions: init; get and set by request; get and set by call")
+    for board, processor in PROCESSORS.items():
+        done = work(builds, board)
+        print(
+            f"  {processor:12} {done.init:8,} {done.get:8,} {done.set:8,} {done.get_call:8,} {done.set_call:8,}"
+        )
+    print("  one more on the Cortex-M4, flash / RAM: messages for four; messages for all")
+    for kind in TYPES:
+        alone, whole = (cost(builds, CORTEX_M4, kind, messages) for messages in (False, True))
+        print(f"  {kind:12} {alone[0]:6.1f} / {alone[1]:5.1f} {whole[0]:8.1f} / {whole[1]:5.1f}")
     print()

@@ -61,6 +61,7 @@ def test_a_board_needs_functions_of_the_application(tmp_path: Path) -> None:
     assert names <= set(found.project.provisions.functions())
 
 
+@pytest.mark.system
 @pytest.mark.skipif(not has("gcc"), reason="no compiler")
 def test_it_builds_and_brings_parameters_with_it(tmp_path: Path) -> None:
     found = planned(tmp_path, APPLICATION)

@@ -141,17 +141,18 @@ def test_members_are_names_of_c(tmp_path: Path) -> None:
     )
 
 
-def test_what_is_declared_is_added(tmp_path: Path) -> None:
+def test_what_is_declared_is_constant(tmp_path: Path) -> None:
     found = planned(tmp_path, DECLARED)
     declarations = declaring(found)
     for line in (
-        'rclc_add_parameter(parameter_server, "gain", RCLC_PARAMETER_DOUBLE)',
-        'rclc_parameter_set_double(parameter_server, "gain", 1.0)',
-        'rclc_add_parameter_constraint_double(parameter_server, "gain", 0.0, 2.0, 0.5)',
-        'rclc_parameter_set_int(parameter_server, "steps", -3)',
-        r'rclc_add_parameter_description(parameter_server, "steps", "Steps of \"one\" turn", "")',
-        'rclc_set_parameter_read_only(parameter_server, "steps", true)',
-        'rclc_parameter_set_bool(parameter_server, "on", true)',
+        "static const rclc_parameter_range_t arm_range_0 = {.floating_point = {0.0, 2.0, 0.5}};",
+        "static const rclc_parameter_declared_t arm_declared[] = {",
+        '{.about = {.name = "gain", .range = &arm_range_0}, .type = RCLC_PARAMETER_DOUBLE, .has_value = true, '
+        ".value = {.double_value = 1.0}},",
+        r'{.about = {.name = "steps", .texts = "Steps of \"one\" turn\0" ""}, .type = RCLC_PARAMETER_INT, '
+        ".has_value = true, .value = {.integer_value = -3}, .read_only = true},",
+        '{.about = {.name = "on"}, .type = RCLC_PARAMETER_BOOL, .has_value = true, .value = {.bool_value = true}},',
+        "parameter_server->floating_point_holds = rclc_parameter_floating_point_holds;",
     ):
         assert line in declarations
 
@@ -180,18 +181,52 @@ def test_arrays_and_lists_of_values_take_what_is_declared(tmp_path: Path) -> Non
     for line in (
         "static const char * const arm_values_0[] = {",
         "static const int64_t arm_values_1[] = {0, INT64_MIN};",
-        'rclc_add_parameter_constraint_one_of_string(parameter_server, "side", arm_values_0, 2)',
-        'rclc_add_parameter_description(parameter_server, "mode", "Way [mm]", "one of: 0, -9223372036854775808")',
-        'rclc_add_parameter_constraint_array(parameter_server, "bytes", 5)',
-        'rclc_parameter_set_byte_array(parameter_server, "bytes", (const uint8_t[]){1u, 255u}, 2)',
-        'rclc_parameter_set_string_array(parameter_server, "names", (const char *[]){"a", "ö"}, 2)',
-        'rclc_add_parameter_constraint_array(parameter_server, "none", 2)',
+        '.name = "side", .texts = "\\0" "one of: left, right", .one_of = arm_values_0, .one_of_count = 2u, ',
+        '.name = "mode", .texts = "Way [mm]\\0" "one of: 0, -9223372036854775808", .one_of = arm_values_1, ',
+        "static const uint8_t arm_start_2[] = {1u, 255u};",
+        '.name = "bytes", .array_most = 5u}, .type = RCLC_PARAMETER_BYTE_ARRAY, .has_value = true, '
+        ".start = arm_start_2, .start_bytes = (uint32_t)sizeof(arm_start_2), .start_count = 2u}",
+        'static const char arm_start_3[] = "a\\0" "ö";',
+        '{.about = {.name = "none", .array_most = 2u}, .type = RCLC_PARAMETER_DOUBLE_ARRAY},',
     ):
         assert line in declarations
     limits = "limits: {rcl_interfaces/msg/ParameterValue: {string_array_value: {sequence: 3, string: 9}}}\n"
     assert slice_of(planned(tmp_path, EVERY + limits)).array_size == 3 * 10
     plain = slice_of(planned(tmp_path, DECLARED))
+    assert "floating_point_holds" not in declarations
     assert (plain.array_size, plain.strings_max, plain.one_of) == (0, 0, False)
+
+
+@pytest.mark.parametrize(
+    ("parameter", "limit", "message", "hint"),
+    [
+        (
+            "{name: p, type: string, size: 20, default: fifteen letters}",
+            "string_value: {string: 10}",
+            "the default of the parameter 'p' has a text of 15 bytes, and the limit of string_value is 10",
+            "string_value: {string: 15}",
+        ),
+        (
+            '{name: p, type: "string[]", size: 3, default: [a, fifteen letters]}',
+            "string_array_value: {sequence: 3, string: 9}",
+            "the default of the parameter 'p' has a text of 15 bytes, and the limit of string_array_value is 9",
+            "string_array_value: {string: 15}",
+        ),
+        (
+            '{name: p, type: "integer[]", size: 3, default: [1, 2, 3]}',
+            "integer_array_value: 2",
+            "the default of the parameter 'p' has 3 elements, and the limit of integer_array_value is 2",
+            "integer_array_value: {sequence: 3}",
+        ),
+    ],
+)
+def test_a_default_above_a_limit(tmp_path: Path, parameter: str, limit: str, message: str, hint: str) -> None:
+    text = EVERY.split("    parameters:")[0] + f"    parameters: [{parameter}]\n"
+    with pytest.raises(UserError) as error:
+        planned(tmp_path, f"{text}limits: {{rcl_interfaces/msg/ParameterValue: {{{limit}}}}}\n")
+    [found] = error.value.diagnostics
+    assert (found.message, found.id) == (message, "MG-3098")
+    assert found.hint == f"Raise it: `limits: {{rcl_interfaces/msg/ParameterValue: {{{hint}}}}}`"
 
 
 LABELED = """\
@@ -211,10 +246,9 @@ def test_strings_take_what_is_declared(tmp_path: Path) -> None:
     assert slice_of(found).string_size == 49 + 1  # without a size, as names and descriptions
     declarations = declaring(found)
     for line in (
-        'rclc_add_parameter(parameter_server, "label", RCLC_PARAMETER_STRING)',
-        'rclc_add_parameter_constraint_string(parameter_server, "label", 12)',
-        r'rclc_parameter_set_string(parameter_server, "label", "left \"a\"")',
-        'rclc_add_parameter_constraint_string(parameter_server, "comment", 49)',
+        r'static const char arm_start_0[] = "left \"a\"";',
+        '{.about = {.name = "label", .string_most = 12u}, .type = RCLC_PARAMETER_STRING, .has_value = true, ',
+        '{.about = {.name = "comment", .string_most = 49u}, .type = RCLC_PARAMETER_STRING},',
     ):
         assert line in declarations
     first = largest(found, "srv/SetParameters_Request")
@@ -250,3 +284,34 @@ def test_what_cannot_be_served_is_refused(tmp_path: Path, text: str, expected: s
     with pytest.raises(UserError) as caught:
         planned(tmp_path, text)
     assert any(expected in without_id(d.headline()) for d in caught.value.diagnostics)
+
+
+@pytest.mark.parametrize(
+    ("pools", "expected"),
+    [
+        ("parameters: 1", ("'pools.parameters' is 1, and a node declares 3 parameters", "MG-7049")),
+        ("parameters: 2", ("'pools.parameters' is 2, and a node declares 3 parameters", "MG-7049")),
+        (
+            "handles: 2",
+            ("'pools.handles' is 2, and a parameter server needs 6 handles of its executor", "MG-7050"),
+        ),
+        (
+            "handles: 5",
+            ("'pools.handles' is 5, and a parameter server needs 6 handles of its executor", "MG-7050"),
+        ),
+    ],
+)
+def test_a_pool_below_what_is_declared_is_refused(
+    tmp_path: Path, pools: str, expected: tuple[str, str]
+) -> None:
+    with pytest.raises(UserError) as caught:
+        planned(tmp_path, DECLARED + f"pools: {{{pools}}}\n")
+    [found] = caught.value.diagnostics
+    assert (found.message, found.id) == expected
+    assert found.span is not None
+    assert found.hint
+
+
+@pytest.mark.parametrize("pools", ["parameters: 3", "handles: 6", "parameters: 3, handles: 20"])
+def test_a_pool_that_is_large_enough_is_accepted(tmp_path: Path, pools: str) -> None:
+    assert slice_of(planned(tmp_path, DECLARED + f"pools: {{{pools}}}\n")).max == 3

@@ -17,7 +17,9 @@ profiles: [pure_sender]
 components: [+parameters]
 nodes:
   - name: arm
-    parameters: {at: agent, declare: [{name: gain, type: double}, {name: mode, type: integer, one_of: [1, 2]}]}
+    parameters:
+      at: agent
+      declare: [{name: gain, type: double}, {name: mode, type: integer, default: 1, one_of: [1, 2]}]
   - {name: leg, parameters: {at: agent}}
 """
 

@@ -211,7 +211,9 @@ def test_big_endian_requests(program: Path, codec: Codec) -> None:
 
 
 def test_undeclared_parameters(program: Path, codec: Codec) -> None:
-    """As rclcpp: created with the type of the value, which may change, and deleted without one."""
+    """As rclcpp: created with the type of the value, which may change, and deleted without one. rclcpp also declares a
+    name without a value, which is refused here.
+    """
     with serving(program, codec, "undeclared") as server:
         assert server.set(("new", INTEGER, 5), ("more", INTEGER, 6)) == [
             "ok",
@@ -244,6 +246,67 @@ def test_undeclared_parameters(program: Path, codec: Codec) -> None:
         ]
 
 
+IN_FLASH = """\
+version: 1
+profiles: [pure_sender]
+components: [+parameters]
+pools: {parameters: 4}
+nodes:
+  - name: device
+    namespace: /arm
+    parameters:
+      - {name: a, type: bool, default: true}
+      - {name: b.steps, type: integer, default: 4}
+      - {name: b.gain, type: double, default: 0.5}
+"""
+
+
+@pytest.fixture
+def program_in_flash(images: Images, image_port: Relay, tmp_path: Path) -> Path:
+    image = images.build(image_port.port, IN_FLASH)
+    program = tmp_path / "in_flash"
+    return image.application(C_FILES / "parameter_requests.c", program, "-std=c99", "-DREQUESTS_DECLARED")
+
+
+def test_a_name_twice_in_a_request(program_in_flash: Path, codec: Codec) -> None:
+    """As in rclcpp what is set and deleted is deleted, in either order; no request writes past the last place."""
+    with serving(program_in_flash, codec, "undeclared") as server:
+
+        def all_of(*values: tuple[str, int, Any]) -> str:
+            found = server.call("set_parameters_atomically", parameters=parameters(*values))["result"]
+            return str(found["reason"]) if not found["successful"] else "ok"
+
+        def names() -> list[str]:
+            return sorted(server.call("list_parameters", prefixes=[], depth=0)["result"]["names"])
+
+        declared = ["a", "b.gain", "b.steps"]
+        for request in (
+            (("new", 0, None), ("new", INTEGER, 5)),
+            (("new", INTEGER, 5), ("new", 0, None)),
+            (("new", 0, None), ("new", 0, None)),
+            (("new", 0, None), ("new", 0, None), ("new", DOUBLE, 1.5)),
+        ):
+            assert all_of(("new", INTEGER, 1)) == "ok"
+            assert names() == [*declared, "new"]
+            assert all_of(*request) == "ok"
+            assert names() == declared
+        assert all_of(("new", INTEGER, 1), ("new", DOUBLE, 0.5)) == "ok", "one place for both"
+        assert server.values("new") == [0.5]
+        assert all_of(("other", INTEGER, 1)) == "no place for parameter 'other'"
+        assert server.values("a", "b.steps", "b.gain", "new") == [True, 4, 0.5, 0.5]
+
+
+def test_an_unknown_name_in_a_request_that_is_applied_as_a_whole(program: Path, codec: Codec) -> None:
+    """The words of rclcpp's parameter service, which differ from those for each parameter."""
+    with serving(program, codec) as server:
+        both = parameters(("a", BOOL, True), ("x", BOOL, True))
+        assert server.call("set_parameters_atomically", parameters=both)["result"] == {
+            "successful": False,
+            "reason": "One or more parameters were not declared before setting",
+        }
+        assert server.set(("x", BOOL, True)) == ["parameter 'x' cannot be set because it was not declared"]
+
+
 DECLARED = """\
 version: 1
 profiles: [pure_sender]
@@ -263,7 +326,7 @@ nodes:
 """
 
 
-@pytest.mark.parametrize("flags", [(), ("-m32",)], ids=["64", "32"])
+@pytest.mark.parametrize("flags", [(), pytest.param(("-m32",), marks=pytest.mark.system)], ids=["64", "32"])
 def test_the_struct_of_declared_values(
     images: Images, image_port: Relay, tmp_path: Path, flags: tuple[str, ...]
 ) -> None:

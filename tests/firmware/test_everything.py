@@ -44,7 +44,7 @@ class RosTime:
 
 @pytest.mark.ros
 def test_everything_under_one_executor(builds: Builds, observer: Observer, domain: int) -> None:
-    built = builds.build(BOARD, APPLICATION)
+    built = builds.merged(BOARD, APPLICATION)
     need(BOARD, emulator=True)
     image = builds.application(built, "everything.c")
     for topic in TOPICS:

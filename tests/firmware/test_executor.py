@@ -39,7 +39,7 @@ def test_a_timer_publishes_under_the_executor(builds: Builds, kind: str) -> None
 
 @pytest.mark.parametrize(
     ("listens", "text", "ram"),
-    [(False, 11250, 1000), (True, 15500, 1220)],
+    [(False, 11250, 1000), pytest.param(True, 15500, 1220, marks=pytest.mark.system)],
     ids=["talks", "talks-and-listens"],
 )
 def test_its_size(builds: Builds, listens: bool, text: int, ram: int) -> None:
@@ -51,6 +51,7 @@ def test_its_size(builds: Builds, listens: bool, text: int, ram: int) -> None:
     assert within(built, image, text, ram)
 
 
+@pytest.mark.system
 def test_the_size_of_a_server(builds: Builds) -> None:
     """A server of SetBool and executor (the goal of image 3: 15,000 and 3,000); `errors: code`."""
     need(NAME)

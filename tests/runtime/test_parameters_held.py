@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -272,3 +273,62 @@ def test_notices_wait_for_room(device: Device) -> None:
     device.spin(60)
     assert device.notices()[0]["revision"] == 6
     assert device.client.statistics()["dropped"] == 1
+
+
+@pytest.fixture
+def stored(
+    codec: Codec, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, tmp_path_factory: pytest.TempPathFactory
+) -> Callable[[], AbstractContextManager[Device]]:
+    """Give what starts a program with values in storage; its power is lost at the end of the block."""
+    text = APPLICATION.replace("[+parameters]", "[+parameters, +parameter_storage]")
+    program = program_of(tmp_path_factory.mktemp("stored") / "a", text, "client_parameters_stored.c").path
+    monkeypatch.setenv("MICROROS_STORAGE", str(tmp_path))
+
+    @contextmanager
+    def start() -> Iterator[Device]:
+        agent = ServingAgent(mtu=200)
+        with Client(program, agent) as client:
+            client.ok("init")
+            yield Device(client, agent, codec)
+
+    return start
+
+
+def test_stored_values_and_held_ones(stored: Callable[[], AbstractContextManager[Device]]) -> None:
+    """Stored values are there without a server, and count as declared for one: what it holds wins."""
+    with stored() as device:
+        assert device.client.ok("restart a").lines == ("skipped 0",)
+        device.spin(12)
+        assert device.list() == [("a", 0, DECLARED)]
+        assert device.set("a", 5) == (OK, True, "")
+        device.client.ok("keep")
+        device.client.ok("write a 6")  # not kept: the power is lost before
+    with stored() as device:
+        device.client.ok("restart a")
+        assert device.value("a") == "value 5"
+        device.spin(12)
+        result = device.client.call("held")
+        assert (result.code, "took 1 changes" in result.error) == (TIMEOUT, True)
+        device.session = 8
+        assert device.list() == [("a", 5, DECLARED)], "not CHANGED: a server that holds another value sets it"
+        assert device.set("a", 9) == (OK, True, "")
+        assert device.value("a") == "value 9"
+        assert device.client.ok("held").lines == ("overruled 0",)
+        late = device.client.call("load")
+        assert late.code == 1
+        assert "load before rclc_executor_add_parameter_server" in late.error
+        assert device.value("a") == "value 9"
+        device.client.ok("keep")
+    with stored() as device:
+        device.client.ok("restart a")
+        assert device.value("a") == "value 9"
+
+
+def test_stored_values_without_their_parameter(stored: Callable[[], AbstractContextManager[Device]]) -> None:
+    with stored() as device:
+        device.client.ok("restart a")
+        device.client.ok("write a 3")
+        device.client.ok("keep")
+    with stored() as device:
+        assert device.client.ok("restart b").lines == ("skipped 1",)
+        assert device.value("b") == "value 0"

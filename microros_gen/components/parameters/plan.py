@@ -5,12 +5,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from microros_gen.application.model import Application, LimitRule
+from microros_gen.application.model import Application, LimitRule, ParameterDecl
 from microros_gen.client.plan.declared import pool
 from microros_gen.client.plan.features import PlanContext, refuse_own_limits
-from microros_gen.components.parameters.calls import LONGEST_TEXT, calls, string_limit, tables, texts_of
+from microros_gen.components.parameters.constants import (
+    LONGEST_TEXT,
+    entries,
+    has_floating_range,
+    string_limit,
+    tables,
+    texts_of,
+)
 from microros_gen.components.parameters.values import Identifiers, copies, members
-from microros_gen.diagnostics import Diagnostics
+from microros_gen.diagnostics import Diagnostic, Diagnostics
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
 
@@ -40,17 +47,18 @@ class ServerPlan:
     """The parameter server of a node: what is declared for it, as C. Empty for a node that declares nothing.
 
     `index`: of the node.
-    `symbol` begins the names; `members` of the struct of its values; `calls` declare them, with the constants `tables`;
-    `copies` fill the struct.
+    `symbol` begins the names; `members` of the struct of its values; `entries` are the parameters, with the constants
+    `tables`; `copies` fill the struct.
     """
 
     index: int
     node: str
     symbol: str
-    calls: tuple[str, ...] = ()
+    entries: tuple[str, ...] = ()
     tables: tuple[str, ...] = ()
     members: tuple[str, ...] = ()
     copies: tuple[str, ...] = ()
+    has_floating_range: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,6 +105,8 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> ParametersPlan:
     """Return the sizes; those of requests follow from the limits of their types."""
     application = context.application
     refuse_own_limits(context, "parameters", diagnostics)
+    _refuse_small_pools(application, 1 if context.selection.has("parameters_held") else 6, diagnostics)
+    diagnostics.extend(_longer_than_limits(application))
     held = context.selection.has("parameters_held")
     requests = [TypeName(_PACKAGE, "srv", f"{name}_Request") for name in (*_NAMES, *_SETS, "ListParameters")]
     requests = [TypeName(_HELD, "srv", "Exchange_Request")] if held else requests
@@ -117,6 +127,32 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> ParametersPlan:
     )
 
 
+def _longer_than_limits(application: Application) -> Iterator[Diagnostic]:
+    """Yield the defaults that the application's own limits of a value do not hold."""
+    for parameter in (p for node in application.nodes for p in node.parameters):
+        default = parameter.default
+        texts = default if isinstance(default, tuple) else (default,)
+        longest = max((len(text.encode()) for text in texts if isinstance(text, str)), default=0)
+        member, most = "string_value", _string_size(application) - 1
+        if parameter.type == "string[]":
+            member, most = _STRINGS[1], _array_string(application)
+        if longest > most and parameter.type in ("string", "string[]"):
+            yield _too_long(parameter, f"a text of {longest} bytes", member, most, f"{{string: {longest}}}")
+        elements = _elements(application, parameter.type) if parameter.is_array else 0
+        if isinstance(default, tuple) and len(default) > elements:
+            member = _ARRAYS[parameter.type][0] if parameter.type in _ARRAYS else member
+            count = len(default)
+            yield _too_long(parameter, f"{count} elements", member, elements, f"{{sequence: {count}}}")
+
+
+def _too_long(parameter: ParameterDecl, has: str, member: str, most: int, limit: str) -> Diagnostic:
+    message = (
+        f"the default of the parameter '{parameter.name}' has {has}, and the limit of {member} is {most}"
+    )
+    hint = f"Raise it: `limits: {{{_PACKAGE}/msg/ParameterValue: {{{member}: {limit}}}}}`"
+    return Diagnostic(message, parameter.span, hint, id="MG-3098")
+
+
 def _servers(application: Application) -> Iterator[ServerPlan]:
     names = Identifiers()
     for index, node in enumerate(application.nodes):
@@ -126,10 +162,11 @@ def _servers(application: Application) -> Iterator[ServerPlan]:
             index,
             full,
             symbol,
-            tuple(calls(node.parameters, symbol)),
+            tuple(entries(node.parameters, symbol)),
             tuple(tables(node.parameters, symbol)),
             tuple(members(node.parameters, _array_string(application) + 1)),
             tuple(copies(node.parameters)),
+            has_floating_range(node.parameters),
         )
 
 
@@ -210,6 +247,27 @@ def _held_rules(application: Application, name: int, node: int, count: int) -> t
         LimitRule((f"{_HELD}/msg/HeldParameter", "strings"), strings, most("string")),
         _rule("msg/Notice", "node", node, None, _HELD),
     )
+
+
+def _refuse_small_pools(application: Application, handles: int, diagnostics: Diagnostics) -> None:
+    """Report pools that are too small for what is declared, and for the `handles` of a server in its executor."""
+    needed = _declared(application)
+    in_pool = application.pools.get("parameters", needed)
+    if in_pool < needed:
+        diagnostics.error(
+            f"'pools.parameters' is {in_pool}, and a node declares {needed} parameters",
+            application.spans.get("pools.parameters"),
+            f"Set parameters: {needed} or more, or remove it",
+            id="MG-7049",
+        )
+    in_pool = application.pools.get("handles", handles)
+    if in_pool < handles:
+        diagnostics.error(
+            f"'pools.handles' is {in_pool}, and a parameter server needs {handles} handles of its executor",
+            application.spans.get("pools.handles"),
+            f"Set handles: {handles} or more, or remove it",
+            id="MG-7050",
+        )
 
 
 def _declared(application: Application) -> int:

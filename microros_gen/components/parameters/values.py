@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator
 
 from microros_gen.application.model import ParameterDecl
-from microros_gen.components.parameters.calls import C_TYPES, KINDS, string_limit
+from microros_gen.components.parameters.constants import C_TYPES, KINDS, string_limit
 
 _RESERVED = frozenset(
     """auto bool break case char const continue default do double else enum extern float for goto if inline int long

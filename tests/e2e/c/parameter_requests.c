@@ -6,6 +6,9 @@
 #include <microros/cdr_decode.h>
 #include <microros/rclc_parameters.h>
 #include <microros/service_type.h>
+#ifdef REQUESTS_DECLARED
+#include <rclc_parameter/declared_parameters.h>
+#endif
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -122,6 +125,17 @@ static void check_division(void)
   }
 }
 
+static void add_parameters(void)
+{
+#ifdef REQUESTS_DECLARED
+  check(arm_device_parameters_declare(&server));
+#else
+  check(rclc_add_parameter(&server, "a", RCLC_PARAMETER_BOOL));
+  check(rclc_add_parameter(&server, "b.steps", RCLC_PARAMETER_INT));
+  check(rclc_add_parameter(&server, "b.gain", RCLC_PARAMETER_DOUBLE));
+#endif
+}
+
 /* Arguments: "undeclared" lets set requests create parameters. */
 int main(int argc, char ** argv)
 {
@@ -131,10 +145,8 @@ int main(int argc, char ** argv)
   check_division();
   server.max_params = MICROROS_PARAMETERS_MAX;
   server.on_modification = accepts;
-  server.allow_undeclared_parameters = argc > 1 && strcmp(argv[1], "undeclared") == 0;
-  check(rclc_add_parameter(&server, "a", RCLC_PARAMETER_BOOL));
-  check(rclc_add_parameter(&server, "b.steps", RCLC_PARAMETER_INT));
-  check(rclc_add_parameter(&server, "b.gain", RCLC_PARAMETER_DOUBLE));
+  server.undeclared = argc > 1 && strcmp(argv[1], "undeclared") == 0 ? &rclc_parameter_undeclared : NULL;
+  add_parameters();
   while (fgets(line, sizeof(line), stdin) != NULL) {
     char * space = strchr(line, ' ');
     const bool swap = space != NULL && strncmp(&space[1], "big", 3u) == 0;

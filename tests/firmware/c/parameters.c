@@ -1,12 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * A parameter server with four parameters under an executor: its size is a figure of docs/verification/figures.md.
- * `parameters_report` has what the firmware does with a parameter: twice the steps, and how often these changed.
+ * `parameters_report` has what the firmware does with a parameter: twice the steps, and how often these changed. The
+ * application file declares the parameters, or (PARAMETERS_ADDED) this program adds them, as sources for rclc do.
  */
 #include <rcl/rcl.h>
 #include <rclc/executor.h>
 #include <rclc/rclc.h>
+#ifdef PARAMETERS_ADDED
 #include <rclc_parameter/rclc_parameter.h>
+#else
+#include <rclc_parameter/declared_parameters.h>
+#endif
 
 enum { STEPS_VETOED = 66 };
 
@@ -30,6 +35,7 @@ static bool on_parameter(const Parameter * old_param, const Parameter * new_para
   return true;
 }
 
+#ifdef PARAMETERS_ADDED
 static bool add_parameters(void)
 {
   return rclc_add_parameter(&server, "enabled", RCLC_PARAMETER_BOOL) == RCL_RET_OK &&
@@ -40,6 +46,12 @@ static bool add_parameters(void)
          rclc_add_parameter_constraint_integer(&server, "motor.steps", 0, 120, 2) == RCL_RET_OK &&
          rclc_set_parameter_read_only(&server, "version", true) == RCL_RET_OK;
 }
+#else
+static bool add_parameters(void)
+{
+  return arm_device_parameters_declare(&server) == RCL_RET_OK;
+}
+#endif
 
 int main(void)
 {

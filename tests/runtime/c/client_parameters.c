@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A parameter server and a publisher in the hands of the test: one call for each line of standard input. */
-#include "port_fake.h"
-
-#include "microros/port.h"
+#include "fake_no_wait.h"
+#include "fake_program.h"
 
 #include <microros_config.h>
 #include <rcl/error_handling.h>
@@ -13,6 +12,12 @@
 #include <rclc_parameter/held_parameters.h>
 #endif
 #include <rclc_parameter/rclc_parameter.h>
+#ifdef PARAMETERS_DECLARED
+#include <rclc_parameter/declared_parameters.h>
+#endif
+#ifdef PARAMETERS_STORED
+#include <rclc_parameter/parameter_storage.h>
+#endif
 #include <rmw_microros/rmw_microros.h>
 #include <std_msgs/msg/int32.h>
 
@@ -27,18 +32,6 @@ static rcl_publisher_t publisher;
 static rclc_executor_t executor;
 static rclc_parameter_server_t server;
 static rcl_allocator_t allocator;
-
-/* Nothing arrives before the test says so: no test lets the executor wait. */
-void port_wait(intptr_t handle, uint32_t timeout_ms)
-{
-  (void)handle;
-  (void)timeout_ms;
-  abort();
-}
-
-void port_wake(void)
-{
-}
 
 static rcl_ret_t start(void)
 {
@@ -67,6 +60,32 @@ static rcl_ret_t open_server(void)
   }
   return result;
 }
+
+#ifdef PARAMETERS_STORED
+/* restart NAME: the program begins with a parameter and the values that are saved */
+static rcl_ret_t restart(const char * argument)
+{
+  char name[64] = ""; /* the line's memory is used again when the agent answers */
+  size_t skipped = 0;
+  rcl_ret_t result;
+
+  (void)strncpy(name, argument, sizeof(name) - 1u);
+  result = rclc_parameter_server_init_default(&server, &node);
+
+  if (result == RCL_RET_OK) {
+    result = rclc_add_parameter(&server, name, RCLC_PARAMETER_INT);
+  }
+  if (result == RCL_RET_OK) {
+    result = rclc_parameter_storage_load(&server, 0, &skipped);
+    printf("skipped %zu\n", skipped);
+  }
+  if (result == RCL_RET_OK) {
+    result =
+      rclc_executor_init(&executor, &support.context, RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES, &allocator);
+  }
+  return result == RCL_RET_OK ? rclc_executor_add_parameter_server(&executor, &server, NULL) : result;
+}
+#endif
 
 static rcl_ret_t close_server(void)
 {
@@ -140,6 +159,26 @@ static rcl_ret_t check_held(void)
 }
 #endif
 
+#ifdef PARAMETERS_DECLARED
+/* What the application file declares of the node /arm/device: `steps` among others. */
+static rcl_ret_t update(void)
+{
+  static arm_device_parameters_t values;
+  const bool changed = arm_device_parameters_update(&values, &server);
+
+  printf("changed %d steps %" PRId64 "\n", (int)changed, values.steps);
+  return RCL_RET_OK;
+}
+
+/* Says something else of a parameter than its declaration. */
+static rcl_ret_t override(const char * name)
+{
+  const rcl_ret_t result = rclc_add_parameter_description(&server, name, "other", "words");
+
+  return result == RCL_RET_OK ? rclc_add_parameter_constraint_integer(&server, name, 0, 5, 0) : result;
+}
+#endif
+
 static rcl_ret_t print_statistics(void)
 {
   rmw_uros_statistics_t s;
@@ -171,6 +210,22 @@ static rcl_ret_t call(const char * line)
     case 'h': /* held */
       return check_held();
 #endif
+#ifdef PARAMETERS_DECLARED
+    case 'D': /* Declare */
+      return arm_device_parameters_declare(&server);
+    case 'O': /* Override NAME */
+      return override(name);
+    case 'U': /* Update */
+      return update();
+#endif
+#ifdef PARAMETERS_STORED
+    case 'k': /* keep */
+      return rclc_parameter_storage_save(&server, 0);
+    case 'l': /* load */
+      return rclc_parameter_storage_load(&server, 0, NULL);
+    case 'r': /* restart NAME */
+      return restart(name);
+#endif
     case 'i': /* init */
       return start();
     case 'o': /* open */
@@ -192,21 +247,13 @@ static rcl_ret_t call(const char * line)
   }
 }
 
+static void work(char * line)
+{
+  report_result(call(line));
+}
+
 int main(void)
 {
   allocator = rcl_get_default_allocator();
-  for (;;) {
-    const char * line = fake_read_line();
-
-    if (strcmp(line, "quit") == 0) {
-      return 0;
-    }
-    if (!fake_take_line(line)) {
-      const rcl_ret_t result = call(line);
-
-      printf("ret %d %s\n", (int)result, rcl_get_error_string().str);
-      rcl_reset_error();
-      (void)fflush(stdout);
-    }
-  }
+  return run_calls(work);
 }

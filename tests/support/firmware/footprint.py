@@ -40,7 +40,7 @@ INTERRUPTS = (
     "port_riscv_timer_next",
 )
 """The timer ticks while the program works: how often depends on where its first tick fell, so none of it counts."""
-_EXIT = ("-nographic", "-semihosting-config", "enable=on,target=native", "-icount", "shift=4,sleep=off")
+EXIT = ("-nographic", "-semihosting-config", "enable=on,target=native", "-icount", "shift=4,sleep=off")
 
 
 @dataclass(frozen=True)
@@ -197,7 +197,7 @@ def work(builds: Builds, name: str, sender: Sender) -> Work:
     image = builds.application(built, "measured.c", f"-DBENCH_INIT=rclc_publisher_init_{suffix}")
     emulator = target(name).emulator
     assert emulator is not None
-    command = [emulator.program, *emulator.arguments, *_EXIT]
+    command = [emulator.program, *emulator.arguments, *EXIT]
     empty, ready, *publishes = (
         region.counted for region in trace_regions(command, image, (*AGENT_FUNCTIONS, *INTERRUPTS))
     )

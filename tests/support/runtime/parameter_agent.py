@@ -15,7 +15,10 @@ from microros_gen.ros.codec import ENCAPSULATION_BYTES, Codec
 from tests.support.runtime.serving_agent import ServingAgent
 
 LITTLE = b"\0\1\0\0"
-CALLS = ("GetParameters", "SetParameters", "SetParametersAtomically", "ListParameters")
+CALLS = (
+    *("GetParameters", "SetParameters", "SetParametersAtomically"),
+    *("ListParameters", "DescribeParameters", "GetParameterTypes"),
+)
 """The clients, in the order of the component's plan."""
 EVENT = "rcl_interfaces/msg/ParameterEvent"
 MEMBERS = {
@@ -40,14 +43,15 @@ def value(kind: int, content: Any = None) -> dict[str, Any]:
 class ParameterAgent(ServingAgent):
     """`parameters` are those of the other node, by name, each with its type and content.
 
-    `running`: it answers. `rejects` has the reason why a parameter is not set. `known_alone`: an unknown name among
-    those that are got makes the response empty, as rclcpp does. `change` gets each response before it is encoded, and
-    `damage` its bytes. `seen` are the requests.
+    `descriptors` has what it says of a parameter besides name and type. `running`: it answers. `rejects` has the reason
+    why a parameter is not set. `known_alone`: an unknown name among those that are got makes the response empty, as
+    rclcpp does. `change` gets each response before it is encoded, and `damage` its bytes. `seen` are the requests.
     """
 
     first_client: int = 0
     reader: int = 0
     parameters: dict[str, tuple[int, Any]] = field(default_factory=dict)
+    descriptors: dict[str, dict[str, Any]] = field(default_factory=dict)
     rejects: dict[str, str] = field(default_factory=dict)
     running: bool = True
     known_alone: bool = True
@@ -95,6 +99,8 @@ class ParameterAgent(ServingAgent):
             found = [value(*self.parameters.get(name, (0, None))) for name in request["names"]]
             all_known = all(name in self.parameters for name in request["names"])
             return {"values": found if all_known or not self.known_alone else []}
+        if call in ("DescribeParameters", "GetParameterTypes"):
+            return self._describe(call, request["names"])
         if call == "ListParameters":
             starts = tuple(request["prefixes"]) or ("",)
             names = [name for name in self.parameters if name.startswith(starts)]
@@ -109,6 +115,17 @@ class ParameterAgent(ServingAgent):
         if call == "SetParameters":
             return {"results": results}
         return {"result": failed or {"successful": True, "reason": ""}}
+
+    def _describe(self, call: str, names: list[str]) -> dict[str, Any]:
+        kinds = [self.parameters.get(name, (0, None))[0] for name in names]
+        known = all(name in self.parameters for name in names) or not self.known_alone
+        if call == "GetParameterTypes":
+            return {"types": bytes(kinds) if known else b""}
+        described = [
+            {"name": name, "type": kind, **self.descriptors.get(name, {})}
+            for name, kind in zip(names, kinds, strict=True)
+        ]
+        return {"descriptors": described if known else []}
 
     def _result(self, name: str) -> dict[str, Any]:
         return {"successful": name not in self.rejects, "reason": self.rejects.get(name, "")}

@@ -7,7 +7,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.support.runtime.harness import Tree, build
+from tests.support.runtime.harness import build
 from tests.support.runtime.surface import write_application
 
 IDENTITY_SIZE = 24
@@ -24,10 +24,9 @@ class Program:
     input_size: int
 
 
-def program_of(folder: Path, text: str) -> Program:
+def program_of(folder: Path, text: str, source: str = "client_parameters.c") -> Program:
     tree = write_application(folder, text)
-    sources = tuple(s for s in tree.sources if not s.parent.name.startswith("port_posix"))
-    path = build(Tree(tree.folder, sources), ["port_fake.c", "client_parameters.c"], "parameters")
+    path = build(tree.without_port("port_posix_storage.c"), ["port_fake.c", source], "parameters")
     config = (tree.include / "microros_config.h").read_text()
     (size,) = re.findall(r"MICROROS_INPUT_SIZE (\d+)u", config)
     return Program(path, int(size))

@@ -2,6 +2,7 @@
 /* Levels are set and read as rclpy's nodes do it. Requests and replies of all nodes share their memory. */
 #include "microros/rcl_logger_services.h"
 
+#include "microros/rcl_service_open.h"
 #include "microros/rmw_node.h"
 #include "microros/rmw_service.h"
 #include "microros/text.h"
@@ -30,10 +31,8 @@ static rcl_ret_t services_open(
   rcl_service_t * service, const rcl_node_t * node, const rosidl_service_type_support_t * type,
   const char * name)
 {
-  const rcl_service_options_t options = rcl_service_get_default_options();
-
   *service = rcl_get_zero_initialized_service();
-  return rcl_service_init(service, node, type, name, &options);
+  return rcl_service_open(service, node, type, name, &rmw_qos_profile_services_default);
 }
 
 rcl_ret_t rcl_logger_services_open(rcl_node_t * node)

@@ -21,7 +21,7 @@ uint32_t rclc_parameter_in_length(cdr_in_t * in)
   return cdr_in_length(in, 1u, "message");
 }
 
-/* As for ROS, a string ends at its first NUL, or where its length says. */
+/* As in ROS, a string ends at its first NUL or after its length. */
 parameter_text_t rclc_parameter_in_text(cdr_in_t * in)
 {
   const uint32_t length = rclc_parameter_in_length(in);

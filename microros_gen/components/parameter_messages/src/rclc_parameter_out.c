@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* Returns where `bytes` go that are aligned to `width`, and moves on; NULL: no room. */
+/* Returns the place for `bytes` with the alignment `width` and moves past it; NULL: no room. */
 static uint8_t * out_take(parameter_out_t * out, uint32_t width, uint32_t bytes)
 {
   const uint32_t start = cdr_aligned(out->position, width);
@@ -36,6 +36,19 @@ void rclc_parameter_out_4(parameter_out_t * out, uint32_t value)
 
   if (to != NULL) {
     cdr_put_4(to, &value);
+  }
+}
+
+uint32_t rclc_parameter_out_begin(parameter_out_t * out)
+{
+  rclc_parameter_out_4(out, 0u);
+  return out->position - 4u;
+}
+
+void rclc_parameter_out_end(parameter_out_t * out, uint32_t at, uint32_t count)
+{
+  if (!out->full) {
+    cdr_put_4(&out->body[at], &count);
   }
 }
 

@@ -12,7 +12,7 @@ void xrce_parameters_keep_beginning(const xrce_endpoint_t * endpoint, uint8_t si
   endpoint->client->beginnings[endpoint->index - MICROROS_PUBLISHERS_MAX] = size;
 }
 
-/* Keeps the beginning of a DATA that is too large: there are `here` bytes of the `whole` after its header. */
+/* Keeps the first bytes of a DATA that is too large: `here` of its `whole` bytes have arrived after its header. */
 static void parameters_keep(
   xrce_client_t * client, const uint8_t * data, size_t here, size_t whole, uint32_t now)
 {

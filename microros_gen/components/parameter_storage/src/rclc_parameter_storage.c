@@ -64,12 +64,12 @@ static storage_found_t storage_find(rclc_parameter_server_t * server, uint32_t s
 /* Whether the request that the server has is one parameter. */
 static bool storage_is_parameter(const rclc_parameter_server_t * server)
 {
-  cdr_fault_t fault = {.field = ""};
-  cdr_in_t in = rclc_parameter_request_begin(server, &fault);
+  cdr_in_t in = rclc_parameter_request_begin(server);
   const uint32_t count = rclc_parameter_in_length(&in);
+  parameter_requested_t requested;
 
   if (count == 1u) {
-    (void)rclc_parameter_request_parameter(&in);
+    rclc_parameter_request_parameter(&in, &requested);
   }
   return count == 1u && !in.failed;
 }
@@ -138,6 +138,12 @@ rcl_ret_t rclc_parameter_storage_load(
   if (result != RCL_RET_OK) {
     return result;
   }
+#if MICROROS_PARAMETERS_HELD
+  if (parameter_server->held.has_begun) {
+    return storage_refuse(MICROROS_ERROR_WORDS(
+      "load before rclc_executor_add_parameter_server: later values overrule the held ones"));
+  }
+#endif
   found = storage_find(parameter_server, set);
   if (found.newest_state == STORAGE_GOOD) {
     count = storage_apply_all(parameter_server, &found);
@@ -166,7 +172,7 @@ static void storage_put_all(rclc_parameter_server_t * server, storage_out_t * ou
       continue;
     }
     rclc_parameter_out_4(&body, 1u);
-    rclc_parameter_out_text(&body, place->name);
+    rclc_parameter_out_text(&body, place->about->name);
     rclc_parameter_out_value(&body, place);
     prefix[0] = body.position;
     microros_storage_put(out, (const uint8_t *)prefix, (uint32_t)STORAGE_UNIT);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the application does with its parameters. */
+/* Calls of the application. */
 #include "microros/error.h"
 #include "microros/rclc_parameter_array.h"
 #include "microros/rclc_parameter_string.h"
@@ -8,28 +8,17 @@
 
 #include <string.h>
 
-static parameter_text_t parameter_text(const char * text)
-{
-  const parameter_text_t result = {text, (uint32_t)microros_text_size(text)};
-
-  return result;
-}
-
 rcl_ret_t rclc_add_parameter(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, rclc_parameter_type_t type)
 {
   parameter_text_t name;
-  rclc_parameter_place_t * place = NULL;
+  rclc_parameter_place_t * place;
+  rcl_ret_t result;
 
   if (parameter_server == NULL || parameter_name == NULL) {
     return rclc_parameter_refuse_argument();
   }
-  if (parameter_server->on_callback) {
-    return rclc_parameter_refuse(
-      RCLC_PARAMETER_DISABLED_ON_CALLBACK, parameter_name,
-      MICROROS_ERROR_WORDS("not to be changed by the callback"));
-  }
-  name = parameter_text(parameter_name);
+  name = rclc_parameter_text(parameter_name);
   if (name.size == 0u || name.size >= (uint32_t)MICROROS_PARAMETER_NAME_SIZE) {
     return rclc_parameter_refuse(
       RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("empty or too long a name"));
@@ -37,16 +26,14 @@ rcl_ret_t rclc_add_parameter(
   if (!rclc_parameter_holds((uint32_t)type)) {
     return rclc_parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("no type of a value"));
   }
-  if (rclc_parameter_find(parameter_server, &name) != NULL) {
-    return rclc_parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("added already"));
+  if (!rclc_parameter_may_add(parameter_server, &name, &result)) {
+    return result;
   }
-  if (parameter_server->count == parameter_server->max_params) {
-    const uint32_t count = (uint32_t)parameter_server->count;
-
-    microros_error_set(microros_error_parameters_full, parameter_name, NULL, count, count + 1u);
-    return RCL_RET_ERROR;
+  place = rclc_parameter_create(parameter_server, &name, (uint8_t)type);
+  if (place == NULL) {
+    return rclc_parameter_refuse(
+      RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("more servers than nodes"));
   }
-  place = rclc_parameter_place(parameter_server, &name, (uint8_t)type);
   rclc_parameter_note(parameter_server, place, PARAMETER_EVENT_NEW);
   ++parameter_server->count;
   rclc_parameter_publish(parameter_server);
@@ -77,11 +64,7 @@ static rcl_ret_t parameter_set(
   if (!rclc_parameter_is(place, name, type, &result, RCLC_PARAMETER_TYPE_MISMATCH)) {
     return result;
   }
-  old_state.name = place->name;
-  old_state.type = place->type;
-  old_state.value = place->value;
-  rclc_parameter_string_old(place, &old_state);
-  rclc_parameter_array_old(place, &old_state);
+  old_state = rclc_parameter_state(place);
   new_state = old_state;
   new_state.value = *value;
   if (!rclc_parameter_accepts(server, &old_state, &new_state)) {
@@ -118,7 +101,7 @@ rcl_ret_t rclc_parameter_set_double(
   return parameter_set(parameter_server, parameter_name, RCLC_PARAMETER_DOUBLE, &scalar);
 }
 
-/* Gives the value of a parameter of that type. */
+/* Returns the value of a parameter of that type. */
 static rcl_ret_t parameter_get(
   rclc_parameter_server_t * server, const char * name, rclc_parameter_type_t type, const void * output,
   rclc_parameter_scalar_t * value)
@@ -194,16 +177,12 @@ rcl_ret_t rclc_parameter_set_string(
     return result;
   }
   text.size = (uint32_t)microros_text_size(value);
-  if (text.size > place->string_most) {
+  if (text.size > place->about->string_most) {
     return rclc_parameter_refuse(
       RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("the string is too long"));
   }
   rclc_parameter_string_copy(parameter_server->string_new, &text);
-  old_state.name = place->name;
-  old_state.type = place->type;
-  old_state.value = place->value;
-  old_state.string = place->string;
-  rclc_parameter_array_old(place, &old_state);
+  old_state = rclc_parameter_state(place);
   new_state = old_state;
   new_state.string = parameter_server->string_new;
   if (!rclc_parameter_accepts(parameter_server, &old_state, &new_state)) {
@@ -238,6 +217,8 @@ rcl_ret_t rclc_add_parameter_constraint_string(
 {
   rcl_ret_t result;
   rclc_parameter_place_t * place;
+  rclc_parameter_about_t * about;
+  uint32_t number = 0;
 
   if (size >= MICROROS_PARAMETER_STRING_SIZE) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "size");
@@ -249,7 +230,10 @@ rcl_ret_t rclc_add_parameter_constraint_string(
   if (microros_text_size(place->string) > size) {
     return rclc_parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("its string is longer"));
   }
-  place->string_most = (uint32_t)size;
-  return RCL_RET_OK;
+  about = rclc_parameter_own(parameter_server, place, &number, &result);
+  if (about != NULL) {
+    about->string_most = (uint32_t)size;
+  }
+  return result;
 }
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Values that are arrays: in requests, in their places, in replies, and as the callback sees them. */
+/* Arrays in requests, in the store, in replies, and for the callback. */
 #include "microros/rclc_parameter_array.h"
 
 #include "microros/cdr.h"
@@ -35,7 +35,7 @@ static bool array_is(uint8_t type)
   return type >= (uint8_t)RCLC_PARAMETER_BYTE_ARRAY && type <= (uint8_t)RCLC_PARAMETER_STRING_ARRAY;
 }
 
-/* Returns how many elements of a type there is room for. */
+/* Returns for how many elements of a type the server has room. */
 static uint32_t array_room(uint8_t type)
 {
   const uint32_t width = widths[type - (uint8_t)RCLC_PARAMETER_BYTE_ARRAY];
@@ -44,12 +44,12 @@ static uint32_t array_room(uint8_t type)
                                                       : MICROROS_PARAMETER_ARRAY_SIZE / width;
 }
 
-/* Returns how many elements of a type a place takes. */
+/* Returns how many elements of a type a place accepts. */
 static uint32_t array_most(const rclc_parameter_place_t * place, uint8_t type)
 {
   const uint32_t room = array_room(type);
 
-  return place != NULL && place->array_most < room ? place->array_most : room;
+  return place != NULL && place->about->array_most < room ? place->about->array_most : room;
 }
 
 #if MICROROS_PARAMETER_STRINGS_MAX > 0u
@@ -211,7 +211,7 @@ static void array_out_texts(parameter_out_t * out, const char * texts, uint32_t 
 void rclc_parameter_out_arrays(parameter_out_t * out, const rclc_parameter_place_t * place)
 {
   for (uint32_t i = 0; i < (uint32_t)PARAMETER_ARRAYS; ++i) {
-    const bool has = place != NULL && place->type == i + (uint32_t)RCLC_PARAMETER_BYTE_ARRAY;
+    const bool has = place->type == i + (uint32_t)RCLC_PARAMETER_BYTE_ARRAY;
     const uint32_t count = has ? place->array_count : 0u;
 
     rclc_parameter_out_4(out, count);
@@ -225,28 +225,71 @@ void rclc_parameter_out_arrays(parameter_out_t * out, const rclc_parameter_place
   }
 }
 
+#if MICROROS_PARAMETER_STRINGS_MAX > 0u
+static bool array_start_fits(const char * texts, uint32_t count)
+{
+  size_t position = 0;
+  bool result = true;
+
+  for (uint32_t i = 0; i < count; ++i) {
+    const size_t size = microros_text_size(&texts[position]) + 1u;
+
+    result = size <= MICROROS_PARAMETER_ARRAY_STRING_SIZE && result;
+    position += size;
+  }
+  return result;
+}
+#endif
+
+bool rclc_parameter_array_start(
+  rclc_parameter_server_t * server, const rclc_parameter_declared_t * declared, parameter_state_t * state)
+{
+  const uint32_t count = declared->start_count;
+
+  if (!array_is(declared->type)) {
+    return true;
+  }
+  if (count > array_room(declared->type) || count > declared->about.array_most) {
+    return false;
+  }
+#if MICROROS_PARAMETER_STRINGS_MAX > 0u
+  if (declared->type == (uint8_t)RCLC_PARAMETER_STRING_ARRAY && !array_start_fits(declared->start, count)) {
+    return false;
+  }
+#endif
+  (void)memcpy(&server->array_new, declared->start, declared->start_bytes);
+  state->array = &server->array_new;
+  state->array_count = count;
+  return true;
+}
+
+void rclc_parameter_array_take(rclc_parameter_place_t * place, const parameter_state_t * state)
+{
+  if (array_is(state->type)) {
+    place->array = *state->array;
+    place->array_count = state->array_count;
+  }
+}
+
 static rcl_ret_t array_change(
   rclc_parameter_server_t * server, const char * name, rclc_parameter_place_t * place, uint32_t count)
 {
-  parameter_state_t old_state = {.name = place->name, .type = place->type, .value = place->value};
-  parameter_state_t new_state;
+  const parameter_state_t old_state = rclc_parameter_state(place);
+  parameter_state_t new_state = old_state;
 
-  rclc_parameter_array_old(place, &old_state);
-  new_state = old_state;
   new_state.array = &server->array_new;
   new_state.array_count = count;
   if (!rclc_parameter_accepts(server, &old_state, &new_state)) {
     return rclc_parameter_refuse(
       RCLC_PARAMETER_MODIFICATION_REJECTED, name, MICROROS_ERROR_WORDS("the callback refused the value"));
   }
-  place->array = server->array_new;
-  place->array_count = count;
+  rclc_parameter_array_take(place, &new_state);
   rclc_parameter_note(server, place, PARAMETER_EVENT_CHANGED);
   rclc_parameter_publish(server);
   return RCL_RET_OK;
 }
 
-/* Returns the place that gets `count` elements of that type; NULL: *result says why not. */
+/* Returns the place for `count` elements of that type; NULL: *result has the error. */
 static rclc_parameter_place_t * array_look_to_set(
   rclc_parameter_server_t * server, const char * name, rclc_parameter_type_t type, size_t count,
   rcl_ret_t * result)
@@ -344,7 +387,7 @@ rcl_ret_t rclc_parameter_set_string_array(
 }
 #endif
 
-/* Gives the array of a parameter of that type. */
+/* Returns the array of a parameter of that type. */
 static const rclc_parameter_array_t * array_get(
   rclc_parameter_server_t * server, const char * name, rclc_parameter_type_t type, bool has_output,
   size_t * count, rcl_ret_t * result)
@@ -440,6 +483,8 @@ rcl_ret_t rclc_add_parameter_constraint_array(
 {
   rcl_ret_t result;
   rclc_parameter_place_t * place = rclc_parameter_look_to_change(parameter_server, parameter_name, &result);
+  rclc_parameter_about_t * about;
+  uint32_t number = 0;
 
   if (place == NULL) {
     return result;
@@ -453,8 +498,11 @@ rcl_ret_t rclc_add_parameter_constraint_array(
   if (size < place->array_count) {
     return rclc_parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("its array is longer"));
   }
-  place->array_most = (uint32_t)size;
-  return RCL_RET_OK;
+  about = rclc_parameter_own(parameter_server, place, &number, &result);
+  if (about != NULL) {
+    about->array_most = (uint32_t)size;
+  }
+  return result;
 }
 
 #endif

@@ -10,7 +10,7 @@
 static const rclc_parameter_place_t * copy_find(
   const rclc_parameter_server_t * server, const char * name, rclc_parameter_type_t type)
 {
-  const parameter_text_t text = {name, (uint32_t)microros_text_size(name)};
+  const parameter_text_t text = rclc_parameter_text(name);
   const rclc_parameter_place_t * place = rclc_parameter_find(server, &text);
 
   return place != NULL && place->type == (uint8_t)type ? place : NULL;

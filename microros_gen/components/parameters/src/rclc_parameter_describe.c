@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What ROS 2 shows of a parameter besides its value, and what it accepts. */
+/* Descriptions and constraints of parameters. */
 #include "microros/error.h"
 #include "microros/rclc_parameters.h"
 #include "microros/text.h"
 
-#include <float.h>
 #include <string.h>
 
 rcl_ret_t rclc_add_parameter_description(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, const char * parameter_description,
   const char * additional_constraints)
 {
+  static char texts[PARAMETERS_OWN][2u * MICROROS_PARAMETER_TEXT_SIZE];
   rclc_parameter_place_t * place;
+  rclc_parameter_about_t * about;
   rcl_ret_t result;
+  uint32_t number = 0;
   size_t size;
   size_t more;
 
@@ -30,13 +32,17 @@ rcl_ret_t rclc_add_parameter_description(
   }
   size = microros_text_size(parameter_description) + 1u;
   more = microros_text_size(additional_constraints) + 1u;
-  if (size > sizeof(place->description) || more > sizeof(place->additional_constraints)) {
+  if (size > MICROROS_PARAMETER_TEXT_SIZE || more > MICROROS_PARAMETER_TEXT_SIZE) {
     return rclc_parameter_refuse(
       RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("too long a description"));
   }
-  (void)memcpy(place->description, parameter_description, size);
-  (void)memcpy(place->additional_constraints, additional_constraints, more);
-  return RCL_RET_OK;
+  about = rclc_parameter_own(parameter_server, place, &number, &result);
+  if (about != NULL) {
+    (void)memcpy(texts[number], parameter_description, size);
+    (void)memcpy(&texts[number][size], additional_constraints, more);
+    about->texts = texts[number];
+  }
+  return result;
 }
 
 rcl_ret_t rclc_set_parameter_read_only(
@@ -51,70 +57,45 @@ rcl_ret_t rclc_set_parameter_read_only(
   return result;
 }
 
-rcl_ret_t rclc_add_parameter_constraint_integer(
-  rclc_parameter_server_t * parameter_server, const char * parameter_name, int64_t from_value,
-  int64_t to_value, uint64_t step)
+/* Sets the range of a parameter of that type. */
+static rcl_ret_t describe_range(
+  rclc_parameter_server_t * server, const char * name, rclc_parameter_type_t type,
+  const rclc_parameter_range_t * range)
 {
+  static rclc_parameter_range_t ranges[PARAMETERS_OWN];
   rcl_ret_t result;
-  rclc_parameter_place_t * place = rclc_parameter_look_to_change(parameter_server, parameter_name, &result);
+  uint32_t number = 0;
+  rclc_parameter_place_t * place = rclc_parameter_look_to_change(server, name, &result);
+  rclc_parameter_about_t * about = NULL;
 
-  if (rclc_parameter_is(place, parameter_name, RCLC_PARAMETER_INT, &result, RCL_RET_ERROR)) {
-    place->has_range = true;
-    place->range.integer.from_value = from_value;
-    place->range.integer.to_value = to_value;
-    place->range.integer.step = step;
+  if (rclc_parameter_is(place, name, type, &result, RCL_RET_ERROR)) {
+    about = rclc_parameter_own(server, place, &number, &result);
+  }
+  if (about != NULL) {
+    ranges[number] = *range;
+    about->range = &ranges[number];
   }
   return result;
 }
 
-static double describe_magnitude(double value)
+rcl_ret_t rclc_add_parameter_constraint_integer(
+  rclc_parameter_server_t * parameter_server, const char * parameter_name, int64_t from_value,
+  int64_t to_value, uint64_t step)
 {
-  return value < 0.0 ? -value : value;
-}
+  const rclc_parameter_range_t range = {.integer = {from_value, to_value, step}};
 
-/* As rclcpp compares: 100 times the precision of the two together. */
-static bool describe_equals(double a, double b)
-{
-  return describe_magnitude(a - b) <= DBL_EPSILON * describe_magnitude(a + b) * 100.0;
-}
-
-/* Only linked where a parameter has such a range: a processor without a double unit needs a lot of code for it. */
-static bool describe_holds(const rclc_parameter_range_t * range, double value)
-{
-  const double whole_numbers = 9007199254740992.0; /* 2^53: from here on a double has no fraction */
-  const double from = range->floating_point.from_value;
-  const double step = range->floating_point.step;
-  double steps;
-
-  if (describe_equals(value, from) || describe_equals(value, range->floating_point.to_value)) {
-    return true;
-  }
-  if (value < from || value > range->floating_point.to_value) {
-    return false;
-  }
-  if (!(step > 0.0 || step < 0.0)) {
-    return true;
-  }
-  steps = describe_magnitude((value - from) / step);
-  if (steps < whole_numbers) {
-    steps = (double)(int64_t)(steps + 0.5);
-  }
-  return describe_equals(value, from + steps * describe_magnitude(step));
+  return describe_range(parameter_server, parameter_name, RCLC_PARAMETER_INT, &range);
 }
 
 rcl_ret_t rclc_add_parameter_constraint_double(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, double from_value, double to_value,
   double step)
 {
-  rcl_ret_t result;
-  rclc_parameter_place_t * place = rclc_parameter_look_to_change(parameter_server, parameter_name, &result);
+  const rclc_parameter_range_t range = {.floating_point = {from_value, to_value, step}};
+  const rcl_ret_t result = describe_range(parameter_server, parameter_name, RCLC_PARAMETER_DOUBLE, &range);
 
-  if (rclc_parameter_is(place, parameter_name, RCLC_PARAMETER_DOUBLE, &result, RCL_RET_ERROR)) {
-    place->has_range = true;
-    place->range.floating_point.from_value = from_value;
-    place->range.floating_point.to_value = to_value;
-    place->range.floating_point.step = step;
-    parameter_server->floating_point_holds = describe_holds;
+  if (result == RCL_RET_OK) {
+    parameter_server->floating_point_holds = rclc_parameter_floating_point_holds;
   }
   return result;
 }

@@ -18,21 +18,23 @@ static void event_out_stamp(parameter_out_t * out)
   rclc_parameter_out_4(out, (uint32_t)nanoseconds);
 }
 
-/* Writes the parameters of which the event says `what`. */
+/* Writes the parameters that the event lists as `what`; as in ROS 2, deleted ones have no value. */
 static void event_out_list(parameter_out_t * out, const rclc_parameter_server_t * server, uint8_t what)
 {
+  const uint32_t at = rclc_parameter_out_begin(out);
   uint32_t count = 0;
 
   for (size_t i = 0; i < server->count; ++i) {
-    count += server->places[i].event == what ? 1u : 0u;
-  }
-  rclc_parameter_out_4(out, count);
-  for (size_t i = 0; i < server->count; ++i) {
-    if (server->places[i].event == what) {
-      rclc_parameter_out_text(out, server->places[i].name);
-      rclc_parameter_out_value(out, &server->places[i]);
+    const rclc_parameter_place_t * place = &server->places[i];
+
+    if (place->event == what) {
+      rclc_parameter_out_text(out, place->about->name);
+      rclc_parameter_out_value(
+        out, what == (uint8_t)PARAMETER_EVENT_DELETED ? &rclc_parameter_nothing : place);
+      ++count;
     }
   }
+  rclc_parameter_out_end(out, at, count);
 }
 
 static uint32_t event_encode(const void * message, uint8_t * body, cdr_fault_t * fault)
@@ -42,9 +44,9 @@ static uint32_t event_encode(const void * message, uint8_t * body, cdr_fault_t *
 
   event_out_stamp(&out);
   rclc_parameter_out_node(&out, server->node);
-  event_out_list(&out, server, (uint8_t)PARAMETER_EVENT_NEW);
-  event_out_list(&out, server, (uint8_t)PARAMETER_EVENT_CHANGED);
-  event_out_list(&out, server, (uint8_t)PARAMETER_EVENT_DELETED);
+  for (uint8_t what = (uint8_t)PARAMETER_EVENT_NEW; what <= (uint8_t)PARAMETER_EVENT_DELETED; ++what) {
+    event_out_list(&out, server, what); /* the message has them in the order of the enumeration */
+  }
   if (out.full) {
     (void)cdr_refuse(fault, CDR_FAULT_LIMIT, "parameters", server->count, 0u);
   }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Finds the parameter that a call of the application means, or says why not. */
+/* Finds the parameter for a call of the application, or sets the error. */
 #include "microros/error.h"
 #include "microros/rclc_parameters.h"
-#include "microros/text.h"
 
 #include <stddef.h>
 
@@ -21,13 +20,13 @@ rclc_parameter_place_t * rclc_parameter_look(
   rclc_parameter_server_t * server, const char * name, rcl_ret_t * result)
 {
   const rclc_parameter_place_t * found;
-  parameter_text_t text = {name, 0};
+  parameter_text_t text;
 
   if (server == NULL || name == NULL) {
     *result = rclc_parameter_refuse_argument();
     return NULL;
   }
-  text.size = (uint32_t)microros_text_size(name);
+  text = rclc_parameter_text(name);
   found = rclc_parameter_find(server, &text);
   if (found == NULL) {
     *result = rclc_parameter_refuse(RCL_RET_ERROR, name, MICROROS_ERROR_WORDS("unknown"));
@@ -37,15 +36,41 @@ rclc_parameter_place_t * rclc_parameter_look(
   return &server->places[found - server->places];
 }
 
+static rcl_ret_t look_refuse_callback(const char * name)
+{
+  return rclc_parameter_refuse(
+    RCLC_PARAMETER_DISABLED_ON_CALLBACK, name, MICROROS_ERROR_WORDS("not to be changed by the callback"));
+}
+
 rclc_parameter_place_t * rclc_parameter_look_to_change(
   rclc_parameter_server_t * server, const char * name, rcl_ret_t * result)
 {
   if (server != NULL && server->on_callback) {
-    *result = rclc_parameter_refuse(
-      RCLC_PARAMETER_DISABLED_ON_CALLBACK, name, MICROROS_ERROR_WORDS("not to be changed by the callback"));
+    *result = look_refuse_callback(name);
     return NULL;
   }
   return rclc_parameter_look(server, name, result);
+}
+
+bool rclc_parameter_may_add(
+  const rclc_parameter_server_t * server, const parameter_text_t * name, rcl_ret_t * result)
+{
+  if (server->on_callback) {
+    *result = look_refuse_callback(name->data);
+    return false;
+  }
+  if (rclc_parameter_find(server, name) != NULL) {
+    *result = rclc_parameter_refuse(RCL_RET_ERROR, name->data, MICROROS_ERROR_WORDS("added already"));
+    return false;
+  }
+  if (server->count == server->max_params) {
+    const uint32_t count = (uint32_t)server->count;
+
+    microros_error_set(microros_error_parameters_full, name->data, NULL, count, count + 1u);
+    *result = RCL_RET_ERROR;
+    return false;
+  }
+  return true;
 }
 
 bool rclc_parameter_is(

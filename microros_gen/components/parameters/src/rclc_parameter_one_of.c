@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Parameters that accept some values only. */
+/* Parameters with a list of accepted values. */
 #include "microros/rclc_parameter_one_of.h"
 
 #if MICROROS_PARAMETER_ONE_OF
@@ -18,7 +18,7 @@ static bool one_of_integers(const int64_t * values, size_t count, int64_t value)
   return false;
 }
 
-/* Exactly: what is listed was read from the same text as what is set. */
+/* Compares exactly: the list and the values of requests are read from the same texts. */
 static bool one_of_doubles(const double * values, size_t count, double value)
 {
   for (size_t i = 0; i < count; ++i) {
@@ -43,19 +43,20 @@ static bool one_of_strings(const char * const * values, size_t count, const para
 
 bool rclc_parameter_one_of(const rclc_parameter_place_t * place, const parameter_requested_t * requested)
 {
-  const size_t count = place->one_of_count;
+  const void * values = place->about->one_of;
+  const size_t count = place->about->one_of_count;
 
-  if (place->one_of == NULL || requested->type != place->type) {
+  if (values == NULL || requested->type != place->type) {
     return true;
   }
   switch (place->type) {
     case RCLC_PARAMETER_INT:
-      return one_of_integers(place->one_of, count, requested->value.integer_value);
+      return one_of_integers(values, count, requested->value.integer_value);
     case RCLC_PARAMETER_DOUBLE:
-      return one_of_doubles(place->one_of, count, requested->value.double_value);
+      return one_of_doubles(values, count, requested->value.double_value);
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
     case RCLC_PARAMETER_STRING:
-      return one_of_strings(place->one_of, count, &requested->string);
+      return one_of_strings(values, count, &requested->string);
 #endif
     default:
       return true;
@@ -68,14 +69,19 @@ static rcl_ret_t one_of_add(
 {
   rcl_ret_t result;
   rclc_parameter_place_t * place;
+  rclc_parameter_about_t * about = NULL;
+  uint32_t number = 0;
 
   if (values == NULL) {
     return rclc_parameter_refuse_argument();
   }
   place = rclc_parameter_look_to_change(server, name, &result);
   if (rclc_parameter_is(place, name, type, &result, RCL_RET_ERROR)) {
-    place->one_of = values;
-    place->one_of_count = count;
+    about = rclc_parameter_own(server, place, &number, &result);
+  }
+  if (about != NULL) {
+    about->one_of = values;
+    about->one_of_count = count;
   }
   return result;
 }

@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rclc_parameter_reason.h"
 
-#include "microros/text.h"
-
 #include <stddef.h>
 
 enum { PARTS_MAX = 7 };
 
-/* The words of an outcome: %n becomes the name, %o the type that the parameter has, %t the type that was asked for. */
+/* The text of an outcome: %n becomes the name, %o the type that the parameter has, %t the requested type. */
 static const char * reason_words(uint8_t outcome)
 {
   switch (outcome) {
@@ -19,6 +17,8 @@ static const char * reason_words(uint8_t outcome)
       return "parameter name must not be empty";
     case PARAMETER_UNDECLARED:
       return "parameter '%n' cannot be set because it was not declared";
+    case PARAMETER_SOME_UNDECLARED:
+      return "One or more parameters were not declared before setting";
     case PARAMETER_READ_ONLY:
       return "parameter '%n' cannot be set because it is read-only";
     case PARAMETER_STATIC:
@@ -31,10 +31,6 @@ static const char * reason_words(uint8_t outcome)
       return "Parameter {%n} doesn't comply with floating point range.";
     case PARAMETER_REJECTED:
       return "rejected by the callback";
-    case PARAMETER_NAME_LONG:
-      return "parameter name '%n' is too long";
-    case PARAMETER_FULL:
-      return "no place for parameter '%n'";
     case PARAMETER_CUT:
       return "the request is too large, none of it was set";
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
@@ -55,6 +51,15 @@ static const char * reason_words(uint8_t outcome)
   }
 }
 
+/* Those of a parameter that would be created are linked only where that is allowed. */
+static const char * reason_words_of(const rclc_parameter_server_t * server, uint8_t outcome)
+{
+  if (server->undeclared != NULL && outcome >= (uint8_t)PARAMETER_NAME_LONG) {
+    return outcome == (uint8_t)PARAMETER_NAME_LONG ? server->undeclared->name_long : server->undeclared->full;
+  }
+  return reason_words(outcome);
+}
+
 static const char * reason_type(uint8_t type)
 {
   static const char * const names[] = {"not set",      "bool",        "integer",    "double",
@@ -64,14 +69,7 @@ static const char * reason_type(uint8_t type)
   return type < sizeof(names) / sizeof(names[0]) ? names[type] : "unknown type";
 }
 
-static parameter_text_t reason_text(const char * text)
-{
-  const parameter_text_t result = {text, (uint32_t)microros_text_size(text)};
-
-  return result;
-}
-
-/* A name that no parameter can have is cut, between two characters of UTF-8. */
+/* A name that is too long for any parameter is truncated, between two characters of UTF-8. */
 static parameter_text_t reason_name(const parameter_text_t * name)
 {
   parameter_text_t result = *name;
@@ -86,29 +84,31 @@ static parameter_text_t reason_name(const parameter_text_t * name)
 }
 
 static parameter_text_t reason_insertion(
-  char letter, const rclc_parameter_place_t * place, const parameter_requested_t * requested)
+  char letter, const rclc_parameter_server_t * server, const parameter_requested_t * requested)
 {
+  const rclc_parameter_place_t * place;
+
   if (letter == 'n') {
     return reason_name(&requested->name);
   }
   if (letter == 't') {
-    return reason_text(reason_type(requested->type));
+    return rclc_parameter_text(reason_type(requested->type));
   }
-  return reason_text(reason_type(place != NULL ? place->type : (uint8_t)RCLC_PARAMETER_NOT_SET));
+  place = rclc_parameter_find(server, &requested->name);
+  return rclc_parameter_text(reason_type(place != NULL ? place->type : (uint8_t)RCLC_PARAMETER_NOT_SET));
 }
 
 void rclc_parameter_out_reason(
   parameter_out_t * out, const rclc_parameter_server_t * server, const parameter_requested_t * requested,
   uint8_t outcome)
 {
-  const rclc_parameter_place_t * place = rclc_parameter_find(server, &requested->name);
-  const char * words = reason_words(outcome);
+  const char * words = reason_words_of(server, outcome);
   parameter_text_t parts[PARTS_MAX];
   uint32_t count = 0;
 
   while (*words != '\0' && count < (uint32_t)PARTS_MAX) {
     if (*words == '%') {
-      parts[count] = reason_insertion(words[1], place, requested);
+      parts[count] = reason_insertion(words[1], server, requested);
       words = &words[2];
     } else {
       uint32_t size = 0;

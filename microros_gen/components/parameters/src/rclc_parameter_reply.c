@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Replies, written into the stream from the store and the request that the server has. */
+/* Replies, written into the stream from the store and the request in the server. */
 #include "microros/rclc_parameter_reply.h"
 
 #include "microros/rclc_parameter_descriptor.h"
@@ -20,7 +20,7 @@ static parameter_out_t reply_begin(uint8_t * body, uint32_t room)
   return out;
 }
 
-/* Ends a reply whose first member is a list; one with no room, or an unknown name, is empty as those of rclcpp. */
+/* Ends a reply whose first member is a list; without room, or for an unknown name, the list is empty, as in rclcpp. */
 static uint32_t reply_end(parameter_out_t * out, bool known)
 {
   if (out->full || !known) {
@@ -30,33 +30,35 @@ static uint32_t reply_end(parameter_out_t * out, bool known)
   return out->position;
 }
 
-/* What a reply has for each name of its request. */
+/* Writes the part of a reply for each name of its request. */
 typedef enum reply_part_t { REPLY_VALUE, REPLY_TYPE, REPLY_DESCRIPTOR } reply_part_t;
 
 static uint32_t reply_of_names(const void * message, uint8_t * body, uint32_t room, reply_part_t part)
 {
   const rclc_parameter_server_t * server = message;
-  cdr_fault_t fault = {.field = ""};
-  cdr_in_t in = rclc_parameter_request_begin(server, &fault);
+  cdr_in_t in = rclc_parameter_request_begin(server);
   const uint32_t count = rclc_parameter_in_length(&in);
   parameter_out_t out = reply_begin(body, room);
-  bool known = true;
+  bool misses = false;
 
   rclc_parameter_out_4(&out, count);
   for (uint32_t i = 0; i < count; ++i) {
     const parameter_text_t name = rclc_parameter_in_text(&in);
     const rclc_parameter_place_t * place = rclc_parameter_find(server, &name);
 
-    known = known && (place != NULL || server->allow_undeclared_parameters);
+    if (place == NULL) {
+      place = &rclc_parameter_nothing;
+      misses = true;
+    }
     if (part == REPLY_VALUE) {
       rclc_parameter_out_value(&out, place);
     } else if (part == REPLY_TYPE) {
-      rclc_parameter_out_1(&out, place != NULL ? place->type : (uint8_t)RCLC_PARAMETER_NOT_SET);
+      rclc_parameter_out_1(&out, place->type);
     } else {
       rclc_parameter_out_descriptor(&out, &name, place);
     }
   }
-  return reply_end(&out, known);
+  return reply_end(&out, !misses || server->undeclared != NULL);
 }
 
 uint32_t rclc_parameter_reply_values(const void * message, uint8_t * body, cdr_fault_t * fault)
@@ -80,7 +82,7 @@ uint32_t rclc_parameter_reply_descriptors(const void * message, uint8_t * body, 
     message, body, rcl_interfaces__srv__DescribeParameters_Response__MAX_ENCODED_SIZE, REPLY_DESCRIPTOR);
 }
 
-/* Writes a result; its reason stays out where it would take the room of those that follow. */
+/* Writes a result; its reason is left out if later results need the room. */
 static void reply_out_result(
   parameter_out_t * out, const rclc_parameter_server_t * server, const parameter_requested_t * requested,
   uint8_t outcome, uint32_t following)
@@ -97,66 +99,71 @@ static void reply_out_result(
   out->room = room;
 }
 
-/* Each entry of a request that did not arrive has the same result; more than there is room for have none. */
-static uint32_t reply_cut(parameter_out_t * out, const rclc_parameter_server_t * server)
+/* Whether one of the parameters of a request was not set: only a reason takes a second look at the request. */
+static bool reply_refuses(const rclc_parameter_server_t * server, uint32_t count)
 {
-  static const parameter_requested_t nothing = {.name = {"", 0}, .type = (uint8_t)RCLC_PARAMETER_NOT_SET};
-  const uint32_t count = server->request_cut;
-
-  if (count > out->room / (uint32_t)SHORTEST_RESULT) {
-    return reply_end(out, false);
-  }
-  rclc_parameter_out_4(out, count);
   for (uint32_t i = 0; i < count; ++i) {
-    reply_out_result(out, server, &nothing, (uint8_t)PARAMETER_CUT, count - i - 1u);
+    if (server->outcomes[i] != (uint8_t)PARAMETER_SET) {
+      return true;
+    }
   }
-  return reply_end(out, true);
+  return false;
 }
 
+/* Each entry of a request that was too large to be received has the same result, as far as the reply has room. */
 uint32_t rclc_parameter_reply_results(const void * message, uint8_t * body, cdr_fault_t * fault)
 {
   const rclc_parameter_server_t * server = message;
-  cdr_in_t in = rclc_parameter_request_begin(server, fault);
-  const uint32_t count = rclc_parameter_in_length(&in);
+  const bool is_cut = server->request_cut != 0u;
+  cdr_in_t in = rclc_parameter_request_begin(server);
+  const uint32_t count = is_cut ? server->request_cut : rclc_parameter_in_length(&in);
   parameter_out_t out = reply_begin(body, rcl_interfaces__srv__SetParameters_Response__MAX_ENCODED_SIZE);
+  const bool fits = count <= out.room / (uint32_t)SHORTEST_RESULT;
+  const bool has_reasons = is_cut || reply_refuses(server, count);
 
-  if (server->request_cut != 0u) {
-    return reply_cut(&out, server);
-  }
+  (void)fault;
   rclc_parameter_out_4(&out, count);
-  for (uint32_t i = 0; i < count; ++i) {
-    const parameter_requested_t requested = rclc_parameter_request_parameter(&in);
+  for (uint32_t i = 0; fits && i < count; ++i) {
+    parameter_requested_t requested = {.name = {"", 0}, .type = (uint8_t)RCLC_PARAMETER_NOT_SET};
 
-    reply_out_result(&out, server, &requested, server->outcomes[i], count - i - 1u);
+    if (has_reasons) {
+      rclc_parameter_request_parameter(&in, &requested); /* no name and no value of one that did not arrive */
+    }
+    reply_out_result(
+      &out, server, &requested, is_cut ? (uint8_t)PARAMETER_CUT : server->outcomes[i], count - i - 1u);
   }
-  return reply_end(&out, true);
+  return reply_end(&out, fits);
 }
 
 uint32_t rclc_parameter_reply_result(const void * message, uint8_t * body, cdr_fault_t * fault)
 {
   const rclc_parameter_server_t * server = message;
-  cdr_in_t in = rclc_parameter_request_begin(server, fault);
+  cdr_in_t in = rclc_parameter_request_begin(server);
   const uint32_t count = rclc_parameter_in_length(&in);
   parameter_out_t out =
     reply_begin(body, rcl_interfaces__srv__SetParametersAtomically_Response__MAX_ENCODED_SIZE);
   parameter_requested_t requested = {.name = {"", 0}, .type = (uint8_t)RCLC_PARAMETER_NOT_SET};
   uint8_t outcome = (uint8_t)(count == 0u ? PARAMETER_NONE : PARAMETER_SET);
 
+  (void)fault;
   if (server->request_cut != 0u) {
     outcome = (uint8_t)PARAMETER_CUT;
   }
   for (uint32_t i = 0; i < count && outcome == (uint8_t)PARAMETER_SET; ++i) {
-    requested = rclc_parameter_request_parameter(&in);
+    rclc_parameter_request_parameter(&in, &requested);
     outcome = server->outcomes[i];
+  }
+  if (outcome == (uint8_t)PARAMETER_UNDECLARED) {
+    outcome = (uint8_t)PARAMETER_SOME_UNDECLARED;
   }
   reply_out_result(&out, server, &requested, outcome, 0u);
   return out.position;
 }
 
 /* Returns how many dots there are before the NUL. */
-static uint64_t reply_dots(const char * name)
+static uint32_t reply_dots(const char * name)
 {
-  uint64_t count = 0;
+  uint32_t count = 0;
 
   for (uint32_t i = 0; name[i] != '\0'; ++i) {
     count += name[i] == '.' ? 1u : 0u;
@@ -166,32 +173,25 @@ static uint64_t reply_dots(const char * name)
 
 static bool reply_is_below(const char * name, const parameter_text_t * prefix)
 {
-  uint32_t i = 0;
-
-  while (i < prefix->size && name[i] != '\0' && name[i] == prefix->data[i]) {
-    ++i;
-  }
-  return i == prefix->size && (name[i] == '.' || name[i] == '\0');
+  return rclc_parameter_begins(name, prefix) && (name[prefix->size] == '.' || name[prefix->size] == '\0');
 }
 
-/* Whether a list request asks for the name: `depth` counts from the prefix that it is below; 0 is without end. */
+/* Returns whether a list request includes the name: `depth` counts from its prefix; 0 is unlimited. */
 static bool reply_lists(const rclc_parameter_server_t * server, const rclc_parameter_place_t * place)
 {
-  const char * name = place->name;
-  cdr_fault_t fault = {.field = ""};
-  cdr_in_t in = rclc_parameter_request_begin(server, &fault);
+  const char * name = place->about->name;
+  cdr_in_t in = rclc_parameter_request_begin(server);
   const uint32_t count = rclc_parameter_in_length(&in);
-  bool below = false;
-  uint64_t least = UINT64_MAX; /* levels below one of the prefixes */
+  /* Levels below one of the prefixes; without any prefix, all names are below the root. */
+  uint32_t least = count == 0u ? reply_dots(name) + 1u : UINT32_MAX;
   uint64_t depth = 0;
 
   for (uint32_t i = 0; i < count; ++i) {
     const parameter_text_t prefix = rclc_parameter_in_text(&in);
 
     if (reply_is_below(name, &prefix)) {
-      const uint64_t levels = name[prefix.size] == '\0' ? 0u : 1u + reply_dots(&name[prefix.size + 1u]);
+      const uint32_t levels = reply_dots(&name[prefix.size]);
 
-      below = true;
       least = levels < least ? levels : least;
     }
   }
@@ -199,10 +199,7 @@ static bool reply_lists(const rclc_parameter_server_t * server, const rclc_param
   if (place->event == (uint8_t)PARAMETER_EVENT_DELETED || server->request_cut != 0u) {
     return false;
   }
-  if (count == 0u) {
-    return depth == 0u || reply_dots(name) < depth;
-  }
-  return below && (depth == 0u || least <= depth);
+  return least != UINT32_MAX && (depth == 0u || least <= depth);
 }
 
 /* Returns the number of bytes before the last dot; 0 without a dot. */
@@ -216,13 +213,13 @@ static uint32_t reply_prefix(const char * name)
   return last;
 }
 
-/* Whether the prefix of the i-th parameter is one that no listed parameter before it has. */
+/* Returns whether no listed parameter before the i-th one has the same prefix. */
 static bool reply_prefix_is_new(const rclc_parameter_server_t * server, size_t i, uint32_t size)
 {
-  const parameter_text_t prefix = {server->places[i].name, size};
+  const parameter_text_t prefix = {server->places[i].about->name, size};
 
   for (size_t k = 0; k < i; ++k) {
-    const char * other = server->places[k].name;
+    const char * other = server->places[k].about->name;
 
     if (
       reply_lists(server, &server->places[k]) && reply_prefix(other) == size &&
@@ -233,41 +230,36 @@ static bool reply_prefix_is_new(const rclc_parameter_server_t * server, size_t i
   return true;
 }
 
-/* Writes the names that are listed, or their prefixes; where `out` is NULL it counts them only. */
-static uint32_t reply_out_list(parameter_out_t * out, const rclc_parameter_server_t * server, bool prefixes)
+/* Writes the names that are listed, or their prefixes. */
+static void reply_out_list(parameter_out_t * out, const rclc_parameter_server_t * server, bool prefixes)
 {
+  const uint32_t at = rclc_parameter_out_begin(out);
   uint32_t count = 0;
 
   for (size_t i = 0; i < server->count; ++i) {
-    const char * name = server->places[i].name;
-    const parameter_text_t prefix = {name, reply_prefix(name)};
+    parameter_text_t text = rclc_parameter_text(server->places[i].about->name);
 
-    if (
-      !reply_lists(server, &server->places[i]) ||
-      (prefixes && (prefix.size == 0u || !reply_prefix_is_new(server, i, prefix.size)))) {
+    if (!reply_lists(server, &server->places[i])) {
       continue;
     }
-    ++count;
-    if (out != NULL && prefixes) {
-      rclc_parameter_out_parts(out, &prefix, 1u);
-    } else if (out != NULL) {
-      rclc_parameter_out_text(out, name);
-    } else {
-      /* only counted */
+    if (prefixes) {
+      text.size = reply_prefix(text.data);
+      if (text.size == 0u || !reply_prefix_is_new(server, i, text.size)) {
+        continue;
+      }
     }
+    rclc_parameter_out_parts(out, &text, 1u);
+    ++count;
   }
-  return count;
+  rclc_parameter_out_end(out, at, count);
 }
 
 uint32_t rclc_parameter_reply_list(const void * message, uint8_t * body, cdr_fault_t * fault)
 {
-  const rclc_parameter_server_t * server = message;
   parameter_out_t out = reply_begin(body, rcl_interfaces__srv__ListParameters_Response__MAX_ENCODED_SIZE);
 
   (void)fault;
-  rclc_parameter_out_4(&out, reply_out_list(NULL, server, false));
-  (void)reply_out_list(&out, server, false);
-  rclc_parameter_out_4(&out, reply_out_list(NULL, server, true));
-  (void)reply_out_list(&out, server, true);
+  reply_out_list(&out, message, false);
+  reply_out_list(&out, message, true);
   return out.position;
 }

@@ -1,51 +1,47 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Requests stay as they are on the wire: they are checked when they arrive, copied once, and read again when they are
- * answered. So a name may be as long as it likes, and no message of their types takes memory.
+ * Requests are kept in their encoded form: checked when they arrive, copied once, and read again when they are
+ * answered. So names have no limit, and no decoded message takes memory.
  *
- * A request that is larger than the largest arrives as the length of its list alone.
+ * Of a request that is too large, only the length of its list is received.
  */
 #include "microros/rclc_parameter_array.h"
 #include "microros/rclc_parameters.h"
 
 #include <string.h>
 
-parameter_requested_t rclc_parameter_request_parameter(cdr_in_t * in)
+void rclc_parameter_request_parameter(cdr_in_t * in, parameter_requested_t * requested)
 {
-  parameter_requested_t requested = {.name = {"", 0}, .type = (uint8_t)RCLC_PARAMETER_NOT_SET};
   bool truth = false;
-  int64_t integer = 0;
-  double number = 0.0;
+  rclc_parameter_scalar_t numbers[2] = {
+    {.integer_value = 0}, {.integer_value = 0}}; /* an integer, a double */
 
-  requested.name = rclc_parameter_in_text(in);
-  cdr_get_1(in, &requested.type, 1u, "message");
+  requested->type = (uint8_t)RCLC_PARAMETER_NOT_SET;
+  requested->name = rclc_parameter_in_text(in);
+  cdr_get_1(in, &requested->type, 1u, "message");
   cdr_get_bool(in, &truth, 1u, "message");
-  cdr_get_8(in, &integer, 1u, "message");
-  cdr_get_8(in, &number, 1u, "message");
+  cdr_get_8(in, numbers, 2u, "message");
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
-  requested.string = rclc_parameter_in_text(in);
+  requested->string = rclc_parameter_in_text(in);
 #else
   (void)rclc_parameter_in_text(in);
 #endif
-  rclc_parameter_array_request(in, &requested);
-  if (requested.type == (uint8_t)RCLC_PARAMETER_BOOL) {
-    requested.value.bool_value = truth;
-  } else if (requested.type == (uint8_t)RCLC_PARAMETER_DOUBLE) {
-    requested.value.double_value = number;
-  } else {
-    requested.value.integer_value = integer;
+  rclc_parameter_array_request(in, requested);
+  requested->value = numbers[requested->type == (uint8_t)RCLC_PARAMETER_DOUBLE ? 1 : 0];
+  if (requested->type == (uint8_t)RCLC_PARAMETER_BOOL) {
+    requested->value.bool_value = truth;
   }
-  return requested;
 }
 
-cdr_in_t rclc_parameter_request_begin(const rclc_parameter_server_t * server, cdr_fault_t * fault)
+cdr_in_t rclc_parameter_request_begin(const rclc_parameter_server_t * server)
 {
-  const cdr_in_t in = {server->request, server->request_size, 0, server->request_swaps, false, fault};
+  static cdr_fault_t fault;
+  const cdr_in_t in = {server->request, server->request_size, 0, server->request_swaps, false, &fault};
 
   return in;
 }
 
-/* Whether a request arrived without the entries of its list; then notes how many these are. */
+/* Returns whether a request arrived without the entries of its list, and stores their number. */
 static bool request_cut(const cdr_in_t * in, rclc_parameter_server_t * server)
 {
   cdr_in_t list = *in;
@@ -59,7 +55,7 @@ static bool request_cut(const cdr_in_t * in, rclc_parameter_server_t * server)
   return count != 0u;
 }
 
-/* Keeps a request that was read to its end. */
+/* Copies a request that was read to its end. */
 static void request_keep(cdr_in_t * in, rclc_parameter_server_t * server)
 {
   if (in->failed) {
@@ -95,6 +91,7 @@ void rclc_parameter_decode_list(cdr_in_t * in, void * server)
 
 void rclc_parameter_decode_parameters(cdr_in_t * in, void * server)
 {
+  parameter_requested_t requested;
   uint32_t count;
 
   if (request_cut(in, server)) {
@@ -102,7 +99,7 @@ void rclc_parameter_decode_parameters(cdr_in_t * in, void * server)
   }
   count = rclc_parameter_in_length(in);
   for (uint32_t i = 0; i < count && !in->failed; ++i) {
-    (void)rclc_parameter_request_parameter(in);
+    rclc_parameter_request_parameter(in, &requested);
   }
   request_keep(in, server);
 }

@@ -12,17 +12,6 @@
 
 #include <string.h>
 
-rcl_ret_t rclc_parameter_server_init_default(rclc_parameter_server_t * parameter_server, rcl_node_t * node)
-{
-  static const rclc_parameter_options_t options = {
-    .notify_changed_over_dds = true,
-    .max_params = MICROROS_PARAMETERS_MAX,
-    .allow_undeclared_parameters = false,
-    .low_mem_mode = false};
-
-  return rclc_parameter_server_init_with_option(parameter_server, node, &options);
-}
-
 typedef struct server_service_t {
   const rosidl_service_type_support_t * type;
   const char * name;
@@ -86,13 +75,14 @@ static rcl_ret_t server_open(rclc_parameter_server_t * server, const rcl_node_t 
   if (!server->notify_changed_over_dds) {
     return RCL_RET_OK;
   }
+  /* The profile of the services equals rmw_qos_profile_parameter_events, of which it saves a copy. */
   return rclc_publisher_init(
     &server->event_publisher, node, &rclc_parameter_event_type, "/parameter_events",
-    &rmw_qos_profile_parameter_events);
+    &rmw_qos_profile_parameters);
 #endif
 }
 
-/* Closes what is open; a service or publisher that is not stays as it is. Returns the first result that is no RCL_RET_OK. */
+/* Closes all services and the publisher, as far as they are open. Returns the first error. */
 static rcl_ret_t server_close(rclc_parameter_server_t * server, rcl_node_t * node)
 {
   rcl_ret_t first = RCL_RET_OK;
@@ -116,13 +106,45 @@ static rcl_ret_t server_close(rclc_parameter_server_t * server, rcl_node_t * nod
   return first;
 }
 
+static rcl_ret_t server_init(
+  rclc_parameter_server_t * parameter_server, rcl_node_t * node, const rclc_parameter_options_t * options)
+{
+  rcl_ret_t result;
+
+  if (parameter_server == NULL || node == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "parameter_server or node");
+  }
+  (void)memset(parameter_server, 0, sizeof(*parameter_server)); /* it may be uninitialized memory */
+  parameter_server->node = node;
+  parameter_server->max_params = options->max_params;
+  parameter_server->notify_changed_over_dds = options->notify_changed_over_dds;
+  parameter_server->low_mem_mode = options->low_mem_mode;
+  result = server_open(parameter_server, node);
+  if (result != RCL_RET_OK) {
+    (void)server_close(parameter_server, node); /* the first error is reported */
+    parameter_server->node = NULL;
+  }
+  return result;
+}
+
+rcl_ret_t rclc_parameter_server_init_default(rclc_parameter_server_t * parameter_server, rcl_node_t * node)
+{
+  static const rclc_parameter_options_t options = {
+    .notify_changed_over_dds = true,
+    .max_params = MICROROS_PARAMETERS_MAX,
+    .allow_undeclared_parameters = false,
+    .low_mem_mode = false};
+
+  return server_init(parameter_server, node, &options);
+}
+
 rcl_ret_t rclc_parameter_server_init_with_option(
   rclc_parameter_server_t * parameter_server, rcl_node_t * node, const rclc_parameter_options_t * options)
 {
   rcl_ret_t result;
 
-  if (parameter_server == NULL || node == NULL || options == NULL || options->max_params == 0u) {
-    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "parameter_server, node, options or max_params");
+  if (options == NULL || options->max_params == 0u) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "options or max_params");
   }
   if (options->max_params > MICROROS_PARAMETERS_MAX) {
     microros_error_set(
@@ -130,16 +152,9 @@ rcl_ret_t rclc_parameter_server_init_with_option(
       (uint32_t)options->max_params);
     return RCL_RET_INVALID_ARGUMENT;
   }
-  (void)memset(parameter_server, 0, sizeof(*parameter_server)); /* it may be uninitialized memory */
-  parameter_server->node = node;
-  parameter_server->max_params = options->max_params;
-  parameter_server->notify_changed_over_dds = options->notify_changed_over_dds;
-  parameter_server->allow_undeclared_parameters = options->allow_undeclared_parameters;
-  parameter_server->low_mem_mode = options->low_mem_mode;
-  result = server_open(parameter_server, node);
-  if (result != RCL_RET_OK) {
-    (void)server_close(parameter_server, node); /* the first error is told */
-    parameter_server->node = NULL;
+  result = server_init(parameter_server, node, options);
+  if (result == RCL_RET_OK && options->allow_undeclared_parameters) {
+    parameter_server->undeclared = &rclc_parameter_undeclared;
   }
   return result;
 }
@@ -151,12 +166,16 @@ rcl_ret_t rclc_parameter_server_fini(rclc_parameter_server_t * parameter_server,
   }
   parameter_server->count = 0;
   parameter_server->on_modification = NULL;
+  if (parameter_server->own != NULL) {
+    parameter_server->own->server = NULL;
+    parameter_server->own = NULL;
+  }
   return server_close(parameter_server, node);
 }
 
-static rclc_handle_kind_t server_kind; /* that of a service, which also sends what events are due */
+static rclc_handle_kind_t server_kind; /* that of a service, which also publishes due events */
 
-/* As that of a service, which is not called here: a call by its pointer would be one that might come back. */
+/* As for a service. Its function is not called here: the call through a pointer would look like a recursion. */
 static rcl_ret_t server_look(const rclc_executor_handle_t * handle, bool * is_ready, int64_t * look_again_ns)
 {
   if (!rcl_service_is_valid(handle->service)) {
@@ -172,7 +191,7 @@ static rcl_ret_t server_look(const rclc_executor_handle_t * handle, bool * is_re
   return RCL_RET_OK;
 }
 
-/* Has the executor try again with events that found no room, whenever it looks at the handle that was added last. */
+/* Lets the executor retry events without room, whenever it checks the handle that was added last. */
 static void server_watch(rclc_executor_t * executor)
 {
   rclc_executor_handle_t * handle = &executor->handles[executor->index - 1u];

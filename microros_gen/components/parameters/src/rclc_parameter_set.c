@@ -26,50 +26,39 @@ static parameter_outcome_t set_check_range(
   const rclc_parameter_server_t * server, const rclc_parameter_place_t * place,
   const parameter_requested_t * requested)
 {
-  if (!place->has_range || requested->type != place->type) {
+  const rclc_parameter_range_t * range = place->about->range;
+
+  if (range == NULL || requested->type != place->type) {
     return PARAMETER_SET;
   }
   if (requested->type == (uint8_t)RCLC_PARAMETER_INT) {
-    return integer_holds(&place->range, requested->value.integer_value) ? PARAMETER_SET
-                                                                        : PARAMETER_OUTSIDE_INTEGER;
+    return integer_holds(range, requested->value.integer_value) ? PARAMETER_SET : PARAMETER_OUTSIDE_INTEGER;
   }
-  return server->floating_point_holds(&place->range, requested->value.double_value)
+  return server->floating_point_holds(range, requested->value.double_value)
            ? PARAMETER_SET
            : PARAMETER_OUTSIDE_FLOATING_POINT;
 }
 
-/* Of a parameter that does not exist, after `fresh` others that the same request creates. */
+/* For one of `created` parameters that do not exist yet. */
 static parameter_outcome_t set_check_new(
-  const rclc_parameter_server_t * server, const parameter_requested_t * requested, size_t fresh)
+  const rclc_parameter_server_t * server, const parameter_requested_t * requested, size_t created)
 {
-  if (!server->allow_undeclared_parameters || requested->type == (uint8_t)RCLC_PARAMETER_NOT_SET) {
+  if (server->undeclared == NULL || requested->type == (uint8_t)RCLC_PARAMETER_NOT_SET) {
     return PARAMETER_UNDECLARED;
   }
-  if (requested->name.size >= (uint32_t)MICROROS_PARAMETER_NAME_SIZE) {
-    return PARAMETER_NAME_LONG;
-  }
-  if (!rclc_parameter_holds(requested->type)) {
-    return PARAMETER_UNSUPPORTED;
-  }
-  if (!rclc_parameter_string_fits(NULL, requested)) {
-    return PARAMETER_STRING_LONG;
-  }
-  if (!rclc_parameter_array_fits(NULL, requested)) {
-    return PARAMETER_ARRAY_LONG;
-  }
-  return server->count + fresh < server->max_params ? PARAMETER_SET : PARAMETER_FULL;
+  return server->undeclared->check(server, requested, created);
 }
 
+/* `place`: the one of that name, or NULL; so it is below. */
 static parameter_outcome_t set_check_parameter(
-  const rclc_parameter_server_t * server, const parameter_requested_t * requested, size_t fresh)
+  const rclc_parameter_server_t * server, const rclc_parameter_place_t * place,
+  const parameter_requested_t * requested, size_t created)
 {
-  const rclc_parameter_place_t * place = rclc_parameter_find(server, &requested->name);
-
   if (requested->name.size == 0u) {
     return PARAMETER_UNNAMED;
   }
   if (place == NULL) {
-    return set_check_new(server, requested, fresh);
+    return set_check_new(server, requested, created);
   }
   if (place->read_only) {
     return PARAMETER_READ_ONLY;
@@ -95,11 +84,11 @@ static parameter_outcome_t set_check_parameter(
   return set_check_range(server, place, requested);
 }
 
-/* Whether the callback accepts what was checked. A name that does not exist yet is shown from a free place. */
-static bool set_accepts(rclc_parameter_server_t * server, const parameter_requested_t * requested)
+/* Returns whether the callback accepts a checked change. */
+static bool set_accepts(
+  rclc_parameter_server_t * server, const rclc_parameter_place_t * found,
+  const parameter_requested_t * requested)
 {
-  const rclc_parameter_place_t * found = rclc_parameter_find(server, &requested->name);
-  rclc_parameter_place_t * place;
   parameter_state_t old_state;
   parameter_state_t new_state;
 
@@ -108,33 +97,29 @@ static bool set_accepts(rclc_parameter_server_t * server, const parameter_reques
   rclc_parameter_string_new(server, requested, &new_state);
   rclc_parameter_array_new(server, requested, &new_state);
   if (found == NULL) {
-    new_state.name = rclc_parameter_place(server, &requested->name, requested->type)->name;
-    return rclc_parameter_accepts(server, NULL, &new_state);
+    return server->undeclared->accepts(server, &requested->name, &new_state);
   }
-  place = &server->places[found - server->places];
-  old_state.name = place->name;
-  old_state.type = place->type;
-  old_state.value = place->value;
-  rclc_parameter_string_old(place, &old_state);
-  rclc_parameter_array_old(place, &old_state);
-  new_state.name = place->name;
+  old_state = rclc_parameter_state(&server->places[found - server->places]);
+  new_state.name = old_state.name;
   return rclc_parameter_accepts(
     server, &old_state, requested->type != (uint8_t)RCLC_PARAMETER_NOT_SET ? &new_state : NULL);
 }
 
-static void set_make(rclc_parameter_server_t * server, const parameter_requested_t * requested)
+static void set_make(
+  rclc_parameter_server_t * server, const rclc_parameter_place_t * found_place,
+  const parameter_requested_t * requested)
 {
-  const rclc_parameter_place_t * found = rclc_parameter_find(server, &requested->name);
+  const rclc_parameter_place_t * found = found_place;
   rclc_parameter_place_t * place;
 
-  if (found == NULL) {
-    place = rclc_parameter_place(server, &requested->name, requested->type);
-    place->dynamic_typing = true;
-    rclc_parameter_note(server, place, PARAMETER_EVENT_NEW);
-    ++server->count;
-  } else {
-    place = &server->places[found - server->places];
+  if (found == NULL && requested->type != (uint8_t)RCLC_PARAMETER_NOT_SET) {
+    server->undeclared->add(server, requested);
+    found = rclc_parameter_find(server, &requested->name);
   }
+  if (found == NULL) {
+    return; /* deleted by an earlier entry of the same request */
+  }
+  place = &server->places[found - server->places];
   if (requested->type == (uint8_t)RCLC_PARAMETER_NOT_SET) {
     rclc_parameter_note(server, place, PARAMETER_EVENT_DELETED);
     return;
@@ -150,47 +135,94 @@ static void set_make(rclc_parameter_server_t * server, const parameter_requested
 
 void rclc_parameter_set_each(rclc_parameter_server_t * server)
 {
-  cdr_fault_t fault = {.field = ""};
-  cdr_in_t in = rclc_parameter_request_begin(server, &fault);
+  cdr_in_t in = rclc_parameter_request_begin(server);
   const uint32_t count = rclc_parameter_in_length(&in);
 
   for (uint32_t i = 0; i < count; ++i) {
-    const parameter_requested_t requested = rclc_parameter_request_parameter(&in);
-    parameter_outcome_t outcome = set_check_parameter(server, &requested, 0);
+    parameter_requested_t requested;
+    const rclc_parameter_place_t * found;
+    parameter_outcome_t outcome;
 
-    if (outcome == PARAMETER_SET && !set_accepts(server, &requested)) {
+    rclc_parameter_request_parameter(&in, &requested);
+    found = rclc_parameter_find(server, &requested.name);
+    outcome = set_check_parameter(server, found, &requested, 1);
+    if (outcome == PARAMETER_SET && !set_accepts(server, found, &requested)) {
       outcome = PARAMETER_REJECTED;
     }
     if (outcome == PARAMETER_SET) {
-      set_make(server, &requested);
+      set_make(server, found, &requested);
       rclc_parameter_publish(server);
     }
     server->outcomes[i] = (uint8_t)outcome;
   }
 }
 
-/* The passes over a request that is applied as a whole. */
-typedef enum set_pass_t { SET_PASS_CHECK, SET_PASS_ACCEPT, SET_PASS_MAKE } set_pass_t;
+/* The passes over a request that is applied as a whole. As in rclcpp, a name that is set and deleted is deleted, whatever
+ * the order of the two, so what is deleted comes last. */
+typedef enum set_pass_t { SET_PASS_CHECK, SET_PASS_ACCEPT, SET_PASS_MAKE, SET_PASS_DELETE } set_pass_t;
 
-/* Returns whether all parameters passed; else the outcome of the first that did not is noted. */
+static bool set_is_same_name(const parameter_text_t * one, const parameter_text_t * other)
+{
+  uint32_t i = 0;
+
+  while (i < one->size && i < other->size && one->data[i] == other->data[i]) {
+    ++i;
+  }
+  return i == one->size && i == other->size;
+}
+
+/* Returns whether one of the first `count` entries of the request has that name. */
+static bool set_has_name(
+  const rclc_parameter_server_t * server, uint32_t count, const parameter_text_t * name)
+{
+  cdr_in_t in = rclc_parameter_request_begin(server);
+  bool found = false;
+
+  (void)rclc_parameter_in_length(&in);
+  for (uint32_t i = 0; i < count && !found; ++i) {
+    parameter_requested_t earlier;
+
+    rclc_parameter_request_parameter(&in, &earlier);
+    found = set_is_same_name(&earlier.name, name);
+  }
+  return found;
+}
+
+/* Makes a change in its pass: what is deleted comes last. */
+static void set_make_in_pass(
+  rclc_parameter_server_t * server, const rclc_parameter_place_t * found,
+  const parameter_requested_t * requested, set_pass_t pass)
+{
+  const bool deletes = requested->type == (uint8_t)RCLC_PARAMETER_NOT_SET;
+
+  if (deletes ? pass == SET_PASS_DELETE : pass == SET_PASS_MAKE) {
+    set_make(server, found, requested);
+  }
+}
+
+/* Returns whether all parameters passed; if not, stores the outcome of the first one that did not. */
 static bool set_pass(rclc_parameter_server_t * server, set_pass_t pass)
 {
-  cdr_fault_t fault = {.field = ""};
-  cdr_in_t in = rclc_parameter_request_begin(server, &fault);
+  cdr_in_t in = rclc_parameter_request_begin(server);
   const uint32_t count = rclc_parameter_in_length(&in);
-  size_t fresh = 0;
+  size_t created = 0; /* parameters that do not exist yet */
   parameter_outcome_t outcome = PARAMETER_SET;
 
   for (uint32_t i = 0; i < count && outcome == PARAMETER_SET; ++i) {
-    const parameter_requested_t requested = rclc_parameter_request_parameter(&in);
+    parameter_requested_t requested;
+    const rclc_parameter_place_t * found;
 
+    rclc_parameter_request_parameter(&in, &requested);
+    found = rclc_parameter_find(server, &requested.name);
     if (pass == SET_PASS_CHECK) {
-      outcome = set_check_parameter(server, &requested, fresh);
-      fresh += rclc_parameter_find(server, &requested.name) == NULL ? 1u : 0u;
+      if (found == NULL && !set_has_name(server, i, &requested.name)) {
+        ++created;
+      }
+      outcome = set_check_parameter(server, found, &requested, created);
     } else if (pass == SET_PASS_ACCEPT) {
-      outcome = set_accepts(server, &requested) ? PARAMETER_SET : PARAMETER_REJECTED;
+      outcome = set_accepts(server, found, &requested) ? PARAMETER_SET : PARAMETER_REJECTED;
     } else {
-      set_make(server, &requested);
+      set_make_in_pass(server, found, &requested, pass);
     }
     server->outcomes[i] = (uint8_t)outcome;
   }
@@ -201,6 +233,7 @@ void rclc_parameter_set_all(rclc_parameter_server_t * server)
 {
   if (set_pass(server, SET_PASS_CHECK) && set_pass(server, SET_PASS_ACCEPT)) {
     (void)set_pass(server, SET_PASS_MAKE);
+    (void)set_pass(server, SET_PASS_DELETE);
     rclc_parameter_publish(server);
   }
 }

@@ -2,12 +2,30 @@
 #include "microros/rclc_parameters.h"
 
 #include "microros/rclc_parameter_array.h"
+#include "microros/rclc_parameter_string.h"
 #if MICROROS_PARAMETERS_HELD
 #include "microros/rclc_parameter_held.h"
 #endif
 #include "microros/text.h"
 
 #include <string.h>
+
+parameter_text_t rclc_parameter_text(const char * text)
+{
+  const parameter_text_t result = {text, (uint32_t)microros_text_size(text)};
+
+  return result;
+}
+
+bool rclc_parameter_begins(const char * name, const parameter_text_t * text)
+{
+  uint32_t i = 0;
+
+  while (i < text->size && name[i] == text->data[i]) {
+    ++i;
+  }
+  return i == text->size;
+}
 
 const rclc_parameter_place_t * rclc_parameter_find(
   const rclc_parameter_server_t * server, const parameter_text_t * name)
@@ -16,8 +34,8 @@ const rclc_parameter_place_t * rclc_parameter_find(
     const rclc_parameter_place_t * place = &server->places[i];
 
     if (
-      place->event != (uint8_t)PARAMETER_EVENT_DELETED && name->size < sizeof(place->name) &&
-      place->name[name->size] == '\0' && memcmp(place->name, name->data, name->size) == 0) {
+      place->event != (uint8_t)PARAMETER_EVENT_DELETED && rclc_parameter_begins(place->about->name, name) &&
+      place->about->name[name->size] == '\0') {
       return place;
     }
   }
@@ -25,20 +43,26 @@ const rclc_parameter_place_t * rclc_parameter_find(
 }
 
 rclc_parameter_place_t * rclc_parameter_place(
-  rclc_parameter_server_t * server, const parameter_text_t * name, uint8_t type)
+  rclc_parameter_server_t * server, const rclc_parameter_about_t * about, uint8_t type)
 {
   rclc_parameter_place_t * place = &server->places[server->count];
 
   (void)memset(place, 0, sizeof(*place));
-  (void)memcpy(place->name, name->data, name->size);
+  place->about = about;
   place->type = type;
-#if MICROROS_PARAMETER_STRING_SIZE > 0u
-  place->string_most = MICROROS_PARAMETER_STRING_SIZE - 1u;
-#endif
-#if MICROROS_PARAMETER_ARRAY_SIZE > 0u
-  place->array_most = UINT32_MAX;
-#endif
   return place;
+}
+
+parameter_state_t rclc_parameter_state(rclc_parameter_place_t * place)
+{
+  parameter_state_t state;
+
+  state.name = place->about->name;
+  state.type = place->type;
+  state.value = place->value;
+  rclc_parameter_string_old(place, &state);
+  rclc_parameter_array_old(place, &state);
+  return state;
 }
 
 void rclc_parameter_note(rclc_parameter_server_t * server, rclc_parameter_place_t * place, uint32_t event)
@@ -51,24 +75,48 @@ void rclc_parameter_note(rclc_parameter_server_t * server, rclc_parameter_place_
 #endif
 }
 
+void rclc_parameter_disown(const rclc_parameter_server_t * server, const rclc_parameter_place_t * place)
+{
+  rclc_parameter_own_t * own = server->own;
+
+  for (size_t i = 0; own != NULL && i < MICROROS_PARAMETERS_MAX; ++i) {
+    if (place->about == &own->abouts[i]) {
+      own->abouts[i].name = NULL;
+    }
+  }
+}
+
 void rclc_parameter_remove(rclc_parameter_server_t * server, const rclc_parameter_place_t * place)
 {
   const size_t last = sizeof(server->places) / sizeof(server->places[0]) - 1u;
 
+  rclc_parameter_disown(server, place);
   --server->count;
   for (size_t i = (size_t)(place - server->places); i < server->count && i < last; ++i) {
     server->places[i] = server->places[i + 1u];
   }
 }
 
-/* Makes the message that the callback sees; it points to the name of the place. */
+/* A string of ROS 2 has a pointer to non-const characters, even in a constant message. */
+static char * parameter_shown(const char * text)
+{
+  union {
+    const char * in;
+    char * out;
+  } pointer;
+
+  pointer.in = text;
+  return pointer.out;
+}
+
+/* Creates the message for the callback; it points to the name of the place. */
 static void parameter_present(
   rclc_parameter_server_t * server, const parameter_state_t * state, Parameter * message, uint32_t which)
 {
   static char nothing[1]; /* a string of ROS 2 is never NULL */
 
   (void)memset(message, 0, sizeof(*message));
-  message->name.data = state->name;
+  message->name.data = parameter_shown(state->name);
   message->name.size = microros_text_size(state->name);
   message->name.capacity = message->name.size + 1u;
   message->value.type = state->type;
@@ -93,22 +141,24 @@ static void parameter_present(
 bool rclc_parameter_accepts(
   rclc_parameter_server_t * server, const parameter_state_t * old_state, const parameter_state_t * new_state)
 {
-  Parameter old_param;
-  Parameter new_param;
+  const Parameter * shown[2];
+  Parameter messages[2];
   bool result;
 
   if (server->on_modification == NULL) {
     return true;
   }
-  if (old_state != NULL) {
-    parameter_present(server, old_state, &old_param, 0u);
-  }
-  if (new_state != NULL) {
-    parameter_present(server, new_state, &new_param, 1u);
+  for (uint32_t i = 0; i < 2u; ++i) {
+    const parameter_state_t * state = i == 0u ? old_state : new_state;
+
+    shown[i] = NULL;
+    if (state != NULL) {
+      parameter_present(server, state, &messages[i], i);
+      shown[i] = &messages[i];
+    }
   }
   server->on_callback = true;
-  result = server->on_modification(
-    old_state != NULL ? &old_param : NULL, new_state != NULL ? &new_param : NULL, server->context);
+  result = server->on_modification(shown[0], shown[1], server->context);
   server->on_callback = false;
   return result;
 }

@@ -4,17 +4,20 @@
 #include "microros/rclc_parameter_array.h"
 #include "microros/rclc_parameter_string.h"
 
+static const rclc_parameter_about_t value_about_nothing = {.name = ""};
+
+const rclc_parameter_place_t rclc_parameter_nothing = {.about = &value_about_nothing};
+
 void rclc_parameter_out_value(parameter_out_t * out, const rclc_parameter_place_t * place)
 {
-  const uint8_t type = place != NULL ? place->type : (uint8_t)RCLC_PARAMETER_NOT_SET;
-  const int64_t integer = type == (uint8_t)RCLC_PARAMETER_INT ? place->value.integer_value : 0;
-  const double number = type == (uint8_t)RCLC_PARAMETER_DOUBLE ? place->value.double_value : 0.0;
+  const uint8_t type = place->type;
   const bool truth = type == (uint8_t)RCLC_PARAMETER_BOOL && place->value.bool_value;
+  static const rclc_parameter_scalar_t zero = {.integer_value = 0}; /* in all 8 bytes */
 
   rclc_parameter_out_1(out, type);
   rclc_parameter_out_1(out, truth ? 1u : 0u);
-  rclc_parameter_out_8(out, &integer);
-  rclc_parameter_out_8(out, &number);
+  rclc_parameter_out_8(out, type == (uint8_t)RCLC_PARAMETER_INT ? &place->value : &zero);
+  rclc_parameter_out_8(out, type == (uint8_t)RCLC_PARAMETER_DOUBLE ? &place->value : &zero);
   rclc_parameter_out_text(out, rclc_parameter_string_of(place));
   rclc_parameter_out_arrays(out, place);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The service by which the parameter server begins a session, lists parameters, and sets them. */
 #include "microros/cdr.h"
+#include "microros/error.h"
 #include "microros/port.h"
 #include "microros/rclc_parameter_descriptor.h"
 #include "microros/rclc_parameter_held.h"
@@ -15,9 +16,9 @@
 
 enum { EXCHANGE_BEGIN, EXCHANGE_LIST, EXCHANGE_LIST_CHANGES, EXCHANGE_ACKNOWLEDGE, EXCHANGE_SET };
 enum { EXCHANGE_OK, EXCHANGE_OTHER_BOARD, EXCHANGE_OTHER_SESSION, EXCHANGE_OLD };
-/* Where the list of a request begins: what follows is kept as a separate request, aligned as before. */
+/* Start of the list of a request: the rest is kept as a separate request with the same alignment. */
 enum { EXCHANGE_LIST_AT = 24 };
-/* Room that a page leaves: a bool, padding, a length and a NUL, padding of 3 bytes before. */
+/* Room that a page keeps free: a bool, padding, a length and a NUL, padding of 3 bytes before. */
 enum { EXCHANGE_TAIL = 16 };
 
 static void exchange_decode(cdr_in_t * in, void * message)
@@ -60,7 +61,7 @@ static uint8_t exchange_check(const rclc_parameter_server_t * server)
   return held->number - held->own_number - 1u < 0x7fffffffu ? EXCHANGE_OK : EXCHANGE_OLD;
 }
 
-/* Whether a change was made when the node had that revision, over the wrap as well. */
+/* Returns whether a change was made when the node had that revision; the revision may wrap. */
 static bool exchange_is_known(const rclc_parameter_place_t * place, uint32_t revision)
 {
   return revision - place->own_revision < 0x80000000u;
@@ -110,21 +111,22 @@ void rclc_parameter_exchange(const void * request, void * response, void * conte
   }
 }
 
-/* Writes the sequences of the values that are accepted; two of them, or all, are empty. */
+/* Writes the sequences of accepted values; at least two of them are empty. */
 static void exchange_out_one_of(parameter_out_t * out, const rclc_parameter_place_t * place)
 {
 #if MICROROS_PARAMETER_ONE_OF
   for (uint8_t type = (uint8_t)RCLC_PARAMETER_INT; type <= (uint8_t)RCLC_PARAMETER_STRING; ++type) {
-    const uint32_t count = place->one_of != NULL && place->type == type ? (uint32_t)place->one_of_count : 0u;
+    const void * values = place->about->one_of;
+    const uint32_t count = values != NULL && place->type == type ? (uint32_t)place->about->one_of_count : 0u;
 
     rclc_parameter_out_4(out, count);
     for (uint32_t i = 0; i < count; ++i) {
       if (type == (uint8_t)RCLC_PARAMETER_INT) {
-        rclc_parameter_out_8(out, &((const int64_t *)place->one_of)[i]);
+        rclc_parameter_out_8(out, &((const int64_t *)values)[i]);
       } else if (type == (uint8_t)RCLC_PARAMETER_DOUBLE) {
-        rclc_parameter_out_8(out, &((const double *)place->one_of)[i]);
+        rclc_parameter_out_8(out, &((const double *)values)[i]);
       } else {
-        rclc_parameter_out_text(out, ((const char * const *)place->one_of)[i]);
+        rclc_parameter_out_text(out, ((const char * const *)values)[i]);
       }
     }
   }
@@ -140,12 +142,12 @@ static uint32_t exchange_size_max(const rclc_parameter_place_t * place)
 {
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
   if (place->type == (uint8_t)RCLC_PARAMETER_STRING) {
-    return place->string_most;
+    return place->about->string_most;
   }
 #endif
 #if MICROROS_PARAMETER_ARRAY_SIZE > 0u
-  if (place->type >= (uint8_t)RCLC_PARAMETER_BYTE_ARRAY && place->array_most != UINT32_MAX) {
-    return place->array_most;
+  if (place->type >= (uint8_t)RCLC_PARAMETER_BYTE_ARRAY && place->about->array_most != UINT32_MAX) {
+    return place->about->array_most;
   }
 #endif
   (void)place;
@@ -164,7 +166,7 @@ static uint32_t exchange_age_ms(const rclc_parameter_place_t * place)
 
 static void exchange_out_parameter(parameter_out_t * out, const rclc_parameter_place_t * place)
 {
-  const parameter_text_t name = {place->name, (uint32_t)microros_text_size(place->name)};
+  const parameter_text_t name = rclc_parameter_text(place->about->name);
 
   rclc_parameter_out_descriptor(out, &name, place);
   rclc_parameter_out_value(out, place);
@@ -174,7 +176,7 @@ static void exchange_out_parameter(parameter_out_t * out, const rclc_parameter_p
   rclc_parameter_out_4(out, exchange_age_ms(place));
 }
 
-/* Whether the request asks for parameters, and for this one. */
+/* Returns whether the request is for parameters, and includes this one. */
 static bool exchange_lists(const rclc_parameter_held_t * held, const rclc_parameter_place_t * place)
 {
   if (held->status != (uint8_t)EXCHANGE_OK || held->what > (uint8_t)EXCHANGE_LIST_CHANGES) {
@@ -200,7 +202,7 @@ static void exchange_out_page(parameter_out_t * out, const rclc_parameter_server
     if (!exchange_lists(&server->held, &server->places[i])) {
       continue;
     }
-    if (total - first == count) { /* none before it was left out */
+    if (total - first == count) { /* no earlier one was left out */
       const parameter_out_t before = *out;
 
       exchange_out_parameter(out, &server->places[i]);
@@ -219,11 +221,10 @@ static void exchange_out_page(parameter_out_t * out, const rclc_parameter_server
   cdr_put_4(&out->body[at + 8u], &count);
 }
 
-/* Writes what became of a set; without its reason where that has no room. */
+/* Writes the outcome of a set; without its reason if that does not fit. */
 static void exchange_out_result(parameter_out_t * out, const rclc_parameter_server_t * server)
 {
-  cdr_fault_t fault = {.field = ""};
-  cdr_in_t in = rclc_parameter_request_begin(server, &fault);
+  cdr_in_t in = rclc_parameter_request_begin(server);
   const uint32_t count = rclc_parameter_in_length(&in);
   parameter_requested_t requested = {.name = {"", 0}, .type = (uint8_t)RCLC_PARAMETER_NOT_SET};
   uint8_t outcome = (uint8_t)(count == 0u ? PARAMETER_NONE : PARAMETER_SET);
@@ -231,7 +232,7 @@ static void exchange_out_result(parameter_out_t * out, const rclc_parameter_serv
     server->held.what == (uint8_t)EXCHANGE_SET && server->held.status == (uint8_t)EXCHANGE_OK;
 
   for (uint32_t i = 0; was_set && i < count && outcome == (uint8_t)PARAMETER_SET; ++i) {
-    requested = rclc_parameter_request_parameter(&in);
+    rclc_parameter_request_parameter(&in, &requested);
     outcome = server->outcomes[i];
   }
   rclc_parameter_out_1(out, was_set && outcome == (uint8_t)PARAMETER_SET ? 1u : 0u);
@@ -261,11 +262,11 @@ static uint32_t exchange_encode(const void * message, uint8_t * body, cdr_fault_
 }
 
 static const microros_message_type_t exchange_request = {
-  .dds_type_name = "microros_parameter_msgs::srv::dds_::Exchange_Request_",
+  .dds_type_name = MICROROS_ERROR_WORDS("microros_parameter_msgs::srv::dds_::Exchange_Request_"),
   .max_encoded_size = microros_parameter_msgs__srv__Exchange_Request__MAX_ENCODED_SIZE,
   .decode = exchange_decode};
 static const microros_message_type_t exchange_response = {
-  .dds_type_name = "microros_parameter_msgs::srv::dds_::Exchange_Response_",
+  .dds_type_name = MICROROS_ERROR_WORDS("microros_parameter_msgs::srv::dds_::Exchange_Response_"),
   .max_encoded_size = microros_parameter_msgs__srv__Exchange_Response__MAX_ENCODED_SIZE,
   .encode = exchange_encode};
 static const microros_service_type_t exchange_service = {

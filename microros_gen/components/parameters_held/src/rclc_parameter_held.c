@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What the server that holds the values does not know yet, and the notices about that. A place has an `event` until the server
+ * Changes that the server does not know yet, and the notices about them. A place has an `event` until the server has
  * acknowledged it.
  */
 #include "microros/rclc_parameter_held.h"
@@ -67,7 +67,7 @@ void rclc_parameter_held_note(
   if (held->is_setting && event != (uint32_t)PARAMETER_EVENT_DELETED) {
     if (place->event == (uint8_t)PARAMETER_EVENT_CHANGED) {
       ++held->overruled;
-      rclc_parameter_held_log(place->name);
+      rclc_parameter_held_log(place->about->name);
     }
     place->event = (uint8_t)PARAMETER_EVENT_NONE;
     return;
@@ -79,7 +79,7 @@ void rclc_parameter_held_note(
   held->notice_is_due = true;
 }
 
-/* Returns how many places the server does not know as they are. */
+/* Returns how many places have a state that the server does not know. */
 static uint32_t held_news(const rclc_parameter_server_t * server)
 {
   uint32_t count = 0;
@@ -90,7 +90,7 @@ static uint32_t held_news(const rclc_parameter_server_t * server)
   return count;
 }
 
-/* An agent that was away, or is another one, has no notice. */
+/* An agent that was away or was replaced has no notice. */
 static void held_follow_session(rclc_parameter_server_t * server)
 {
   const uint32_t reconnects =

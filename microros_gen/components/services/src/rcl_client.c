@@ -3,6 +3,7 @@
 
 #include "microros/error.h"
 #include "microros/rcl_names_take.h"
+#include "microros/rcl_client_open.h"
 #include "microros/rmw_service.h"
 
 #include <string.h>
@@ -24,16 +25,13 @@ rcl_client_options_t rcl_client_get_default_options(void)
   return options;
 }
 
-rcl_ret_t rcl_client_init(
+rcl_ret_t rcl_client_open(
   rcl_client_t * client, const rcl_node_t * node, const rosidl_service_type_support_t * type_support,
-  const char * service_name, const rcl_client_options_t * options)
+  const char * service_name, const rmw_qos_profile_t * qos)
 {
   rcl_names_topic_t taken;
   const char * fault;
 
-  if (options == NULL || client == NULL) {
-    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "client or options");
-  }
   if (!rcl_node_is_valid(node)) {
     return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
   }
@@ -48,7 +46,17 @@ rcl_ret_t rcl_client_init(
     microros_error_set(microros_error_name, service_name, fault, 0, 0);
     return RCL_RET_SERVICE_NAME_INVALID;
   }
-  return rmw_requester_open(node->impl, type_support, taken.name, &options->qos, &client->impl);
+  return rmw_requester_open(node->impl, type_support, taken.name, qos, &client->impl);
+}
+
+rcl_ret_t rcl_client_init(
+  rcl_client_t * client, const rcl_node_t * node, const rosidl_service_type_support_t * type_support,
+  const char * service_name, const rcl_client_options_t * options)
+{
+  if (options == NULL || client == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "client or options");
+  }
+  return rcl_client_open(client, node, type_support, service_name, &options->qos);
 }
 
 rcl_ret_t rcl_client_fini(rcl_client_t * client, rcl_node_t * node)

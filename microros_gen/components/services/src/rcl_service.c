@@ -3,6 +3,7 @@
 
 #include "microros/error.h"
 #include "microros/rcl_names_take.h"
+#include "microros/rcl_service_open.h"
 #include "microros/rmw_service.h"
 
 #include <string.h>
@@ -24,16 +25,13 @@ rcl_service_options_t rcl_service_get_default_options(void)
   return options;
 }
 
-rcl_ret_t rcl_service_init(
+rcl_ret_t rcl_service_open(
   rcl_service_t * service, const rcl_node_t * node, const rosidl_service_type_support_t * type_support,
-  const char * service_name, const rcl_service_options_t * options)
+  const char * service_name, const rmw_qos_profile_t * qos)
 {
   rcl_names_topic_t taken;
   const char * fault;
 
-  if (options == NULL || service == NULL) {
-    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "service or options");
-  }
   if (!rcl_node_is_valid(node)) {
     return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
   }
@@ -48,7 +46,17 @@ rcl_ret_t rcl_service_init(
     microros_error_set(microros_error_name, service_name, fault, 0, 0);
     return RCL_RET_SERVICE_NAME_INVALID;
   }
-  return rmw_replier_open(node->impl, type_support, taken.name, &options->qos, &service->impl);
+  return rmw_replier_open(node->impl, type_support, taken.name, qos, &service->impl);
+}
+
+rcl_ret_t rcl_service_init(
+  rcl_service_t * service, const rcl_node_t * node, const rosidl_service_type_support_t * type_support,
+  const char * service_name, const rcl_service_options_t * options)
+{
+  if (options == NULL || service == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "service or options");
+  }
+  return rcl_service_open(service, node, type_support, service_name, &options->qos);
 }
 
 rcl_ret_t rcl_service_fini(rcl_service_t * service, rcl_node_t * node)

@@ -2,6 +2,7 @@
 #include "rclc/client.h"
 
 #include "microros/error.h"
+#include "microros/rcl_client_open.h"
 
 #include <stddef.h>
 
@@ -10,15 +11,11 @@ rcl_ret_t rclc_client_init(
   rcl_client_t * client, const rcl_node_t * node, const rosidl_service_type_support_t * type_support,
   const char * service_name, const rmw_qos_profile_t * qos_profile)
 {
-  rcl_client_options_t options;
-
   if (client == NULL || node == NULL || qos_profile == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "client, node or qos_profile");
   }
   *client = rcl_get_zero_initialized_client();
-  options = rcl_client_get_default_options();
-  options.qos = *qos_profile;
-  return rcl_client_init(client, node, type_support, service_name, &options);
+  return rcl_client_open(client, node, type_support, service_name, qos_profile);
 }
 
 rcl_ret_t rclc_client_init_default(

@@ -32,23 +32,15 @@ typedef struct service_call_t {
   bool taken;
 } service_call_t;
 
-static rcl_ret_t service_begin(rclc_executor_handle_t * handle, service_call_t * call)
+static rcl_ret_t service_begin(const rclc_executor_handle_t * handle, service_call_t * call)
 {
-  rmw_service_info_t info;
-  rmw_ret_t result;
-
   call->service = handle->service;
   call->response = handle->data_response_msg;
   call->taken = false;
   if (!rcl_service_is_valid(handle->service)) {
     return service_refuse();
   }
-  result = rmw_replier_begin(handle->service->impl, &info, handle->data, &call->taken);
-  if (call->taken) {
-    call->request_id = info.request_id;
-    handle->req_id = info.request_id;
-  }
-  return result;
+  return rmw_replier_begin(handle->service->impl, &call->request_id, handle->data, &call->taken);
 }
 
 static rcl_ret_t service_end(const service_call_t * call)

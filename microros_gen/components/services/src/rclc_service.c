@@ -2,6 +2,7 @@
 #include "rclc/service.h"
 
 #include "microros/error.h"
+#include "microros/rcl_service_open.h"
 
 #include <stddef.h>
 
@@ -10,15 +11,11 @@ rcl_ret_t rclc_service_init(
   rcl_service_t * service, const rcl_node_t * node, const rosidl_service_type_support_t * type_support,
   const char * service_name, const rmw_qos_profile_t * qos_profile)
 {
-  rcl_service_options_t options;
-
   if (service == NULL || node == NULL || qos_profile == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "service, node or qos_profile");
   }
   *service = rcl_get_zero_initialized_service();
-  options = rcl_service_get_default_options();
-  options.qos = *qos_profile;
-  return rcl_service_init(service, node, type_support, service_name, &options);
+  return rcl_service_open(service, node, type_support, service_name, qos_profile);
 }
 
 rcl_ret_t rclc_service_init_default(

@@ -114,29 +114,29 @@ void rmw_replier_pump(const rmw_service_t * service)
   microros_unlock();
 }
 
+/* Gives the sample as well, without its bytes. */
 static rmw_ret_t replier_take(
-  const rmw_service_t * service, rmw_service_info_t * info, void * ros_request, bool * taken)
+  const rmw_service_t * service, rmw_request_id_t * request, xrce_sample_t * sample, void * ros_request,
+  bool * taken)
 {
   const xrce_endpoint_t * endpoint = service->data;
-  xrce_sample_t sample;
   rmw_ret_t result;
 
   *taken = false;
   if (rmw_receiver_report(endpoint)) {
     return RMW_RET_ERROR;
   }
-  if (xrce_write_reserve(endpoint) == NULL || !xrce_read_peek(endpoint, &sample)) {
+  if (xrce_write_reserve(endpoint) == NULL || !xrce_read_peek(endpoint, sample)) {
     return RMW_RET_OK; /* a request that cannot be answered yet waits */
   }
-  if (sample.size < XRCE_IDENTITY_SIZE) {
+  if (sample->size < XRCE_IDENTITY_SIZE) {
     xrce_read_pop(endpoint, true);
-    microros_error_set(microros_error_service_short, endpoint->name, NULL, sample.size, XRCE_IDENTITY_SIZE);
+    microros_error_set(microros_error_service_short, endpoint->name, NULL, sample->size, XRCE_IDENTITY_SIZE);
     return RMW_RET_ERROR;
   }
-  rmw_service_describe(&sample, info);
-  (void)memcpy(info->request_id.writer_guid, sample.data, RMW_GID_STORAGE_SIZE);
-  info->request_id.sequence_number = replier_sequence(&sample);
-  result = rmw_service_decode(endpoint, &sample, XRCE_IDENTITY_SIZE, ros_request);
+  (void)memcpy(request->writer_guid, sample->data, RMW_GID_STORAGE_SIZE);
+  request->sequence_number = replier_sequence(sample);
+  result = rmw_service_decode(endpoint, sample, XRCE_IDENTITY_SIZE, ros_request);
   *taken = result == RMW_RET_OK;
   return result;
 }
@@ -144,22 +144,27 @@ static rmw_ret_t replier_take(
 rmw_ret_t rmw_replier_take(
   const rmw_service_t * service, rmw_service_info_t * info, void * ros_request, bool * taken)
 {
+  xrce_sample_t sample;
   rmw_ret_t result;
 
   microros_lock();
-  result = replier_take(service, info, ros_request, taken);
+  result = replier_take(service, &info->request_id, &sample, ros_request, taken);
+  if (*taken) {
+    rmw_service_describe(&sample, info);
+  }
   microros_unlock();
   return result;
 }
 
 rmw_ret_t rmw_replier_begin(
-  const rmw_service_t * service, rmw_service_info_t * info, void * ros_request, bool * taken)
+  const rmw_service_t * service, rmw_request_id_t * request, void * ros_request, bool * taken)
 {
   const xrce_endpoint_t * endpoint = service->data;
+  xrce_sample_t sample;
   rmw_ret_t result;
 
   microros_lock();
-  result = replier_take(service, info, ros_request, taken);
+  result = replier_take(service, request, &sample, ros_request, taken);
   if (*taken) {
     ++endpoint->client->replies_due;
   }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Reads parts of messages of parameters where they are, without a copy. Internal. */
+/* Reads parts of messages of parameters in place. Internal. */
 #ifndef MICROROS_RCLC_PARAMETER_IN_H
 #define MICROROS_RCLC_PARAMETER_IN_H
 
@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-/* A string inside a message; no NUL ends it. */
+/* A string inside a message, without a NUL. */
 typedef struct parameter_text_t {
   const char * data;
   uint32_t size;
@@ -21,10 +21,10 @@ typedef struct parameter_text_t {
 uint32_t rclc_parameter_in_length(cdr_in_t * in);
 parameter_text_t rclc_parameter_in_text(cdr_in_t * in);
 
-/* Returns where `count` elements of `width` bytes are, and moves to the byte after; NULL where the body ends before. */
+/* Returns a pointer to `count` elements of `width` bytes and skips them; NULL if the body is too short. */
 const uint8_t * rclc_parameter_in_take(cdr_in_t * in, uint32_t count, uint32_t width);
 
-/* Pass over a sequence of numbers, and one of strings; return how many there are. */
+/* Skip a sequence of numbers or of strings; return the number of its elements. */
 uint32_t rclc_parameter_in_pass(cdr_in_t * in, uint32_t width);
 uint32_t rclc_parameter_in_pass_texts(cdr_in_t * in);
 

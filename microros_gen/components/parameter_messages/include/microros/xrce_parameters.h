@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Messages that are larger than the slot they would wait in. They are refused and reported as any sample is, and their
- * beginning waits in their place: so a service can answer a request, and a client end a call, in its turn. Internal.
+ * Messages that are larger than their slot. They are refused and reported as other samples are, but their first bytes
+ * are kept, so that a service can answer such a request and a client can end its call, in order. Internal.
  */
 #ifndef MICROROS_XRCE_PARAMETERS_H
 #define MICROROS_XRCE_PARAMETERS_H
@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-/* Bytes of the beginning of a request: the identity, and the length of the list that it begins with. */
+/* First bytes of a request: the identity, and the length of its first list. */
 enum { XRCE_PARAMETERS_BEGINNING = XRCE_IDENTITY_SIZE + 4 };
 
 /* Sets how many bytes of such messages an endpoint gets, at most XRCE_PARAMETERS_BEGINNING; 0: none of them. */
@@ -26,11 +26,11 @@ void xrce_parameters_keep_beginning(const xrce_endpoint_t * endpoint, uint8_t si
 
 void xrce_parameters_on_data(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
-/* The fragments of a sample come in their order, the first with its beginning. */
+/* The fragments of a sample arrive in order; the first one has its first bytes. */
 void xrce_parameters_on_fragment(
   xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
-/* Called for a new session: a sample of the old one has no further fragments. */
+/* Called for a new session: no fragments of an old sample follow. */
 void xrce_parameters_renew(xrce_client_t * client);
 
 #ifdef __cplusplus

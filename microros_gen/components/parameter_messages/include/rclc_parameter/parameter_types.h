@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Types of parameters, and results that servers and clients have in common. */
+/* Types of parameters, and result codes of servers and clients. */
 #ifndef MICROROS_RCLC_PARAMETER_TYPES_H
 #define MICROROS_RCLC_PARAMETER_TYPES_H
 

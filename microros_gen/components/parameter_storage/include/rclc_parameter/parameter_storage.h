@@ -22,7 +22,9 @@ extern "C" {
  * the slots 2 * set and 2 * set + 1.
  *
  * RCL_RET_OK also if nothing was ever saved. RCL_RET_ERROR with a text: the saved values are damaged or of another
- * version of the format; all parameters keep their values.
+ * version of the format; all parameters keep their values. Where a parameter server elsewhere holds
+ * the values (parameters: {at: agent}) they are loaded before rclc_executor_add_parameter_server, as declared ones: those
+ * that the server holds win. Later this is RCL_RET_ERROR.
  */
 rcl_ret_t rclc_parameter_storage_load(
   rclc_parameter_server_t * parameter_server, uint32_t set, size_t * skipped);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a value has besides its scalar and string: an array, where a plan has any. Else these do nothing. Internal. */
+/* Arrays of parameters. If no parameter of the plan is an array, these functions do nothing. Internal. */
 #ifndef MICROROS_RCLC_PARAMETER_ARRAY_H
 #define MICROROS_RCLC_PARAMETER_ARRAY_H
 
+#include "microros/rclc_parameter_declared.h"
 #include "microros/rclc_parameter_out.h"
 #include "microros/rclc_parameters.h"
 
@@ -15,13 +16,13 @@ enum { PARAMETER_ARRAYS = 5 };
 
 #if MICROROS_PARAMETER_ARRAY_SIZE > 0u
 
-/* Passes over the arrays of a value, and notes the one of the type that was asked for. */
+/* Skips the arrays of a value, and notes the one of the requested type. */
 void rclc_parameter_array_request(cdr_in_t * in, parameter_requested_t * requested);
 
-/* Returns whether the array that was asked for has room in a place; NULL: a free one. */
+/* Returns whether the requested array fits in a place; NULL: in a free one. */
 bool rclc_parameter_array_fits(const rclc_parameter_place_t * place, const parameter_requested_t * requested);
 
-/* Makes the array that was asked for the one of a state; it belongs to the server. */
+/* Sets the array of a state to the requested one, which belongs to the server. */
 void rclc_parameter_array_new(
   rclc_parameter_server_t * server, const parameter_requested_t * requested, parameter_state_t * state);
 
@@ -34,7 +35,14 @@ void rclc_parameter_array_set(rclc_parameter_place_t * place, const parameter_re
 void rclc_parameter_array_present(
   rclc_parameter_server_t * server, const parameter_state_t * state, ParameterValue * value, uint32_t which);
 
-/* Writes the arrays of a value; empty ones for a NULL place. */
+/* Sets the array of a state to the default of a declaration; returns whether it fits. */
+bool rclc_parameter_array_start(
+  rclc_parameter_server_t * server, const rclc_parameter_declared_t * declared, parameter_state_t * state);
+
+/* Copies the array of a state to a place. */
+void rclc_parameter_array_take(rclc_parameter_place_t * place, const parameter_state_t * state);
+
+/* Writes the arrays of a value, of which one at most has elements. */
 void rclc_parameter_out_arrays(parameter_out_t * out, const rclc_parameter_place_t * place);
 
 #else
@@ -88,6 +96,23 @@ static inline void rclc_parameter_array_present(
   (void)state;
   (void)value;
   (void)which;
+}
+
+static inline bool rclc_parameter_array_start(
+  const rclc_parameter_server_t * server, const rclc_parameter_declared_t * declared,
+  const parameter_state_t * state)
+{
+  (void)server;
+  (void)declared;
+  (void)state;
+  return true;
+}
+
+static inline void rclc_parameter_array_take(
+  const rclc_parameter_place_t * place, const parameter_state_t * state)
+{
+  (void)place;
+  (void)state;
 }
 
 static inline void rclc_parameter_out_arrays(parameter_out_t * out, const rclc_parameter_place_t * place)

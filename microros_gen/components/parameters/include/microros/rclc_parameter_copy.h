@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Copies of values for the structs of declared_parameters.h. A parameter that is deleted leaves its copy as it is. Internal. */
+/* Copies of values for the structs of declared_parameters.h. A deleted parameter leaves its copy unchanged. Internal. */
 #ifndef MICROROS_RCLC_PARAMETER_COPY_H
 #define MICROROS_RCLC_PARAMETER_COPY_H
 

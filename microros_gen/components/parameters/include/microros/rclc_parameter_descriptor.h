@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Parts of messages that say what a parameter and its node are. Internal. */
+/* Parts of messages that describe a parameter and its node. Internal. */
 #ifndef MICROROS_RCLC_PARAMETER_DESCRIPTOR_H
 #define MICROROS_RCLC_PARAMETER_DESCRIPTOR_H
 
@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-/* The fully qualified name: the namespace ends with the only slash where it is "/". */
+/* The fully qualified name: the root namespace "/" already ends with a slash. */
 static inline void rclc_parameter_out_node(parameter_out_t * out, const rcl_node_t * node)
 {
   const char * namespace_ = rcl_node_get_namespace(node);
@@ -26,36 +26,34 @@ static inline void rclc_parameter_out_node(parameter_out_t * out, const rcl_node
   rclc_parameter_out_parts(out, parts, 3u);
 }
 
-static inline void rclc_parameter_out_ranges(parameter_out_t * out, const rclc_parameter_place_t * place)
+/* Writes the range of a type as a sequence; an empty one where the parameter has another type, or none. */
+static inline void rclc_parameter_out_range(
+  parameter_out_t * out, const rclc_parameter_place_t * place, rclc_parameter_type_t type)
 {
-  const bool integers = place != NULL && place->has_range && place->type == (uint8_t)RCLC_PARAMETER_INT;
-  const bool numbers = place != NULL && place->has_range && place->type == (uint8_t)RCLC_PARAMETER_DOUBLE;
+  const rclc_parameter_range_t * range = place->type == (uint8_t)type ? place->about->range : NULL;
 
-  rclc_parameter_out_4(out, numbers ? 1u : 0u);
-  if (numbers) {
-    rclc_parameter_out_8(out, &place->range.floating_point.from_value);
-    rclc_parameter_out_8(out, &place->range.floating_point.to_value);
-    rclc_parameter_out_8(out, &place->range.floating_point.step);
-  }
-  rclc_parameter_out_4(out, integers ? 1u : 0u);
-  if (integers) {
-    rclc_parameter_out_8(out, &place->range.integer.from_value);
-    rclc_parameter_out_8(out, &place->range.integer.to_value);
-    rclc_parameter_out_8(out, &place->range.integer.step);
+  rclc_parameter_out_4(out, range != NULL ? 1u : 0u);
+  if (range != NULL) { /* of either type: three numbers of 8 bytes */
+    rclc_parameter_out_8(out, &range->integer.from_value);
+    rclc_parameter_out_8(out, &range->integer.to_value);
+    rclc_parameter_out_8(out, &range->integer.step);
   }
 }
 
-/* Writes an rcl_interfaces/msg/ParameterDescriptor; of no type for a NULL place. */
+/* Writes an rcl_interfaces/msg/ParameterDescriptor of that name. */
 static inline void rclc_parameter_out_descriptor(
   parameter_out_t * out, const parameter_text_t * name, const rclc_parameter_place_t * place)
 {
+  const char * texts = place->about->texts != NULL ? place->about->texts : "\0";
+
   rclc_parameter_out_parts(out, name, 1u);
-  rclc_parameter_out_1(out, place != NULL ? place->type : (uint8_t)RCLC_PARAMETER_NOT_SET);
-  rclc_parameter_out_text(out, place != NULL ? place->description : "");
-  rclc_parameter_out_text(out, place != NULL ? place->additional_constraints : "");
-  rclc_parameter_out_1(out, place != NULL && place->read_only ? 1u : 0u);
-  rclc_parameter_out_1(out, place != NULL && place->dynamic_typing ? 1u : 0u);
-  rclc_parameter_out_ranges(out, place);
+  rclc_parameter_out_1(out, place->type);
+  rclc_parameter_out_text(out, texts);
+  rclc_parameter_out_text(out, &texts[microros_text_size(texts) + 1u]);
+  rclc_parameter_out_1(out, place->read_only ? 1u : 0u);
+  rclc_parameter_out_1(out, place->dynamic_typing ? 1u : 0u);
+  rclc_parameter_out_range(out, place, RCLC_PARAMETER_DOUBLE);
+  rclc_parameter_out_range(out, place, RCLC_PARAMETER_INT);
 }
 
 #ifdef __cplusplus

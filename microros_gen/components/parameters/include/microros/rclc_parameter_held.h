@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the store and its server call where another node holds the values (parameters_held). Internal. */
+/* Called by the store and its server if another node holds the values (parameters_held). Internal. */
 #ifndef MICROROS_RCLC_PARAMETER_HELD_H
 #define MICROROS_RCLC_PARAMETER_HELD_H
 
@@ -11,17 +11,17 @@
 extern "C" {
 #endif
 
-/* The type of the service whose message is the server, and its callback. */
+/* The type of the service, whose messages are the server, and its callback. */
 extern const rosidl_service_type_support_t rclc_parameter_exchange_type;
 void rclc_parameter_exchange(const void * request, void * response, void * context);
 
 /* Opens the publisher of notices. */
 rcl_ret_t rclc_parameter_held_open(rclc_parameter_server_t * server, const rcl_node_t * node);
 
-/* From here on a value that the node sets is a change; those of before are declared. */
+/* From now on a value that the node sets is a change; earlier ones are declared values. */
 void rclc_parameter_held_begin(rclc_parameter_server_t * server);
 
-/* Notes a change of a place. */
+/* Notes that a place has changed. */
 void rclc_parameter_held_note(
   rclc_parameter_server_t * server, rclc_parameter_place_t * place, uint32_t event);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Values that a parameter accepts, where a plan lists any. Else every value is one of them. Internal. */
+/* Lists of accepted values. If the plan has no such list, every value is accepted. Internal. */
 #ifndef MICROROS_RCLC_PARAMETER_ONE_OF_H
 #define MICROROS_RCLC_PARAMETER_ONE_OF_H
 
@@ -11,7 +11,7 @@ extern "C" {
 
 #if MICROROS_PARAMETER_ONE_OF
 
-/* Returns whether the value that was asked for, which has the type of the place, is accepted. */
+/* Returns whether the requested value, which has the type of the place, is accepted. */
 bool rclc_parameter_one_of(const rclc_parameter_place_t * place, const parameter_requested_t * requested);
 
 #else

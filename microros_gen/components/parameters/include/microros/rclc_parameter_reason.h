@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/* Writes the reason for an `outcome` (parameter_outcome_t) of what was `requested`; an empty one for success. */
+/* Writes the reason for the `outcome` (parameter_outcome_t) of a request; an empty one for success. */
 void rclc_parameter_out_reason(
   parameter_out_t * out, const rclc_parameter_server_t * server, const parameter_requested_t * requested,
   uint8_t outcome);

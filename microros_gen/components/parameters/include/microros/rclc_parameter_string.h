@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a value has besides its scalar: a string, where a plan has any. Else these do nothing. Internal. */
+/* Strings of parameters. If no parameter of the plan is a string, these functions do nothing. Internal. */
 #ifndef MICROROS_RCLC_PARAMETER_STRING_H
 #define MICROROS_RCLC_PARAMETER_STRING_H
 
+#include "microros/rclc_parameter_declared.h"
 #include "microros/rclc_parameters.h"
 
 #include <string.h>
@@ -13,12 +14,13 @@ extern "C" {
 
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
 
-/* Returns whether the string that was asked for has room in a place; NULL: a free one. */
+/* Returns whether the requested string fits in a place; NULL: in a free one. */
 static inline bool rclc_parameter_string_fits(
   const rclc_parameter_place_t * place, const parameter_requested_t * requested)
 {
   return requested->type != (uint8_t)RCLC_PARAMETER_STRING ||
-         requested->string.size <= (place != NULL ? place->string_most : MICROROS_PARAMETER_STRING_SIZE - 1u);
+         requested->string.size <=
+           (place != NULL ? place->about->string_most : MICROROS_PARAMETER_STRING_SIZE - 1u);
 }
 
 /* Copies a string that fits. */
@@ -28,7 +30,7 @@ static inline void rclc_parameter_string_copy(char * to, const parameter_text_t 
   to[text->size] = '\0';
 }
 
-/* Makes the string that was asked for the one of a state; it belongs to the server. */
+/* Sets the string of a state to the requested one, which belongs to the server. */
 static inline void rclc_parameter_string_new(
   rclc_parameter_server_t * server, const parameter_requested_t * requested, parameter_state_t * state)
 {
@@ -51,9 +53,33 @@ static inline void rclc_parameter_string_set(
   }
 }
 
+/* Sets the string of a state to the default of a declaration; returns whether it fits. */
+static inline bool rclc_parameter_string_start(
+  rclc_parameter_server_t * server, const rclc_parameter_declared_t * declared, parameter_state_t * state)
+{
+  if (declared->type == (uint8_t)RCLC_PARAMETER_STRING) {
+    if (declared->start_bytes > declared->about.string_most + 1u) {
+      return false;
+    }
+    (void)memcpy(server->string_new, declared->start, declared->start_bytes);
+    state->string = server->string_new;
+  }
+  return true;
+}
+
+/* Copies the string of a state to a place. */
+static inline void rclc_parameter_string_take(rclc_parameter_place_t * place, const parameter_state_t * state)
+{
+  if (state->type == (uint8_t)RCLC_PARAMETER_STRING) {
+    const parameter_text_t text = rclc_parameter_text(state->string);
+
+    rclc_parameter_string_copy(place->string, &text);
+  }
+}
+
 static inline const char * rclc_parameter_string_of(const rclc_parameter_place_t * place)
 {
-  return place != NULL && place->type == (uint8_t)RCLC_PARAMETER_STRING ? place->string : "";
+  return place->type == (uint8_t)RCLC_PARAMETER_STRING ? place->string : "";
 }
 
 #else
@@ -87,6 +113,23 @@ static inline void rclc_parameter_string_set(
 {
   (void)place;
   (void)requested;
+}
+
+static inline bool rclc_parameter_string_start(
+  const rclc_parameter_server_t * server, const rclc_parameter_declared_t * declared,
+  const parameter_state_t * state)
+{
+  (void)server;
+  (void)declared;
+  (void)state;
+  return true;
+}
+
+static inline void rclc_parameter_string_take(
+  const rclc_parameter_place_t * place, const parameter_state_t * state)
+{
+  (void)place;
+  (void)state;
 }
 
 static inline const char * rclc_parameter_string_of(const rclc_parameter_place_t * place)

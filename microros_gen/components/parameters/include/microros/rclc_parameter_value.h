@@ -10,7 +10,10 @@
 extern "C" {
 #endif
 
-/* Writes an rcl_interfaces/msg/ParameterValue; without a value for a NULL place. */
+/* What messages have for a name that is not known, and for a deleted parameter: no value. */
+extern const rclc_parameter_place_t rclc_parameter_nothing;
+
+/* Writes an rcl_interfaces/msg/ParameterValue. */
 void rclc_parameter_out_value(parameter_out_t * out, const rclc_parameter_place_t * place);
 
 #ifdef __cplusplus

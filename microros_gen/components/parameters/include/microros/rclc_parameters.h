@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The store of parameters, requests as they are on the wire, and what became of each set. Internal. */
+/* The store of parameters, requests in their encoded form, and the outcome of each set. Internal. */
 #ifndef MICROROS_RCLC_PARAMETERS_H
 #define MICROROS_RCLC_PARAMETERS_H
 
@@ -17,7 +17,31 @@
 extern "C" {
 #endif
 
-/* What an event says of a parameter. */
+/* The description and constraints of a parameter. */
+typedef struct rclc_parameter_about_t {
+  const char * name;
+  const char *
+    texts; /* the description, then the constraints in words, each with its NUL; NULL: both are empty */
+  const rclc_parameter_range_t * range; /* NULL: none */
+#if MICROROS_PARAMETER_ONE_OF
+  const void * one_of; /* the values that are accepted; NULL: all */
+  size_t one_of_count;
+#endif
+#if MICROROS_PARAMETER_STRING_SIZE > 0u
+  uint32_t string_most; /* bytes without the NUL */
+#endif
+#if MICROROS_PARAMETER_ARRAY_SIZE > 0u
+  uint32_t array_most; /* elements, where it is declared with a size */
+#endif
+} rclc_parameter_about_t;
+
+/* The variable data of a server's parameters. */
+typedef struct rclc_parameter_own_t {
+  const rclc_parameter_server_t * server;                 /* NULL: it belongs to none */
+  rclc_parameter_about_t abouts[MICROROS_PARAMETERS_MAX]; /* without a name: free */
+} rclc_parameter_own_t;
+
+/* The part of an event in which a parameter is listed. */
 enum { PARAMETER_EVENT_NONE, PARAMETER_EVENT_NEW, PARAMETER_EVENT_CHANGED, PARAMETER_EVENT_DELETED };
 
 /* Whether a server can hold values of a type; NOT_SET is none. */
@@ -41,25 +65,26 @@ static inline bool rclc_parameter_holds(uint32_t type)
   return type != (uint32_t)RCLC_PARAMETER_NOT_SET && type <= last;
 }
 
-/* What became of a parameter of a set request. */
+/* The outcome of one parameter of a set request. */
 typedef enum parameter_outcome_t {
   PARAMETER_SET,
-  PARAMETER_NONE, /* nothing was asked for */
+  PARAMETER_NONE, /* no value was requested */
   PARAMETER_UNNAMED,
   PARAMETER_UNDECLARED,
+  PARAMETER_SOME_UNDECLARED, /* the same of a request that is applied as a whole */
   PARAMETER_READ_ONLY,
-  PARAMETER_STATIC, /* not to be deleted */
+  PARAMETER_STATIC, /* cannot be deleted */
   PARAMETER_OTHER_TYPE,
   PARAMETER_OUTSIDE_INTEGER,
   PARAMETER_OUTSIDE_FLOATING_POINT,
   PARAMETER_REJECTED,
-  PARAMETER_NAME_LONG,
-  PARAMETER_FULL,
   PARAMETER_STRING_LONG,
   PARAMETER_ARRAY_LONG,
   PARAMETER_NOT_ONE_OF,  /* a value that is not listed */
   PARAMETER_UNSUPPORTED, /* a value of a type that a server cannot hold */
-  PARAMETER_CUT          /* its request was too large to arrive */
+  PARAMETER_CUT,         /* its request was too large to be received */
+  PARAMETER_NAME_LONG,   /* this and the last: of a parameter that would be created */
+  PARAMETER_FULL
 } parameter_outcome_t;
 
 /* A parameter of a request. `type` may be any number; `value` has one for the types that a server holds. */
@@ -76,9 +101,9 @@ typedef struct parameter_requested_t {
 #endif
 } parameter_requested_t;
 
-/* A parameter as the callback sees it; the name belongs to a place. */
+/* A parameter as it is passed to the callback; the name belongs to a place. */
 typedef struct parameter_state_t {
-  char * name;
+  const char * name;
   uint8_t type;
   rclc_parameter_scalar_t value;
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
@@ -90,45 +115,92 @@ typedef struct parameter_state_t {
 #endif
 } parameter_state_t;
 
+/* Parameters that set requests create: rclc_parameter_undeclared.c. */
+typedef struct rclc_parameter_undeclared_t {
+  /* For one of `created` parameters that the request creates. */
+  parameter_outcome_t (*check)(
+    const rclc_parameter_server_t * server, const parameter_requested_t * requested, size_t created);
+  /* Whether the callback accepts one with that name, which new_state gets. */
+  bool (*accepts)(
+    rclc_parameter_server_t * server, const parameter_text_t * name, parameter_state_t * new_state);
+  /* Adds it, without its value. */
+  void (*add)(rclc_parameter_server_t * server, const parameter_requested_t * requested);
+  const char * name_long; /* words of PARAMETER_NAME_LONG */
+  const char * full;      /* of PARAMETER_FULL */
+} rclc_parameter_undeclared_t;
+
+extern const rclc_parameter_undeclared_t rclc_parameter_undeclared;
+
 /* --- requests: rclc_parameter_request.c --- */
 
-/* Begins to read the request that the server has. It was checked when it arrived, so nothing in it fails. */
-cdr_in_t rclc_parameter_request_begin(const rclc_parameter_server_t * server, cdr_fault_t * fault);
+/* Begins to read the request that the server has. It was checked when it arrived, so nothing in it fails: faults of all
+ * servers go to the same place, which is not read. */
+cdr_in_t rclc_parameter_request_begin(const rclc_parameter_server_t * server);
 
 /* Reads a parameter and moves on. */
-parameter_requested_t rclc_parameter_request_parameter(cdr_in_t * in);
+void rclc_parameter_request_parameter(cdr_in_t * in, parameter_requested_t * requested);
 
-/* Decoders of message types whose message is the server: they check the request and keep it there. Of one that was too
- * large to arrive they only note the number of its entries, in `request_cut`: it is read as an empty one. */
+/* Decoders of message types whose message is the server: they check the request and keep it there. If the request was
+ * too large to be received, they only store the number of its entries in `request_cut`, and the request is read as an
+ * empty one. */
 void rclc_parameter_decode_names(cdr_in_t * in, void * server);
 void rclc_parameter_decode_parameters(cdr_in_t * in, void * server);
 void rclc_parameter_decode_list(cdr_in_t * in, void * server);
 
 /* --- numbers: rclc_parameter_divide.c --- */
 
-/* Returns value / by, and value % by in *rest; `by` is not 0. The division of 64 bits that a compiler brings along takes
- * more code than it is worth here. */
+/* Returns value / by, and value % by in *rest; `by` is not 0. The 64-bit division of the compiler's library takes more
+ * code than this. */
 uint64_t rclc_parameter_divide(uint64_t value, uint64_t by, uint64_t * rest);
+
+/* Returns whether a value is in a range: rclc_parameter_floating.c. */
+bool rclc_parameter_floating_point_holds(const rclc_parameter_range_t * range, double value);
 
 /* --- the store: rclc_parameter_store.c --- */
 
-/* Returns the place of that name, or NULL; what is deleted only waits for its event. */
+/* Returns a text of the application. */
+parameter_text_t rclc_parameter_text(const char * text);
+
+/* Returns whether a name begins with a text that contains no NUL. */
+bool rclc_parameter_begins(const char * name, const parameter_text_t * text);
+
+/* Returns the place of that name, or NULL. A deleted parameter, which only waits for its event, is not found. */
 const rclc_parameter_place_t * rclc_parameter_find(
   const rclc_parameter_server_t * server, const parameter_text_t * name);
 
-/* Fills a free place, whose name and value fit; there is one. It counts when `count` is raised. */
+/* Clears a free place, which must exist. It is in use when `count` is raised. */
 rclc_parameter_place_t * rclc_parameter_place(
-  rclc_parameter_server_t * server, const parameter_text_t * name, uint8_t type);
+  rclc_parameter_server_t * server, const rclc_parameter_about_t * about, uint8_t type);
 
-/* Notes what the next event says of a place that changed. */
+/* Frees the variable data of a place. */
+void rclc_parameter_disown(const rclc_parameter_server_t * server, const rclc_parameter_place_t * place);
+
+/* Returns a place as it is passed to the callback. */
+parameter_state_t rclc_parameter_state(rclc_parameter_place_t * place);
+
+/* Notes in which part of the next event a changed place is listed. */
 void rclc_parameter_note(rclc_parameter_server_t * server, rclc_parameter_place_t * place, uint32_t event);
 
 /* Removes the place, and moves those after it. */
 void rclc_parameter_remove(rclc_parameter_server_t * server, const rclc_parameter_place_t * place);
 
-/* Whether the callback accepts a change; either state may be NULL. */
+/* Returns whether the callback accepts a change; either state may be NULL. */
 bool rclc_parameter_accepts(
   rclc_parameter_server_t * server, const parameter_state_t * old_state, const parameter_state_t * new_state);
+
+/* --- variable data, linked only if it is needed: rclc_parameter_own.c --- */
+
+/* Fills a free place with a name and value that fit. NULL: all are in use, or more servers than nodes are open. */
+rclc_parameter_place_t * rclc_parameter_create(
+  rclc_parameter_server_t * server, const parameter_text_t * name, uint8_t type);
+
+/* Returns the description of a place for changes, and its index among those of all servers. NULL: *result has the
+ * error. */
+rclc_parameter_about_t * rclc_parameter_own(
+  rclc_parameter_server_t * server, rclc_parameter_place_t * place, uint32_t * number, rcl_ret_t * result);
+
+/* One for each parameter of all servers. */
+enum { PARAMETERS_OWN = MICROROS_NODES_MAX * MICROROS_PARAMETERS_MAX };
 
 /* --- calls of the application: rclc_parameter_look.c --- */
 
@@ -136,15 +208,19 @@ bool rclc_parameter_accepts(
 rcl_ret_t rclc_parameter_refuse(rcl_ret_t result, const char * name, const char * why);
 rcl_ret_t rclc_parameter_refuse_argument(void);
 
-/* Returns the place of a parameter; NULL: *result says why. */
+/* Returns the place of a parameter; NULL: *result has the error. */
 rclc_parameter_place_t * rclc_parameter_look(
   rclc_parameter_server_t * server, const char * name, rcl_ret_t * result);
 
-/* The same where the parameter is to be changed, which its callback must not. */
+/* The same for a change of the parameter, which its callback must not make. */
 rclc_parameter_place_t * rclc_parameter_look_to_change(
   rclc_parameter_server_t * server, const char * name, rcl_ret_t * result);
 
-/* Whether there is a place, of that type; another type becomes `error` in *result. */
+/* Returns whether a parameter of that name can be added; if not, *result has the error. */
+bool rclc_parameter_may_add(
+  const rclc_parameter_server_t * server, const parameter_text_t * name, rcl_ret_t * result);
+
+/* Returns whether the place exists and has that type; for another type *result is `error`. */
 bool rclc_parameter_is(
   const rclc_parameter_place_t * place, const char * name, rclc_parameter_type_t type, rcl_ret_t * result,
   rcl_ret_t error);
@@ -159,11 +235,11 @@ void rclc_parameter_set_all(rclc_parameter_server_t * server);
 
 /* --- replies and events: rclc_parameter_reply.c, rclc_parameter_event.c --- */
 
-/* Publishes the places that have an `event`, clears it, and removes those that are deleted. Without room for the event all
- * stays as it is, and is published together with what changes meanwhile. */
+/* Publishes the places that have an `event`, clears it, and removes those that are deleted. If the stream has no room
+ * for the event, it is published later, together with changes in between. */
 void rclc_parameter_publish(rclc_parameter_server_t * server);
 
-/* The type of /parameter_events whose message is the server. */
+/* The type of /parameter_events, whose message is the server. */
 extern const rosidl_message_type_support_t rclc_parameter_event_type;
 
 /* The types of the services whose messages are the server. */

@@ -12,11 +12,11 @@
 extern "C" {
 #endif
 
-/* Whether the stream of an open publisher has room, and a session; without receiving. Other than a publish that fails, this
- * counts nothing as dropped. */
+/* Returns whether an open publisher has a session and room in its stream; receives nothing. Unlike a publish that
+ * fails, it does not count a dropped sample. */
 bool rmw_parameters_have_room(const rmw_publisher_t * publisher);
 
-/* The identity of a request, and the length of the list that it begins with. */
+/* The identity of a request, and the length of its first list. */
 enum { RMW_PARAMETERS_BEGINNING = 28 };
 
 /* Sets how many bytes of a request that is too large for an open service reach it: RMW_PARAMETERS_BEGINNING, or 0. */

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Parameters of a node, served to ROS 2: the six services below the node's name, and /parameter_events. The server holds
- * names, values and descriptions by itself; nothing is allocated. All functions and the executor that runs the server
- * belong to one task.
+ * Parameters of a node, served to ROS 2: the six services below the node's name, and /parameter_events. The server
+ * holds the values; names, types, ranges and texts of the parameters that the application file declares are constants.
+ * If the application calls the functions below that add or change parameters, the library has static memory for them;
+ * nothing is allocated. All functions and the executor that runs the server belong to one task.
  *
- * The services answer as rclcpp does, with its reasons. A function below that returns no RCL_RET_OK leaves a text behind
- * rcl_get_error_string(), and has changed nothing.
+ * The services answer as rclcpp does, with its reasons. A function that returns another code than RCL_RET_OK has
+ * changed nothing, and rcl_get_error_string() explains it.
  */
 #ifndef MICROROS_RCLC_PARAMETER_H
 #define MICROROS_RCLC_PARAMETER_H
@@ -64,7 +65,7 @@ typedef rcl_interfaces__msg__Parameter__Sequence Parameter__Sequence;
 typedef rcl_interfaces__msg__ParameterDescriptor ParameterDescriptor;
 typedef rcl_interfaces__msg__ParameterDescriptor__Sequence ParameterDescriptor__Sequence;
 
-/* Handles of an executor that a server takes. */
+/* Executor handles that a server needs. */
 #if MICROROS_PARAMETERS_HELD
 #define RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES 1
 #else
@@ -76,17 +77,17 @@ typedef rcl_interfaces__msg__ParameterDescriptor__Sequence ParameterDescriptor__
 #define RCLC_PARAMETER_DISABLED_ON_CALLBACK 40004
 
 /*
- * Decides about a change, before it is made: false refuses it. `old_param` is NULL for a parameter that is created by a set
- * request (rclc_parameter_options_t), `new_param` for one that is deleted by one. Both, and all that they point to, are
- * only valid during the call. It must not change parameters of its server.
+ * Called before each change: false refuses it. `old_param` is NULL if a set request creates the parameter
+ * (rclc_parameter_options_t), `new_param` if one deletes it. Both, and all that they point to, are only valid during
+ * the call. It must not change parameters of its server.
  */
 typedef bool (*rclc_parameter_callback_t)(
   const Parameter * old_param, const Parameter * new_param, void * context);
 
 /*
- * `notify_changed_over_dds`: changes are published on /parameter_events. `max_params`: at most `pools: {parameters: N}` of
- * the application file. `allow_undeclared_parameters`: a set request may create parameters, change the type of these, and
- * delete them. `low_mem_mode`: there are no descriptions.
+ * `notify_changed_over_dds`: changes are published on /parameter_events. `max_params`: at most `pools: {parameters: N}`
+ * of the application file. `allow_undeclared_parameters`: a set request may create parameters, change the type of
+ * these, and delete them. `low_mem_mode`: parameters have no descriptions.
  */
 typedef struct rclc_parameter_options_t {
   bool notify_changed_over_dds;
@@ -127,39 +128,35 @@ typedef union rclc_parameter_array_t {
 } rclc_parameter_array_t;
 #endif
 
-/* One parameter. The members are the library's. */
+struct rclc_parameter_about_t;
+struct rclc_parameter_own_t;
+struct rclc_parameter_undeclared_t;
+
+/* One parameter. Its members are internal. */
 typedef struct rclc_parameter_place_t {
   rclc_parameter_scalar_t value;
-  rclc_parameter_range_t range; /* where has_range is set */
-  uint8_t type;                 /* an rclc_parameter_type_t */
+  const struct rclc_parameter_about_t *
+    about;      /* name, texts and constraints: constants of a declared parameter */
+  uint8_t type; /* an rclc_parameter_type_t */
   bool read_only;
   bool dynamic_typing; /* created by a set request */
-  bool has_range;
-  uint8_t event; /* what the next event says of it, or what the server that holds it does not know */
+  uint8_t
+    event; /* in which part of the next event it is listed, or what the server that holds it does not know */
 #if MICROROS_PARAMETERS_HELD
   uint32_t own_revision; /* of the last change by the node */
   int64_t changed_ns;    /* when that was, by the steady clock */
 #endif
-#if MICROROS_PARAMETER_ONE_OF
-  const void * one_of; /* the values that are accepted; NULL: all */
-  size_t one_of_count;
-#endif
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
-  uint32_t string_most; /* bytes without the NUL */
   char string[MICROROS_PARAMETER_STRING_SIZE];
 #endif
 #if MICROROS_PARAMETER_ARRAY_SIZE > 0u
   uint32_t array_count; /* elements */
-  uint32_t array_most;  /* of them, where it is declared with a size */
   rclc_parameter_array_t array;
 #endif
-  char name[MICROROS_PARAMETER_NAME_SIZE];
-  char description[MICROROS_PARAMETER_TEXT_SIZE];
-  char additional_constraints[MICROROS_PARAMETER_TEXT_SIZE];
 } rclc_parameter_place_t;
 
 #if MICROROS_PARAMETERS_HELD
-/* What a device and the server that holds its values said to each other. The members are the library's. */
+/* State of the exchange between a device and the server that holds its values. Its members are internal. */
 typedef struct rclc_parameter_held_t {
   uint8_t what; /* of the request that is being answered */
   uint8_t status;
@@ -181,7 +178,7 @@ typedef struct rclc_parameter_held_t {
 } rclc_parameter_held_t;
 #endif
 
-/* A server and its parameters. The members are the library's; the struct stays where it was initialized. */
+/* A server and its parameters. Its members are internal; do not move or copy the struct after its initialization. */
 typedef struct rclc_parameter_server_t {
   rcl_service_t services[RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES];
   rcl_publisher_t event_publisher;
@@ -189,14 +186,15 @@ typedef struct rclc_parameter_server_t {
   rclc_parameter_callback_t on_modification;
   void * context;
   bool (*floating_point_holds)(
-    const rclc_parameter_range_t * range, double value); /* NULL: none has a range */
+    const rclc_parameter_range_t * range, double value); /* NULL: no parameter has a range */
+  const struct rclc_parameter_undeclared_t * undeclared; /* NULL: set requests create no parameters */
+  struct rclc_parameter_own_t * own;                     /* variable data of its parameters; NULL: none */
   bool on_callback;
   bool notify_changed_over_dds;
-  bool allow_undeclared_parameters;
   bool low_mem_mode;
   bool request_swaps;    /* its numbers are in the other byte order */
   uint32_t request_size; /* of the request that is being answered */
-  uint32_t request_cut;  /* entries of one that was too large to arrive; 0: it arrived */
+  uint32_t request_cut;  /* entries of a request that was too large to be received; otherwise 0 */
   size_t max_params;
   size_t count;
   uint32_t revision; /* goes up with each change */
@@ -205,33 +203,33 @@ typedef struct rclc_parameter_server_t {
 #endif
   rclc_parameter_place_t places[MICROROS_PARAMETERS_MAX];
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
-  char string_new[MICROROS_PARAMETER_STRING_SIZE]; /* what the callback is asked about */
+  char string_new[MICROROS_PARAMETER_STRING_SIZE]; /* the change that the callback checks */
 #endif
 #if MICROROS_PARAMETER_ARRAY_SIZE > 0u
   rclc_parameter_array_t array_new; /* likewise */
 #endif
 #if MICROROS_PARAMETER_STRINGS_MAX > 0u
   rosidl_runtime_c__String
-    strings[2][MICROROS_PARAMETER_STRINGS_MAX]; /* as the callback sees them: old and new */
+    strings[2][MICROROS_PARAMETER_STRINGS_MAX]; /* as they are passed to the callback: old and new */
 #endif
   uint8_t outcomes[MICROROS_PARAMETER_OUTCOMES_MAX]; /* of the parameters of a set request */
   uint8_t request[MICROROS_PARAMETER_REQUEST_SIZE];
 } rclc_parameter_server_t;
 
-/* Events are published, and there is a place for every parameter of the plan. Otherwise as the following. */
+/* As the following function, with events and as many parameters as the plan has. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_parameter_server_init_default(rclc_parameter_server_t * parameter_server, rcl_node_t * node);
 
 /*
  * Opens the services and the publisher. Waits for the agent at most MICROROS_CREATE_TIMEOUT_MS for each of the seven.
- * RCL_RET_INVALID_ARGUMENT: max_params is 0 or above the plan's; else what rcl_service_init returns. `node` must outlive
- * the server.
+ * RCL_RET_INVALID_ARGUMENT: max_params is 0 or exceeds the plan; otherwise the codes of rcl_service_init. `node` must
+ * outlive the server.
  */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_parameter_server_init_with_option(
   rclc_parameter_server_t * parameter_server, rcl_node_t * node, const rclc_parameter_options_t * options);
 
-/* Closes them, and forgets all parameters. The executor must not spin again before it is ended as well. */
+/* Closes them, and forgets all parameters. Finalize its executor before the executor spins again. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_parameter_server_fini(rclc_parameter_server_t * parameter_server, rcl_node_t * node);
 
@@ -247,21 +245,21 @@ rcl_ret_t rclc_executor_add_parameter_server_with_context(
   rclc_executor_t * executor, rclc_parameter_server_t * parameter_server,
   rclc_parameter_callback_t on_modification, void * context);
 
-/* Adds a parameter of the value false, 0, "" or no elements; the name is copied. RCL_RET_ERROR: no place left, a name that is taken, empty
- * or longer than MICROROS_PARAMETER_NAME_SIZE - 1 bytes, or no type of a value. */
+/* Adds a parameter with the value false, 0, "" or without elements; the name is copied. RCL_RET_ERROR: all places are
+ * in use, the name exists, is empty or longer than MICROROS_PARAMETER_NAME_SIZE - 1 bytes, or the type is not that of a
+ * value. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_add_parameter(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, rclc_parameter_type_t type);
 
-/* RCL_RET_ERROR: no such parameter. */
+/* RCL_RET_ERROR: unknown parameter. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_delete_parameter(rclc_parameter_server_t * parameter_server, const char * parameter_name);
 
 /*
- * Set a value, if the callback accepts it, also that of a read-only parameter and one outside its range: these two hold for
- * requests of other nodes. RCL_RET_ERROR: no such parameter; RCLC_PARAMETER_TYPE_MISMATCH,
- * RCLC_PARAMETER_MODIFICATION_REJECTED. An event that finds no room in the stream waits for it, and then has
- * what changed meanwhile as well: the executor publishes it.
+ * Set a value if the callback accepts it. Read-only and ranges are not checked here: they apply to requests of other
+ * nodes. RCL_RET_ERROR: unknown parameter; RCLC_PARAMETER_TYPE_MISMATCH, RCLC_PARAMETER_MODIFICATION_REJECTED. An event
+ * without room in the stream waits until the executor can publish it, together with changes in between.
  */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_parameter_set_bool(
@@ -275,7 +273,7 @@ RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_parameter_set_double(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, double value);
 
-/* RCL_RET_ERROR: no such parameter; RCL_RET_INVALID_ARGUMENT: it has another type. */
+/* RCL_RET_ERROR: unknown parameter; RCL_RET_INVALID_ARGUMENT: it has another type. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_parameter_get_bool(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, bool * output);
@@ -289,27 +287,27 @@ rcl_ret_t rclc_parameter_get_double(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, double * output);
 
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
-/* Sets a string, which is copied. As the functions above, and RCL_RET_ERROR for one that is too long. */
+/* Sets a string, which is copied. Codes as above, and RCL_RET_ERROR for a string that is too long. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_parameter_set_string(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, const char * value);
 
-/* Gives the string where it is, without a copy: valid until the parameter changes, which it does in no other function
- * than those above and a spin of the executor. */
+/* Returns a pointer to the string, without a copy. It is valid until the parameter changes; only the functions above
+ * and a spin of the executor change it. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_parameter_get_string(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, const char ** output);
 
-/* Longer strings than `size` bytes, without the NUL, are refused. RCL_RET_ERROR: no such parameter, it has another type,
- * or a string that is longer already; RCL_RET_INVALID_ARGUMENT: `size` is above the plan's limit. */
+/* Refuses strings longer than `size` bytes, without the NUL. RCL_RET_ERROR: unknown parameter, another type, or its
+ * string is already longer; RCL_RET_INVALID_ARGUMENT: `size` exceeds the limit of the plan. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_add_parameter_constraint_string(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, size_t size);
 #endif
 
 #if MICROROS_PARAMETER_ARRAY_SIZE > 0u
-/* Set an array of `count` elements, which is copied; `values` may be NULL for none. As the functions above, and
- * RCL_RET_ERROR for one that is too long. */
+/* Set an array of `count` elements, which is copied; `values` may be NULL if `count` is 0. Codes as above, and
+ * RCL_RET_ERROR for an array that is too long. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_parameter_set_byte_array(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, const uint8_t * values,
@@ -329,7 +327,7 @@ rcl_ret_t rclc_parameter_set_double_array(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, const double * values,
   size_t count);
 
-/* Give an array where it is, without a copy: valid as what rclc_parameter_get_string gives. */
+/* Return a pointer to an array, without a copy; it is valid as long as that of rclc_parameter_get_string. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_parameter_get_byte_array(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, const uint8_t ** output,
@@ -350,8 +348,8 @@ rcl_ret_t rclc_parameter_get_double_array(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, const double ** output,
   size_t * count);
 
-/* More than `size` elements are refused. RCL_RET_ERROR: no such parameter, it is no array, or has more already;
- * RCL_RET_INVALID_ARGUMENT: `size` is above the plan's limit. */
+/* Refuses arrays of more than `size` elements. RCL_RET_ERROR: unknown parameter, not an array, or it already has more
+ * elements; RCL_RET_INVALID_ARGUMENT: `size` exceeds the limit of the plan. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_add_parameter_constraint_array(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, size_t size);
@@ -363,27 +361,27 @@ rcl_ret_t rclc_parameter_set_string_array(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, const char * const * values,
   size_t count);
 
-/* Gives the first of `count` strings; each following one begins after the NUL of the one before. */
+/* Returns a pointer to the first of `count` strings; each following string begins after the NUL of the one before. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_parameter_get_string_array(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, const char ** output,
   size_t * count);
 #endif
 
-/* Both texts are copied. RCL_RET_ERROR: no such parameter, or a text longer than MICROROS_PARAMETER_TEXT_SIZE - 1 bytes;
+/* Copies both texts. RCL_RET_ERROR: unknown parameter, or a text longer than MICROROS_PARAMETER_TEXT_SIZE - 1 bytes;
  * RCLC_PARAMETER_UNSUPORTED_ON_LOW_MEM. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_add_parameter_description(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, const char * parameter_description,
   const char * additional_constraints);
 
-/* Requests of other nodes cannot change it. */
+/* Requests of other nodes cannot change the parameter. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_set_parameter_read_only(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, bool read_only);
 
-/* Requests of other nodes are refused where the value is outside, or no multiple of `step` above `from_value` (`to_value`
- * is always one of the values). RCL_RET_ERROR: no such parameter, or it has another type. */
+/* Refuses requests of other nodes for a value outside of the range, or that is not a multiple of `step` above
+ * `from_value` (`to_value` is always accepted). RCL_RET_ERROR: unknown parameter, or another type. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_add_parameter_constraint_integer(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, int64_t from_value,
@@ -395,8 +393,8 @@ rcl_ret_t rclc_add_parameter_constraint_double(
   double step);
 
 #if MICROROS_PARAMETER_ONE_OF
-/* Requests of other nodes are refused where the value is none of `values`, which are not copied: they outlive the server.
- * RCL_RET_ERROR: no such parameter, or it has another type. */
+/* Refuses requests of other nodes for a value that is not in `values`. The list is not copied and must outlive the
+ * server. RCL_RET_ERROR: unknown parameter, or another type. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_add_parameter_constraint_one_of_int(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, const int64_t * values,

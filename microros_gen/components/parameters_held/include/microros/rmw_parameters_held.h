@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a notice says of the client. Internal. */
+/* Members of a notice that describe the client. Internal. */
 #ifndef MICROROS_RMW_PARAMETERS_HELD_H
 #define MICROROS_RMW_PARAMETERS_HELD_H
 
@@ -14,7 +14,7 @@ extern "C" {
 /* Returns the client key of an open publisher. */
 uint32_t rmw_parameters_board(const rmw_publisher_t * publisher);
 
-/* Returns how many sessions were opened after a loss; an agent that restarted has no notice of before. */
+/* Returns how many sessions were opened after a loss; a restarted agent has no earlier notices. */
 uint32_t rmw_parameters_reconnects(const rmw_publisher_t * publisher);
 
 #ifdef __cplusplus

@@ -63,10 +63,10 @@ void rmw_requester_pump(const rmw_client_t * client);
 /* --- for the executor, which replies when the callback returns --- */
 
 /*
- * As rmw_replier_take, and reserves a slot of the reliable stream for the reply until one of the two
- * functions below is called. */
+ * As rmw_replier_take, which also gives times, and reserves a slot of the reliable stream for the reply until one
+ * of the two functions below is called. */
 rmw_ret_t rmw_replier_begin(
-  const rmw_service_t * service, rmw_service_info_t * info, void * ros_request, bool * taken);
+  const rmw_service_t * service, rmw_request_id_t * request, void * ros_request, bool * taken);
 
 /* As rmw_replier_respond, with the reserved slot. */
 rmw_ret_t rmw_replier_end(

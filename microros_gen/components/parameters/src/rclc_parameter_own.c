@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Parameters of the application that the application file does not declare, and changes of what it declares. Linked
+ * only if the application does either.
+ */
+#include "microros/error.h"
+#include "microros/lock.h"
+#include "microros/rclc_parameters.h"
+
+#include <string.h>
+
+static rclc_parameter_own_t own_of_servers[MICROROS_NODES_MAX];
+
+/* Takes a free one, or the one that the server had before it was initialized again. */
+static rclc_parameter_own_t * own_take(rclc_parameter_server_t * server)
+{
+  rclc_parameter_own_t * taken = NULL;
+
+  microros_lock(); /* a server may run in each task */
+  for (size_t i = 0; i < MICROROS_NODES_MAX; ++i) {
+    rclc_parameter_own_t * own = &own_of_servers[i];
+
+    if (own->server == server || (own->server == NULL && taken == NULL)) {
+      taken = own;
+    }
+  }
+  if (taken != NULL) {
+    (void)memset(taken, 0, sizeof(*taken));
+    taken->server = server;
+  }
+  microros_unlock();
+  return taken;
+}
+
+/* Returns the one of a place, or a free one; NULL: all are in use. */
+static rclc_parameter_about_t * own_find(
+  rclc_parameter_server_t * server, const rclc_parameter_about_t * about, uint32_t * number)
+{
+  rclc_parameter_own_t * own = server->own != NULL ? server->own : own_take(server);
+  rclc_parameter_about_t * found = NULL;
+
+  server->own = own;
+  for (size_t i = 0; own != NULL && i < MICROROS_PARAMETERS_MAX; ++i) {
+    if (&own->abouts[i] == about || (own->abouts[i].name == NULL && found == NULL)) {
+      found = &own->abouts[i];
+      *number = (uint32_t)(own - own_of_servers) * MICROROS_PARAMETERS_MAX + (uint32_t)i;
+    }
+  }
+  return found;
+}
+
+rclc_parameter_about_t * rclc_parameter_own(
+  rclc_parameter_server_t * server, rclc_parameter_place_t * place, uint32_t * number, rcl_ret_t * result)
+{
+  rclc_parameter_about_t * about = own_find(server, place->about, number);
+
+  if (about == NULL) {
+    *result = rclc_parameter_refuse(
+      RCL_RET_ERROR, place->about->name, MICROROS_ERROR_WORDS("more servers than nodes"));
+    return NULL;
+  }
+  if (about != place->about) {
+    *about = *place->about;
+    place->about = about;
+  }
+  return about;
+}
+
+rclc_parameter_place_t * rclc_parameter_create(
+  rclc_parameter_server_t * server, const parameter_text_t * name, uint8_t type)
+{
+  static char names[PARAMETERS_OWN][MICROROS_PARAMETER_NAME_SIZE];
+  uint32_t number = 0;
+  rclc_parameter_about_t * about = own_find(server, NULL, &number);
+
+  if (about == NULL || server->count >= MICROROS_PARAMETERS_MAX) {
+    return NULL;
+  }
+  (void)memcpy(names[number], name->data, name->size);
+  names[number][name->size] = '\0';
+  (void)memset(about, 0, sizeof(*about));
+  about->name = names[number];
+#if MICROROS_PARAMETER_STRING_SIZE > 0u
+  about->string_most = MICROROS_PARAMETER_STRING_SIZE - 1u;
+#endif
+#if MICROROS_PARAMETER_ARRAY_SIZE > 0u
+  about->array_most = UINT32_MAX;
+#endif
+  return rclc_parameter_place(server, about, type);
+}
