@@ -46,6 +46,7 @@ def test_formats_are_those_of_the_c_library(verbose: Path, tmp_path: Path) -> No
     assert int(unit(verbose, "unit_log_format.c", tmp_path).split()[0]) > 100_000
 
 
+@pytest.mark.system
 def test_floating_point_where_it_is_selected(tmp_path: Path) -> None:
     out = rendered(tmp_path, BARE + "logging: console\ncomponents: [+logging_float]\n")
     assert int(unit(out, "unit_log_float.c", tmp_path, "-O1").split()[0]) > 90_000
@@ -224,6 +225,36 @@ def test_a_console_that_goes_nowhere_is_reported(tmp_path: Path) -> None:
     assert any("the log writer 'console' writes nowhere: the target silent" in text for text in reported)
 
 
+WAITS = "the log writer 'console' waits until mine has output each byte"
+FEW = "the log writer 'console' has 191 bytes, and a line takes up to 192"
+USELESS = "'size' of the log writer 'console' has no effect: mine keeps no lines for it"
+
+
+@pytest.mark.parametrize(
+    ("target", "size", "messages"),
+    [
+        ("stdio: {to: uart, driver: cmsdk, base: 0x40005000, irq: 2}\n", "", []),
+        ("provides: [console_send]\n", "", []),
+        ("provides: [console]\n", "", []),
+        ("stdio: {to: uart, driver: cmsdk, base: 0x40005000}\n", "", [WAITS]),
+        ("stdio: {to: semihosting}\n", "", [WAITS]),
+        ("stdio: {to: application}\n", ", size: 512", [USELESS, WAITS]),
+        ("provides: [console_send]\n", ", size: 192", []),
+        ("provides: [console_send]\n", ", size: 191", [FEW]),
+    ],
+)
+def test_a_console_that_waits_is_reported(
+    tmp_path: Path, target: str, size: str, messages: list[str]
+) -> None:
+    (tmp_path / "mine.yaml").write_text(f"target: mine\nextends: qemu-mps2-an386\n{target}")
+    text = BARE + f"logging: [{{to: console{size}}}]\nsession: {{key: 7}}\ntarget: ./mine.yaml\n"
+    try:
+        reported = planned(tmp_path, text).warnings
+    except UserError as refused:
+        reported = tuple(refused.diagnostics)
+    assert [found.message for found in reported] == messages
+
+
 NODE = "version: 1\nprofiles: [pure_sender]\nnodes: [{name: device}]\n"
 
 
@@ -231,9 +262,9 @@ NODE = "version: 1\nprofiles: [pure_sender]\nnodes: [{name: device}]\n"
     ("text", "place", "message"),
     [
         (
-            "logging: [{to: console, size: 512}]\n",
+            "logging: [{to: callback, size: 512}]\n",
             "4:11",
-            "the log writer 'console' keeps no lines, so it has no size",
+            "the log writer 'callback' keeps no lines, so it has no size",
         ),
         (
             "logging: [{to: rosout, size: 100}]\n",

@@ -14,7 +14,7 @@ from microros_gen.interfaces.closure import resolve_interfaces
 from microros_gen.interfaces.find import InterfaceFinder, shipped_folder
 from microros_gen.ros.codec import ENCAPSULATION_BYTES, Codec
 from tests.support.runtime.driver import Client
-from tests.support.runtime.harness import Tree, build
+from tests.support.runtime.harness import build
 from tests.support.runtime.serving_agent import ServingAgent, identity
 from tests.support.runtime.surface import write_application
 
@@ -63,8 +63,7 @@ class Device:
 @pytest.fixture(scope="module")
 def device(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Device]:
     tree = write_application(tmp_path_factory.mktemp("levels") / "tree", APPLICATION)
-    sources = tuple(s for s in tree.sources if not s.parent.name.startswith("port_posix"))
-    program = build(Tree(tree.folder, sources), ["port_fake.c", "client_levels.c"], "levels")
+    program = build(tree.without_port(), ["port_fake.c", "client_levels.c"], "levels")
     names = tuple(Named(f"rcl_interfaces/srv/{name}", None) for name in SERVICES)
     finder = InterfaceFinder.from_environment((shipped_folder(),))
     codec = Codec(resolve_interfaces(names, finder, Diagnostics()))

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Floating-point numbers of rcutils_logging_format against the C library's vsnprintf. */
-#include "rcutils/logging.h"
+#define UNIT_TEXT_SIZE 1600
+
 #include "unit.h"
+#include "unit_log_compare.h"
 
 #include <float.h>
 #include <math.h>
@@ -9,36 +11,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The formats are made here. */
-#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+enum { RANDOM = 150 };
 
-enum { TEXT_SIZE = 1600, RANDOM = 150 };
-
-static unsigned compared;
-static unsigned wrong;
 static uint64_t state = 88172645463325252u;
-
-static void compare(const char * format, ...)
-{
-  char own[TEXT_SIZE];
-  char expected[TEXT_SIZE];
-  va_list args;
-  va_list again;
-  size_t size = 0;
-  int expected_size = 0;
-
-  va_start(args, format);
-  va_copy(again, args);
-  size = rcutils_logging_format(own, sizeof(own), format, &args);
-  expected_size = vsnprintf(expected, sizeof(expected), format, again);
-  va_end(again);
-  va_end(args);
-  ++compared;
-  if ((int)size != expected_size || strcmp(own, expected) != 0) {
-    ++wrong;
-    (void)fprintf(stderr, "'%s': '%s', expected '%s'\n", format, own, expected);
-  }
-}
 
 static uint64_t draw(void)
 {
@@ -143,6 +118,5 @@ int main(void)
   drawn();
   others();
   bounded();
-  (void)printf("%u compared\n", compared);
-  return wrong == 0u ? 0 : 1;
+  return compare_end();
 }

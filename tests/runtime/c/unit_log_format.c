@@ -1,41 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* rcutils_logging_format against the C library's vsnprintf, for every combination of what a conversion can have. */
-#include "rcutils/logging.h"
+#define UNIT_TEXT_SIZE 160
+
 #include "unit.h"
+#include "unit_log_compare.h"
 
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
-/* The formats are made here. */
-#pragma GCC diagnostic ignored "-Wformat-nonliteral"
-
-enum { TEXT_SIZE = 160, FLAGS = 5 };
-
-static unsigned compared;
-static unsigned wrong;
-
-static void compare(const char * format, ...)
-{
-  char own[TEXT_SIZE];
-  char expected[TEXT_SIZE];
-  va_list args;
-  va_list again;
-  size_t size = 0;
-  int expected_size = 0;
-
-  va_start(args, format);
-  va_copy(again, args);
-  size = rcutils_logging_format(own, sizeof(own), format, &args);
-  expected_size = vsnprintf(expected, sizeof(expected), format, again);
-  va_end(again);
-  va_end(args);
-  ++compared;
-  if ((int)size != expected_size || strcmp(own, expected) != 0) {
-    ++wrong;
-    (void)fprintf(stderr, "'%s': '%s', expected '%s'\n", format, own, expected);
-  }
-}
+enum { FLAGS = 5 };
 
 /* Writes `before%<flags><width><precision><length><kind>after`. */
 static const char * made(
@@ -136,7 +110,7 @@ static const char * formatted(char * text, size_t size, const char * format, ...
 /* Conversions of floating point stand as they are, and the argument after them is found. */
 static void floats(void)
 {
-  char text[TEXT_SIZE];
+  char text[UNIT_TEXT_SIZE];
 
   CHECK(strcmp(formatted(text, sizeof(text), "%.2f %d", 1.5, 7), "%.2f 7") == 0);
   CHECK(strcmp(formatted(text, sizeof(text), "%-8Lg|%s", (long double)2, "b"), "%-8Lg|b") == 0);
@@ -145,7 +119,7 @@ static void floats(void)
 /* What an unknown conversion takes is unknown: the rest stands as it is. */
 static void unknown(void)
 {
-  char text[TEXT_SIZE];
+  char text[UNIT_TEXT_SIZE];
 
   CHECK(strcmp(formatted(text, sizeof(text), "%d %k %d", 1, 2, 3), "1 %k %d") == 0);
   CHECK(strcmp(formatted(text, sizeof(text), "%d %", 1), "1 %") == 0);
@@ -180,6 +154,5 @@ int main(void)
   floats();
   unknown();
   truncated();
-  (void)printf("%u compared\n", compared);
-  return wrong == 0u ? 0 : 1;
+  return compare_end();
 }

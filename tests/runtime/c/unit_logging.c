@@ -7,6 +7,7 @@
 #include <poll.h>
 #include <string.h>
 #include <sys/socket.h>
+#include <time.h>
 #include <unistd.h>
 
 static int calls;
@@ -121,6 +122,47 @@ static void throttled(void)
   CHECK(logged() == 1);
 }
 
+/* A clock that begins with the device: the first message is logged at once. */
+static void throttled_from_zero(void)
+{
+  for (now_ms = 0; now_ms < 1000; now_ms += 10) {
+    RCUTILS_LOG_INFO_THROTTLE(clock_now, 100, "x");
+  }
+  CHECK(logged() == 10);
+}
+
+static int64_t read_clock(clockid_t clock)
+{
+  struct timespec now;
+
+  CHECK(clock_gettime(clock, &now) == 0);
+  return RCUTILS_S_TO_NS((int64_t)now.tv_sec) + now.tv_nsec;
+}
+
+static void throttled_by_the_steady_clock(void)
+{
+  int64_t now = 0;
+  int64_t begin = read_clock(CLOCK_MONOTONIC);
+
+  CHECK(rcutils_steady_time_now(&now) == RCUTILS_RET_OK);
+  CHECK(begin <= now && now <= read_clock(CLOCK_MONOTONIC));
+  CHECK(rcutils_steady_time_now(NULL) == RCUTILS_RET_INVALID_ARGUMENT);
+  begin = read_clock(CLOCK_REALTIME);
+  CHECK(rcutils_system_time_now(&now) == RCUTILS_RET_OK);
+  CHECK(begin <= now && now <= read_clock(CLOCK_REALTIME));
+  CHECK(rcutils_system_time_now(NULL) == RCUTILS_RET_INVALID_ARGUMENT);
+  for (int i = 0; i < 100; ++i) {
+    RCUTILS_LOG_WARN_THROTTLE(RCUTILS_STEADY_TIME, 3600000, "temperature %d", i);
+  }
+  CHECK(logged() == 1);
+  begin = read_clock(CLOCK_MONOTONIC);
+  while (calls < 2) {
+    RCUTILS_LOG_WARN_THROTTLE(RCUTILS_STEADY_TIME, 10, "temperature");
+  }
+  CHECK(read_clock(CLOCK_MONOTONIC) - begin >= RCUTILS_MS_TO_NS(10));
+  (void)logged();
+}
+
 static int evaluated;
 
 static int evaluate(void)
@@ -228,6 +270,26 @@ static void console_lines(void)
   CHECK(strstr(strstr(dropped, "\n"), "dropped") == NULL);
 }
 
+/* The image has no memory for a text that does not fit into the buffer of the handler. */
+static void messages_without_memory(void)
+{
+  char text[40] = "";
+  rcutils_char_array_t out = rcutils_get_zero_initialized_char_array();
+
+  out.allocator = rcutils_get_default_allocator();
+  out.owns_buffer = false;
+  out.buffer = text;
+  out.buffer_capacity = sizeof(text);
+  CHECK(rcutils_logging_format_message(NULL, 20, "a", 0, "0123", &out) == RCUTILS_RET_OK);
+  CHECK(strcmp(out.buffer, "[INFO] [0000000000.000000000] [a]: 0123") == 0 && out.buffer == text);
+  CHECK(rcutils_logging_format_message(NULL, 20, "a", 0, "", &out) == RCUTILS_RET_BAD_ALLOC);
+  CHECK(rcutils_char_array_strcat(&out, "4") == RCUTILS_RET_BAD_ALLOC);
+  CHECK(strlen(text) == sizeof(text) - 1u && out.buffer == text);
+  CHECK(rcutils_char_array_strncat(&out, "", 9) == RCUTILS_RET_OK);
+  CHECK(rcutils_logging_format_message(NULL, 20, "a", 0, NULL, &out) == RCUTILS_RET_INVALID_ARGUMENT);
+  rcutils_reset_error();
+}
+
 static void configured(void)
 {
   const rcl_arguments_t arguments = rcl_get_zero_initialized_arguments();
@@ -252,8 +314,11 @@ int main(void)
   locations();
   conditions();
   throttled();
+  throttled_from_zero();
+  throttled_by_the_steady_clock();
   levels();
   names();
+  messages_without_memory();
   configured();
   CHECK(dup2(ends[1], STDERR_FILENO) >= 0);
   console(ends[0]);

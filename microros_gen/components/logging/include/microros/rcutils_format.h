@@ -49,6 +49,12 @@ void microros_format_dropped(void);
 void microros_format_integer(
   microros_format_t * out, const microros_conversion_t * how, uint64_t value, bool negative);
 
+/* Returns the name of a level, of the next lower one for a number between two levels. */
+const char * microros_format_level(int severity);
+
+/* Puts a time of day as seconds: 1700000000.123456789. */
+void microros_format_time(microros_format_t * out, int64_t time);
+
 /* Returns the seconds of a time of day, 0 for one before 1970, and the nanoseconds after them. */
 uint64_t microros_format_seconds(int64_t time, uint32_t * nanoseconds);
 

@@ -22,6 +22,7 @@
 #include "rcutils/error_handling.h"
 #include "rcutils/macros.h"
 #include "rcutils/time.h"
+#include "rcutils/types/char_array.h"
 #include "rcutils/types/rcutils_ret.h"
 #include "rcutils/visibility_control.h"
 
@@ -129,6 +130,14 @@ void rcutils_log_internal(
  * Writes the text of a message and a NUL, at most `size` characters; returns its length. For output handlers, instead of
  * the C library's vsnprintf. A text that is cut off ends with `...`. Returns 0 for NULL or size 0. */
 size_t rcutils_logging_format(char * text, size_t size, const char * format, va_list * args);
+
+/*
+ * Appends `[INFO] [1700000000.123456789] [name]: msg`, ROS 2's default format, to `logging_output`. For output handlers,
+ * after rcutils_char_array_vsprintf. `location` is not used; `name` can be NULL. RCUTILS_RET_BAD_ALLOC if the text does
+ * not fit and the allocator has no memory. */
+rcutils_ret_t rcutils_logging_format_message(
+  const rcutils_log_location_t * location, int severity, const char * name,
+  rcutils_time_point_value_t timestamp, const char * msg, rcutils_char_array_t * logging_output);
 
 /* Writes a message to the console; with the component `logging_console` (`logging: console`). */
 void rcutils_logging_console_output_handler(

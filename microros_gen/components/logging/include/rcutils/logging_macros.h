@@ -84,10 +84,11 @@ typedef bool (*RclLogFilter)(void);
   } \
   }
 
-/* `duration` is in milliseconds. A message whose time cannot be read is logged. */
+/* `duration` is in milliseconds. The first message is logged, even if the clock starts at 0 with the device, and so is a
+ * message whose time cannot be read. */
 #define RCUTILS_LOG_CONDITION_THROTTLE_BEFORE(get_time_point_value, duration) \
   { \
-    static rcutils_time_point_value_t microros_log_last; \
+    static rcutils_time_point_value_t microros_log_last = INT64_MIN / 2; \
     rcutils_time_point_value_t microros_log_now = 0; \
     if ( \
       get_time_point_value(&microros_log_now) != RCUTILS_RET_OK || \
