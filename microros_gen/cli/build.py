@@ -10,14 +10,10 @@ from typing import Any
 import click
 
 from microros_gen import compiler
-from microros_gen.cli.budgets import check_planned
 from microros_gen.cli.generate import files_line, warnings_text
 from microros_gen.cli.options import output_option, selection_options
-from microros_gen.cli.summary import built_summary, plan_summary
 from microros_gen.documents.templates import compile_ahead
-from microros_gen.image.folder import read_folder
 from microros_gen.output.runs import compiled_templates
-from microros_gen.output.tree import check_build_folders
 
 
 @click.command()
@@ -34,16 +30,23 @@ def command(output: Path | None, **options: Any) -> None:
     microros-gen build --profile pure_sender
     microros-gen build -c microros.yaml -o build/robot
     """
-    request = compiler.read(compiler.Options(**options))
     compile_ahead(compiled_templates(os.environ))
+    from microros_gen.cli.summary import built_summary, plan_summary
+    from microros_gen.output.tree import check_build_folders
+
+    request = compiler.read(compiler.Options(**options))
     resolved = compiler.resolve(request)
     out = compiler.output_folder(resolved, output)
     planned = compiler.plan(resolved)
     click.echo(warnings_text(planned.warnings), nl=False, err=True)
     tools = compiler.toolchain(planned)
     check_build_folders(out)
-    report = compiler.write(compiler.render(planned), out)
+    report = compiler.write(compiler.render(planned, fork=True), out)
     click.echo(plan_summary(planned) + files_line(out, report), nl=False)
     built = compiler.compile(planned, out, tools)
     click.echo(built_summary(out, built.report, built.usage, planned.project.lacks_image), nl=False)
-    check_planned(planned, lambda: read_folder(out))
+    if planned.project.application.memory.has_budget:
+        from microros_gen.cli.budgets import check_planned
+        from microros_gen.image.folder import read_folder
+
+        check_planned(planned, lambda: read_folder(out))

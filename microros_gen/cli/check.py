@@ -32,7 +32,7 @@ def command(golden: Path, update: bool, **options: Any) -> int:
     microros-gen check --profile pure_sender --golden golden/pure_sender
     """
     planned = compiler.plan(compiler.resolve(compiler.read(compiler.Options(**options))))
-    files = compiler.render(planned)
+    files = compiler.render(planned, fork=True)
     click.echo(warnings_text(planned.warnings), nl=False, err=True)
     if update:
         report = compiler.write(files, golden)

@@ -50,10 +50,10 @@ def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
         click.echo(last.summary + _files_line(last.out, 0, last.files, 0), nl=False)
         return
     started_ns = time.time_ns()
-    request = compiler.read(compiler.Options(**options))
     from microros_gen.documents.templates import compile_ahead
 
     compile_ahead(compiled_templates(os.environ))
+    request = compiler.read(compiler.Options(**options))
     from microros_gen.cli.summary import plan_summary
     from microros_gen.compiler.pipeline import read_paths
     from microros_gen.output.depfile import write_depfile
@@ -64,15 +64,15 @@ def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
     planned = compiler.plan(resolved)
     warnings = warnings_text(planned.warnings)
     click.echo(warnings, nl=False, err=True)
-    report = compiler.write(compiler.render(planned), out)
+    report = compiler.write(compiler.render(planned, fork=True), out)
     summary = plan_summary(planned)
     files = report.written + report.unchanged
     run = Run(out, summary, len(files), warnings)
     inputs = tuple(read_paths(planned))
-    outputs = [out / name for name in files]
+    outputs = [f"{out}/{name}" for name in files]
     if depfile is not None:
         write_depfile(depfile, out / MANIFEST, inputs)
-        outputs.append(depfile)
+        outputs.append(str(depfile))
     record_run(call, os.environ, run, (*inputs, out / JOURNAL), outputs, started_ns)
     click.echo(summary + files_line(out, report), nl=False)
 

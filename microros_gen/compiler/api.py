@@ -82,9 +82,12 @@ def plan(resolved: Resolved) -> Planned:
     return plan_request(resolved, _continued(resolved.warnings))
 
 
-def render(planned: Planned) -> dict[str, bytes]:
-    """Return the contents of every output file by its relative path (POSIX). Equal plans give equal bytes."""
-    return render_request(planned)
+def render(planned: Planned, *, fork: bool = False) -> dict[str, bytes]:
+    """Return the contents of every output file by its relative path (POSIX). Equal plans give equal bytes.
+
+    `fork`: where the system can fork and this process has one thread, a second process prints some of the files.
+    """
+    return render_request(planned, fork)
 
 
 def output_folder(resolved: Resolved, output: Path | None = None) -> Path:

@@ -20,7 +20,7 @@ def check_plan(planned: Planned, read: Callable[[], Folder], warnings: Diagnosti
     """
     memory = planned.project.application.memory
     places = {"ram_budget": memory.ram_span, "flash_budget": memory.flash_span, "stack": memory.stack_span}
-    if memory.ram_budget is None and memory.flash_budget is None and memory.stack is None:
+    if not memory.has_budget:
         return
     try:
         folder = read()

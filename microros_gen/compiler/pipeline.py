@@ -29,6 +29,7 @@ from microros_gen.client.plan.streams import DEFAULT_MTU, WRITE_DATA_OVERHEAD
 from microros_gen.compiler.request import Request
 from microros_gen.diagnostics import Diagnostic, Diagnostics
 from microros_gen.documents.named import Named
+from microros_gen.documents.templates import compile_also, compiled_before
 from microros_gen.interfaces.closure import InterfaceSet, resolve_interfaces, split_type_name
 from microros_gen.interfaces.derived import declaring_name, derived_name
 from microros_gen.interfaces.find import InterfaceFinder
@@ -39,7 +40,7 @@ from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
 from microros_gen.selection.clock import CLOCK_ROS, with_clock
 from microros_gen.selection.component import Catalogue, Profile
-from microros_gen.selection.component_sources import ComponentFile, component_files
+from microros_gen.selection.component_sources import ComponentFile, component_files, template_names
 from microros_gen.selection.extension import files_of, folders_below
 from microros_gen.selection.find_components import load_catalogue
 from microros_gen.selection.find_profiles import load_middleware, load_profiles
@@ -142,6 +143,7 @@ def _check_interfaces_have_a_use(
 
 def plan_request(resolved: Resolved, diagnostics: Diagnostics) -> Planned:
     """Find the interfaces and plan sizes, names and entities. Raises UserError with all that is wrong."""
+    compile_also(template_names(c.component for c in resolved.selection.components))
     planned = _planned(resolved, diagnostics)
 
     def other(application: Application) -> Project:
@@ -184,10 +186,9 @@ def _planned(resolved: Resolved, diagnostics: Diagnostics) -> Planned:
     return Planned(resolved, interfaces, searched, capacities, project)
 
 
-def render_request(planned: Planned) -> dict[str, bytes]:
-    """Return every file of the output folder, the manifest among them."""
+def render_request(planned: Planned, fork: bool = False) -> dict[str, bytes]:
+    """Return every file of the output folder, the manifest among them; `fork`: a second process may help."""
     from microros_gen.client.views.project import render_project
-    from microros_gen.documents.templates import compiled_before
     from microros_gen.output.manifest import manifest
     from microros_gen.output.runs import compiled_templates
     from microros_gen.output.tree import MANIFEST
@@ -195,10 +196,11 @@ def render_request(planned: Planned) -> dict[str, bytes]:
     chosen = {c.component.name for c in planned.project.selection.components}
     unselected = [c for c in planned.resolved.catalogue.values() if c.name not in chosen]
     with compiled_before(compiled_templates(os.environ)) as environment:
-        files = render_project(planned.project, _component_files(planned.project), unselected, environment)
+        own = _component_files(planned.project)
+        files = render_project(planned.project, own, unselected, environment, fork)
     inputs = dict(planned.resolved.request.inputs)
-    own = planned.resolved.own_profiles
-    inputs |= {f"profile {p.name}": p.span.source.text.encode() for p in own if p.span}
+    profiles = planned.resolved.own_profiles
+    inputs |= {f"profile {p.name}": p.span.source.text.encode() for p in profiles if p.span}
     inputs |= {
         f"target {Path(s.name).name}": s.text.encode() for s in planned.resolved.request.found_target.own
     }

@@ -74,6 +74,8 @@ def expectation(schema: dict[str, Any]) -> str:
         return f"{', '.join(first)} or {last}" if first else last
     kinds = schema.get("type", [])
     words = " or ".join(_TYPES[kind] for kind in ([kinds] if isinstance(kinds, str) else kinds))
+    if words == "a list" and schema.get("minItems") == 1:
+        return "a list with at least one item"
     low, high = schema.get("minimum"), schema.get("maximum")
     if low is not None and high is not None:
         return f"{words} between {low} and {high}"
@@ -83,7 +85,7 @@ def expectation(schema: dict[str, Any]) -> str:
 def found(node: YamlNode) -> str:
     """Return what stands there instead."""
     if isinstance(node, SequenceNode):
-        return "a list"
+        return "a list" if node.items else "an empty list"
     if isinstance(node, MappingNode):
         return "a mapping" if node.entries else "an empty mapping"
     if node.value is None:
@@ -98,6 +100,8 @@ def _hint(node: YamlNode, schema: dict[str, Any]) -> str | None:
     kinds = [kinds] if isinstance(kinds, str) else kinds
     if isinstance(node, ScalarNode):
         return _scalar_hint(node, kinds, schema)
+    if isinstance(node, SequenceNode) and not node.items and "array" in kinds:
+        return "Add an item, or remove the key"
     if isinstance(node, MappingNode) and kinds == ["array"]:
         return "Begin each item with '- ', or write [ … ]"
     return None

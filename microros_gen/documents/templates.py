@@ -5,12 +5,13 @@ from __future__ import annotations
 
 import marshal
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from functools import cache
+from itertools import chain
 from pathlib import Path
 
-from jinja2 import BytecodeCache, Environment, FileSystemLoader, StrictUndefined
+from jinja2 import BytecodeCache, Environment, FileSystemLoader, StrictUndefined, TemplateError
 from jinja2.bccache import Bucket
 
 from microros_gen.documents.ahead import Ahead, compute_ahead
@@ -45,29 +46,44 @@ def make_environment(folders: Sequence[Path] = TEMPLATE_FOLDERS) -> Environment:
 def shared_environment() -> Environment:
     """Return the environment over TEMPLATE_FOLDERS, made once: compiled templates are kept in it."""
     environment = make_environment()
-    environment.bytecode_cache = _CompiledTemplates()
+    environment.bytecode_cache = _compiled_templates()
     return environment
+
+
+@cache
+def _compiled_templates() -> _CompiledTemplates:
+    """Return what the shared environment keeps of compiled templates."""
+    return _CompiledTemplates()
 
 
 def compile_ahead(path: Path) -> None:
     """Let another process compile what every project prints, where no earlier run has left it in the file `path`.
 
-    Compiling takes a third of such a run; `compiled_before` takes the result.
+    Compiling takes a third of such a run; `compiled_before` takes the result. An early call leaves it
+    more time, and less memory to copy.
     """
-    compiled = shared_environment().bytecode_cache
-    assert isinstance(compiled, _CompiledTemplates)
     if not path.exists():
-        compiled.ahead = compute_ahead(_compile_common)
+        _compiled_templates().ahead = compute_ahead(_compile_common)
 
 
-def _compile_common() -> Mapping[str, bytes]:
+def compile_also(names: Iterable[str]) -> None:
+    """Let the process of `compile_ahead`, if there is one, compile these templates, too."""
+    ahead = _compiled_templates().ahead
+    if ahead is not None:
+        ahead.ask(names)
+
+
+def _compile_common(requested: Iterable[str]) -> Mapping[str, bytes]:
     environment = shared_environment()
-    for folder in _COMMON:
-        for path in sorted((TEMPLATE_FOLDERS[0] / folder).glob("*.j2")):
-            environment.get_template(f"{folder}/{path.name}")
-    compiled = environment.bytecode_cache
-    assert isinstance(compiled, _CompiledTemplates)
-    return compiled.known
+    common = (
+        f"{folder}/{path.name}"
+        for folder in _COMMON
+        for path in sorted((TEMPLATE_FOLDERS[0] / folder).iterdir())
+    )
+    for name in chain(common, requested):
+        with suppress(TemplateError):  # this process stops at what is wrong in it, if it uses the template
+            environment.get_template(name)
+    return _compiled_templates().known
 
 
 @contextmanager
@@ -76,11 +92,9 @@ def compiled_before(path: Path) -> Iterator[Environment]:
 
     What the file lacks is added to it afterwards; a failure loses only time.
     """
-    environment = shared_environment()
-    compiled = environment.bytecode_cache
-    assert isinstance(compiled, _CompiledTemplates)
+    compiled = _compiled_templates()
     names = compiled.read(path)
-    yield environment
+    yield shared_environment()
     compiled.write(path, names)
 
 

@@ -156,12 +156,13 @@ class _Builder:
     def __init__(self, source: Source, diagnostics: Diagnostics) -> None:
         self._source = source
         self._diagnostics = diagnostics
+        self._may_have_tags = "!" in source.text
         self._sizes: dict[int, int] = {}
         self._built: dict[int, YamlNode] = {}
 
     def measure(self, root: yaml.Node) -> bool:
         """Return whether the tree is finite and of a sane size, aliases written out; else say why not."""
-        return self._measure(root, [])
+        return _is_small(root) or self._measure(root, [])
 
     def _measure(self, node: yaml.Node, path: list[int]) -> bool:
         if id(node) in self._sizes:
@@ -249,6 +250,8 @@ class _Builder:
         return ScalarNode(_plain_value(text), text, True, span)
 
     def _check_tag(self, node: yaml.Node) -> None:
+        if not self._may_have_tags:
+            return
         start = node.start_mark.index
         if isinstance(node, yaml.MappingNode) and node.value and node.value[0][0].start_mark.index == start:
             return  # a block mapping begins with its first key, whose tag it is
@@ -267,11 +270,24 @@ class _Builder:
 
 
 def _children(node: yaml.Node) -> list[yaml.Node]:
-    if isinstance(node, yaml.SequenceNode):
-        return list(node.value)
+    if isinstance(node, yaml.ScalarNode):
+        return []
     if isinstance(node, yaml.MappingNode):
         return [part for pair in node.value for part in pair]
-    return []
+    return list(node.value)
+
+
+def _is_small(root: yaml.Node) -> bool:
+    """Return whether the tree is certainly within the limits: level by level, so a cycle is too deep for that."""
+    level, total = [root], 1
+    for _ in range(DEEPEST_TREE):
+        total += sum(2 * len(node.value) for node in level if not isinstance(node, yaml.ScalarNode))
+        if total > LARGEST_TREE:
+            return False
+        level = [child for node in level for child in _children(node)]
+        if not level:
+            return True
+    return False
 
 
 def _is_plain(node: yaml.ScalarNode) -> bool:

@@ -45,7 +45,7 @@ def find_run(command: Mapping[str, object], environ: Mapping[str, str]) -> Run |
     try:
         data = read_json(_record(command, environ))
         watched = {**data["inputs"], **data["outputs"]}
-        if data["tool"] != _tool_state() or any(_state(Path(p)) != s for p, s in watched.items()):
+        if data["tool"] != _tool_state() or any(_state(p) != s for p, s in watched.items()):
             return None
         return Run(Path(data["out"]), str(data["summary"]), int(data["files"]), str(data["warnings"]))
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
@@ -56,8 +56,8 @@ def record_run(
     command: Mapping[str, object],
     environ: Mapping[str, str],
     run: Run,
-    inputs: Iterable[Path],
-    outputs: Iterable[Path],
+    inputs: Iterable[str | Path],
+    outputs: Iterable[str | Path],
     started_ns: int,
 ) -> None:
     """Record a finished run. A cache that cannot be written is no error: the next run is a full one.
@@ -108,20 +108,20 @@ def _record(command: Mapping[str, object], environ: Mapping[str, str]) -> Path:
     return cache_folder(environ) / "runs" / f"{digest[:32]}.json"
 
 
-def _states(paths: Iterable[Path]) -> dict[str, list[int]]:
-    """Return the state of each path, by its absolute name."""
-    here = Path.cwd()
-    return {str(here / path): _state(path) for path in paths}
+def _states(paths: Iterable[str | Path]) -> dict[str, list[int]]:
+    """Return the state of each path, by its absolute name. A Path for each of a thousand takes longer than that."""
+    here = str(Path.cwd())
+    return {os.path.join(here, path): _state(path) for path in paths}  # noqa: PTH118
 
 
-def _state(path: Path) -> list[int]:
+def _state(path: str | Path) -> list[int]:
     """Return size and times of change, or a mark where nothing is; a folder's times tell of its names.
 
     The second time is that of the entry itself, which shows a file of the same size that was put in its place with
     its old time (POSIX; on Windows it is the time of creation).
     """
     try:
-        found = path.stat()
+        found = os.stat(path)  # noqa: PTH116
     except OSError:
         return _MISSING
     return [found.st_size, found.st_mtime_ns, found.st_ctime_ns]

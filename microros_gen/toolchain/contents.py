@@ -2,7 +2,8 @@
 """Digests of the files that an object was made from.
 
 microros_config.h is in most files, and a changed limit changes a few of its lines. An object counts only those lines
-whose names occur in the other files that it was made from; so an object that a change cannot reach is kept.
+whose names occur in the other files that it was made from, comments left out; so an object that a change cannot reach
+is kept.
 """
 
 from __future__ import annotations
@@ -15,6 +16,10 @@ from pathlib import Path
 
 CONFIG = "include/microros_config.h"
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
+# Texts come first: what looks like a comment in one is none. What is not closed ends with its line.
+_TEXT_OR_COMMENT = re.compile(
+    r"""("(?:\\.|[^"\\\n])*"?|'(?:\\.|[^'\\\n])*'?)|/\*.*?\*/|//(?:\\\n|[^\n])*""", re.DOTALL
+)
 _DEFINE = re.compile(r"#define ([A-Za-z_]\w*)(.*)")
 
 
@@ -64,7 +69,11 @@ class Contents:
     def _configured(self, name: str) -> frozenset[str]:
         """Return the names in a file that CONFIG defines."""
         if name not in self._names:
-            self._names[name] = self._config.names.intersection(_IDENTIFIER.findall(self._text(name)))
+            text, defined = self._text(name), self._config.names
+            found = defined.intersection(_IDENTIFIER.findall(text))
+            if found and "/" in text:
+                found = defined.intersection(_IDENTIFIER.findall(without_comments(text)))
+            self._names[name] = found
         return self._names[name]
 
 
@@ -93,6 +102,11 @@ class Config:
                     used for used in _IDENTIFIER.findall(self._defined[name]) if used in self._defined
                 ]
         return (*self._always, *(f"{name}{self._defined[name]}" for name in sorted(reached)))
+
+
+def without_comments(text: str) -> str:
+    """Return C source text with a space for each comment."""
+    return _TEXT_OR_COMMENT.sub(lambda found: found[1] or " ", text)
 
 
 def joined(parts: Iterable[str]) -> str:

@@ -25,6 +25,8 @@ _NOT_KEPT = re.compile(
     r"@|--coverage|-ftest-coverage|-fprofile|-fauto-profile|-fplugin|-fdump|-save-temps|-gsplit-dwarf|-fstack-usage"
     r"|-m(arch|cpu|tune)=native|-B|-?-specs=.*[/\\]|-wrapper|-Xclang|-Wp,|-Wa,|-Xassembler|-time"
 )
+# A processor has the next compiler while this program takes the result of the last one.
+_WAITING = 1
 _DEBUG = re.compile(r"-g(?!0$)")
 _TIME = re.compile(rb"\b__(DATE|TIME|TIMESTAMP)__\b")
 
@@ -53,6 +55,7 @@ class Objects:
         self._contents = contents
         self._stamps = stamps
         self._store = store
+        self._timed: dict[str, bool] = {}
 
     def copy(self, units: Sequence[Unit]) -> list[Unit]:
         """Copy the objects that the store has; return the other units."""
@@ -62,15 +65,15 @@ class Objects:
 
     def compile(self, units: Sequence[Unit]) -> None:
         """Compile the units. Raises UserError with status 1 and the compiler's output if one fails."""
-        with ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-            results = list(pool.map(lambda unit: run(unit.command, self._out), units))
         failed = []
-        for unit, result in zip(units, results, strict=True):
-            if result.returncode == 0:
-                self._keep(unit)
-            else:
-                message = f"{unit.source} does not compile:\n{result.stdout.rstrip()}"
-                failed.append(Diagnostic(message, id="MG-8201"))
+        with ThreadPoolExecutor(max_workers=(os.cpu_count() or 1) + _WAITING) as pool:
+            results = pool.map(lambda unit: run(unit.command, self._out), units)
+            for unit, result in zip(units, results, strict=True):
+                if result.returncode == 0:
+                    self._keep(unit)
+                else:
+                    message = f"{unit.source} does not compile:\n{result.stdout.rstrip()}"
+                    failed.append(Diagnostic(message, id="MG-8201"))
         if failed:
             raise UserError(failed, status=1)
 
@@ -114,7 +117,11 @@ class Objects:
         return str(self._out.resolve())
 
     def _has_time(self, name: str) -> bool:
-        return _TIME.search(self._contents.read(name) or b"") is not None
+        found = self._timed.get(name)
+        if found is None:
+            content = self._contents.read(name) or b""
+            found = self._timed[name] = b"__" in content and _TIME.search(content) is not None
+        return found
 
     def _made(self, unit: Unit, ending: str) -> Path:
         return self._out / f"{unit.object.removesuffix('.o')}{ending}"

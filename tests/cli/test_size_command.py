@@ -49,6 +49,16 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "out"
 
 
+@pytest.fixture(scope="module")
+def report(built: Path, tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """What `size` says of the image, asked once."""
+    file = tmp_path_factory.mktemp("said") / "size.json"
+    with pytest.raises(SystemExit) as end:
+        cli.main(["size", str(built), "--format", "json", "-o", str(file)])
+    assert end.value.code == 0
+    return json.loads(file.read_text(encoding="utf-8"))
+
+
 def sized(run: Runner, out: Path) -> Any:
     outcome = run("size", str(out), "--format", "json")
     assert (outcome.status, outcome.err) == (0, "")
@@ -90,19 +100,21 @@ def test_the_schema_describes_every_key() -> None:
     assert list(undescribed(SCHEMA, "")) == []
 
 
-def test_the_table_is_short_and_all_lists_every_symbol(run: Runner, built: Path) -> None:
+def test_the_table_is_short_and_all_lists_every_symbol(run: Runner, built: Path, report: Any) -> None:
     short, long = run("size", str(built)), run("size", str(built), "--all")
     assert short.status == long.status == 0
     assert long.out.startswith(short.out)
     assert not [line for line in long.out.splitlines() if line != line.rstrip()]
     assert len(short.out.splitlines()) < 130
-    data = sized(run, built)
-    assert re.search(rf"^total +{data['totals']['flash']} +{data['totals']['ram']}$", short.out, re.MULTILINE)
-    assert len(long.out.splitlines()) - len(short.out.splitlines()) >= len(data["symbols"])
+    assert re.search(
+        rf"^total +{report['totals']['flash']} +{report['totals']['ram']}$", short.out, re.MULTILINE
+    )
+    assert len(long.out.splitlines()) - len(short.out.splitlines()) >= len(report["symbols"])
     assert re.search(r"^publisher +/count +std_msgs/msg/Int32", short.out, re.MULTILINE)
     assert "rcl_publish " in long.out
 
 
+@pytest.mark.system
 def test_the_same_folder_gives_the_same_text(run: Runner, built: Path, folder: Path) -> None:
     for kind in ("table", "json", "html"):
         once = run("size", str(built), "--format", kind).out
@@ -140,7 +152,7 @@ class Page(HTMLParser):
             self.titles.append(data)
 
 
-def test_the_page_needs_nothing_else(run: Runner, built: Path) -> None:
+def test_the_page_needs_nothing_else(run: Runner, built: Path, report: Any) -> None:
     text = run("size", str(built), "--format", "html").out
     page = Page(text)
     assert page.open == []
@@ -152,9 +164,8 @@ def test_the_page_needs_nothing_else(run: Runner, built: Path) -> None:
     assert {"flash", "ram", "stack", "entities"} <= ids
     assert "prefers-color-scheme: dark" in text
     assert "@media print" in text
-    data = sized(run, built)
     assert len([t for t in page.titles if t.startswith("publish (component): ")]) == 1
-    size = next(o["flash"] for o in data["owners"] if o["name"] == "publish")
+    size = next(o["flash"] for o in report["owners"] if o["name"] == "publish")
     assert f"publish (component): {size} bytes" in page.titles
 
 
@@ -177,6 +188,7 @@ def put(folder: Path, memory: str) -> None:
     (folder / "microros.yaml").write_text(f"{APPLICATION}memory: {{{memory}}}\n", encoding="utf-8")
 
 
+@pytest.mark.system
 def test_exceeded_budgets_name_places_contributors_and_what_would_help(run: Runner, folder: Path) -> None:
     put(folder, "ram_budget: 1200, flash_budget: 10 KiB, stack: 512")
     outcome = run("build", "-o", "out")
@@ -222,6 +234,7 @@ def test_what_is_advised_helps(run: Runner, folder: Path) -> None:
     assert after[ram]["largest"] == after[ram]["advice"] == []
 
 
+@pytest.mark.system
 def test_budgets_that_hold_are_lines_of_the_table(run: Runner, folder: Path) -> None:
     put(folder, "ram_budget: 64 KiB, flash_budget: 1 MiB, stack: 1 MiB")
     assert run("build", "-o", "out").status == 0
@@ -232,7 +245,7 @@ def test_budgets_that_hold_are_lines_of_the_table(run: Runner, folder: Path) -> 
     assert "EXCEEDED" not in outcome.out
 
 
-def test_explain_a_symbol(run: Runner, built: Path) -> None:
+def test_explain_a_symbol(run: Runner, built: Path, report: Any) -> None:
     found = explained(run, built, "rcl_publish")
     assert (found["kind"], found["of"], found["present"]) == ("symbol", "publish", True)
     assert re.fullmatch(r"src/publish/rcl_publisher\.c:\d+", found["place"])
@@ -247,8 +260,7 @@ def test_explain_a_symbol(run: Runner, built: Path) -> None:
         "publisher /imu/data (sensor_msgs/msg/Imu)",
         "publisher /count (std_msgs/msg/Int32)",
     ]
-    data = sized(run, built)
-    assert found["flash"] == next(s["flash"] for s in data["symbols"] if s["name"] == "rcl_publish")
+    assert found["flash"] == next(s["flash"] for s in report["symbols"] if s["name"] == "rcl_publish")
 
 
 def test_explain_what_is_reached_only_through_a_pointer(run: Runner, built: Path) -> None:
@@ -278,11 +290,11 @@ def test_explain_files(run: Runner, built: Path) -> None:
     assert "components: [+timers]" in header["note"]
 
 
-def test_explain_components_and_types(run: Runner, built: Path) -> None:
+def test_explain_components_and_types(run: Runner, built: Path, report: Any) -> None:
     ping = explained(run, built, "ping")
     assert ping["reasons"] == ["liveliness: ping (default)"]
     assert any("acknack" in text for text in ping["removes"])
-    assert ping["flash"] == next(o["flash"] for o in sized(run, built)["owners"] if o["name"] == "ping")
+    assert ping["flash"] == next(o["flash"] for o in report["owners"] if o["name"] == "ping")
     header = explained(run, built, "std_msgs/msg/Header")
     assert header["entities"] == ["publisher /imu/data (sensor_msgs/msg/Imu)"]
     text = run("explain", str(built), "ping").out

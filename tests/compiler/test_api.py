@@ -3,15 +3,17 @@
 
 from __future__ import annotations
 
+import dataclasses
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 import pytest
 
 from microros_gen import compiler
 from microros_gen.diagnostics import Source
+from microros_gen.documents.ahead import Ahead, compute_ahead
 from microros_gen.interfaces.find import shipped_folder
 
 SHIPPED = (shipped_folder(),)
@@ -51,6 +53,33 @@ def test_generate_is_all_steps_up_to_writing(tmp_path: Path) -> None:
     ]
     again = compiler.generate(OPTIONS, tmp_path / "out")
     assert again.report.written == ()
+
+
+@pytest.mark.parametrize("fails", [False, True])
+def test_a_second_process_prints_the_same_files_in_the_same_order(
+    fails: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where it fails, the first process prints its half, too."""
+    started: list[Ahead] = []
+
+    def compute(work: Callable[[Iterator[str]], Mapping[str, bytes]]) -> Ahead | None:
+        ahead = compute_ahead(broken if fails else work)
+        started.extend([] if ahead is None else [ahead])
+        return ahead
+
+    def broken(names: Iterator[str]) -> Mapping[str, bytes]:
+        raise RuntimeError(*names)
+
+    packages = ("geometry_msgs", "std_srvs")
+    planned = compiler.plan(
+        compiler.resolve(compiler.read(dataclasses.replace(OPTIONS, interfaces=packages)))
+    )
+    alone = compiler.render(planned)
+    monkeypatch.setattr("microros_gen.typesupport.views.types._WORTH_A_PROCESS", 2)
+    monkeypatch.setattr("microros_gen.typesupport.views.types.compute_ahead", compute)
+    assert list(compiler.render(planned, fork=True).items()) == list(alone.items())
+    if not started:
+        pytest.skip("one processor, or no fork")
 
 
 def test_a_difference_is_a_unified_diff(tmp_path: Path) -> None:

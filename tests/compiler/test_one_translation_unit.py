@@ -23,7 +23,8 @@ logging: [rosout, {{to: ring, level: debug}}, console, callback]
 nodes:
   - name: all
     parameters: [{{name: gain, type: double}}, {{name: label, type: string, size: 8}}]
-    parameter_clients: [{{node: /motor, operations: [get, set, set_atomically, list, watch], elements: 3}}]
+    parameter_clients:
+      - {{node: /motor, elements: 3, operations: [get, set, set_atomically, list, describe, get_types, watch]}}
     publishers: [{{topic: out, type: std_msgs/msg/String, limits: {{string: 20}}}}]
     subscriptions: [{{topic: in, type: std_msgs/msg/String, limits: {{string: 20}}, queue: 2}}]
     services: [{{name: on, type: std_srvs/srv/SetBool, limits: {{message: 9}}}}]

@@ -7,7 +7,7 @@ import os
 import subprocess
 import sys
 import threading
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 import pytest
@@ -36,30 +36,66 @@ def test_a_run_without_a_cache_leaves_what_the_next_one_takes(tmp_path: Path) ->
     assert kept.read_bytes() == compiled
 
 
+def test_the_second_process_compiles_what_the_selected_components_print(tmp_path: Path) -> None:
+    """The first one compiles nothing that it uses itself: every template that it looks up is known by then."""
+    if compute_ahead(of_process) is None:
+        pytest.skip("one processor, or no fork")
+    program = (
+        "import sys; from jinja2 import Environment; from microros_gen.cli.main import main\n"
+        "compiled = []; compile = Environment.compile\n"
+        "def counted(self, *arguments, **named):\n"
+        "    compiled.append(arguments[1])\n"
+        "    return compile(self, *arguments, **named)\n"
+        "Environment.compile = counted\n"
+        "try: main(['generate', '--profile', 'pure_sender', '-o', 'out'])\n"
+        "except SystemExit: print(compiled)\n"
+    )
+    environment = {**os.environ, "XDG_CACHE_HOME": str(tmp_path / "cache")}
+    command = [sys.executable, "-c", program]
+    done = subprocess.run(command, cwd=tmp_path, env=environment, check=True, capture_output=True, text=True)
+    assert done.stdout.splitlines()[-1] == "[]", done.stdout
+
+
 def test_a_process_computes(capfd: pytest.CaptureFixture[str]) -> None:
-    ahead = compute_ahead(lambda: {"process": str(os.getpid()).encode(), "long": bytes(1 << 20)})
+    ahead = compute_ahead(of_process)
     if ahead is None:
         pytest.skip("one processor, or no fork")
+    ahead.ask(["first", "with space"])
+    ahead.ask(["second"])
+    ahead.ask(["x" * 5000])  # more than a pipe takes for sure: no reason to wait
     found = ahead.take()
     assert found["process"] == str(ahead.process).encode()
     assert found["long"] == bytes(1 << 20)
+    assert found["requested"] == b"first, with space, second"
     assert capfd.readouterr() == ("", "")
+    ahead.ask(["too late"])
 
 
-def killed() -> Mapping[str, bytes]:
+def of_process(requested: Iterator[str]) -> Mapping[str, bytes]:
+    return {
+        "process": str(os.getpid()).encode(),
+        "long": bytes(1 << 20),
+        "requested": ", ".join(requested).encode(),
+    }
+
+
+def killed(requested: Iterator[str]) -> Mapping[str, bytes]:
     os.kill(os.getpid(), 9)
-    return {}
+    return dict.fromkeys(requested, b"")
 
 
-def broken() -> Mapping[str, bytes]:
-    raise RuntimeError
+def broken(requested: Iterator[str]) -> Mapping[str, bytes]:
+    raise RuntimeError(*requested)
 
 
 @pytest.mark.parametrize("compute", [killed, broken])
-def test_a_process_that_fails_has_no_result(compute: object, capfd: pytest.CaptureFixture[str]) -> None:
-    ahead = compute_ahead(compute)  # type: ignore[arg-type]
+def test_a_process_that_fails_has_no_result(
+    compute: Callable[[Iterator[str]], Mapping[str, bytes]], capfd: pytest.CaptureFixture[str]
+) -> None:
+    ahead = compute_ahead(compute)
     if ahead is None:
         pytest.skip("one processor, or no fork")
+    ahead.ask(["whatever"])
     assert ahead.take() == {}
     assert capfd.readouterr() == ("", "")
     with pytest.raises(ChildProcessError):
@@ -71,7 +107,7 @@ def test_no_process_with_threads() -> None:
     thread = threading.Thread(target=end.wait)
     thread.start()
     try:
-        assert compute_ahead(dict) is None
+        assert compute_ahead(of_process) is None
     finally:
         end.set()
         thread.join()

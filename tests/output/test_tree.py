@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import json
 import os
+import threading
 from pathlib import Path
 
 import pytest
@@ -227,6 +229,34 @@ def test_an_interrupted_run_leaves_old_or_new_files_and_the_next_run_repairs_it(
     third = tree_of(src__b_c="third b")
     write_tree(tmp_path, third)
     assert held(tmp_path) == third
+
+
+@pytest.mark.parametrize("fails", ["", "src/1.c", "src/98.c"])
+def test_many_files_are_written_by_two_threads(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, fails: str
+) -> None:
+    """A file that one of them cannot write ends the run as in one thread; the next run writes the rest."""
+    files = tree_of(**{f"src__{index}_c": f"{index}" for index in range(100)})
+    real, threads = tree._replace, set()
+
+    def replace(path: str, content: bytes) -> None:
+        threads.add(threading.get_ident())
+        if fails and path.endswith(fails):
+            raise OSError(errno.ENOSPC, "no space", path)
+        real(path, content)
+
+    monkeypatch.setattr(tree, "_replace", replace)
+    if fails:
+        with pytest.raises(UserError, match="no space"):
+            write_tree(tmp_path, files)
+        assert (tmp_path / JOURNAL).exists()
+        assert not (tmp_path / MANIFEST).exists()
+    else:
+        assert write_tree(tmp_path, files).written == tuple(sorted(files))
+    assert len(threads) == 2
+    monkeypatch.undo()
+    write_tree(tmp_path, files)
+    assert held(tmp_path) == files
 
 
 def test_a_first_run_that_was_interrupted_can_be_taken_up(

@@ -92,7 +92,8 @@ def _including(tree: Tree, folder: Path, ending: str) -> list[str]:
 
 
 @pytest.mark.parametrize(
-    ("name", "compiler"), [("demo", "clang"), ("pool-none-drop-code-arena-device", "gcc")]
+    ("name", "compiler"),
+    [pytest.param("demo", "clang", marks=pytest.mark.system), ("pool-none-drop-code-arena-device", "gcc")],
 )
 def test_each_header_compiles_alone_in_c(tree_of: TreeOf, tmp_path: Path, name: str, compiler: str) -> None:
     if not has(compiler):
@@ -104,7 +105,8 @@ def test_each_header_compiles_alone_in_c(tree_of: TreeOf, tmp_path: Path, name: 
 
 
 @pytest.mark.parametrize(
-    ("name", "compiler"), [("demo", "g++"), ("pool-none-drop-code-arena-device", "clang++")]
+    ("name", "compiler"),
+    [("demo", "g++"), pytest.param("pool-none-drop-code-arena-device", "clang++", marks=pytest.mark.system)],
 )
 def test_each_header_compiles_alone_in_cpp(tree_of: TreeOf, tmp_path: Path, name: str, compiler: str) -> None:
     if not has(compiler):
@@ -180,6 +182,7 @@ int main()
 """
 
 
+@pytest.mark.system
 @pytest.mark.skipif(not has("cmake") or not has("g++"), reason="no cmake or no C++ compiler")
 def test_a_project_of_the_user_takes_it_in_as_a_subdirectory(tree_of: TreeOf, tmp_path: Path) -> None:
     (tmp_path / "CMakeLists.txt").write_text(_USER_CMAKE)
@@ -195,7 +198,7 @@ def test_a_project_of_the_user_takes_it_in_as_a_subdirectory(tree_of: TreeOf, tm
     ("name", "cpu"),
     [
         ("pool-none-drop-code-arena-device", "cortex-m0plus"),
-        ("demo", "cortex-m4f"),
+        pytest.param("demo", "cortex-m4f", marks=pytest.mark.system),
     ],
 )
 def test_a_cortex_m_compiler_takes_all_but_the_posix_port(

@@ -108,6 +108,7 @@ def test_headers_are_usable_from_cpp(limits_case: Generated, compiler: str, tmp_
         run([*command, *limits_case.includes, source])
 
 
+@pytest.mark.system
 def test_each_header_compiles_alone(everything: Generated, tmp_path: Path) -> None:
     sources = []
     packages = ("include/test_msgs/", "include/sensor_msgs/", "include/std_msgs/")

@@ -75,7 +75,11 @@ def test_32_bit_reads_the_same(everything: Generated, replayed: tuple[Path, int]
 
 
 @pytest.mark.parametrize(
-    ("target", "emulator"), [("powerpc-linux-gnu", "qemu-ppc"), ("arm-linux-gnueabihf", "qemu-arm")]
+    ("target", "emulator"),
+    [
+        ("powerpc-linux-gnu", "qemu-ppc"),
+        pytest.param("arm-linux-gnueabihf", "qemu-arm", marks=pytest.mark.system),
+    ],
 )
 def test_other_targets_read_the_same(
     everything: Generated, replayed: tuple[Path, int], target: str, emulator: str

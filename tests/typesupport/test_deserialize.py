@@ -202,6 +202,7 @@ def test_messages_are_read_and_refused_with_a_reason(tmp_path: Path) -> None:
     assert printed.stdout.replace(" in microros.yaml", "") == EXPECTED
 
 
+@pytest.mark.system
 def test_nothing_that_decodes_is_there_unasked(tmp_path: Path) -> None:
     out = build(tmp_path, "")
     assert not [s for s in symbols(out) if "decode" in s or "deserialize" in s or s.startswith("cdr_get")]

@@ -120,6 +120,7 @@ CALLS: Mapping[str, set[str]] = {
 }
 
 
+@pytest.mark.system
 def test_an_image_has_the_blocks_of_what_it_calls_alone(out: Path) -> None:
     """The linker drops every pool that nobody takes from."""
     objects = out.parent / "objects"

@@ -13,6 +13,7 @@ from typing import Any
 
 from jinja2 import Environment
 
+from microros_gen.documents.ahead import compute_ahead
 from microros_gen.interfaces.dds_names import dds_type
 from microros_gen.interfaces.derived import SERVICE_PARTS, declaring_name, derived_name
 from microros_gen.records import dataclass
@@ -33,24 +34,37 @@ class ServiceView:
     dds_name: str
 
 
+_WORTH_A_PROCESS = 200
+"""Headers of messages, of which half take as long as starting a process and copying the memory that it touches."""
+
+
 def render_types(
     type_plans: Sequence[TypePlan],
     environment: Environment,
     services: bool = False,
     pools: Collection[str] = (),
+    fork: bool = False,
 ) -> dict[str, bytes]:
     """Return path → contents of every file of the types, in the order of the plans.
 
     `type_plans` must hold every type that one of them is made of. `services`: service types get handles.
-    `pools` are the kinds of elements that messages which are sent have storage for.
+    `pools` are the kinds of elements that messages which are sent have storage for. `fork`: where they are many,
+    another process prints half of them (`compute_ahead` says where that is possible).
     """
     files: dict[str, list[TypePlan]] = {}
     for plan in type_plans:
         files.setdefault(plan.files.header, []).append(plan)
     renderer = _Renderer(type_plans, environment, services, pools)
-    for plans in files.values():
-        renderer.add(plans)
-    return renderer.files
+    headers = list(files.values())
+    half = len(headers) // 2
+    ahead = (
+        compute_ahead(lambda _: renderer.printed(headers[half:]))
+        if fork and len(headers) >= _WORTH_A_PROCESS
+        else None
+    )
+    first = renderer.printed(headers[:half])
+    taken = ahead.take() if ahead is not None else {}
+    return {**first, **(taken or renderer.printed(headers[half:]))}
 
 
 class _Renderer:
@@ -63,14 +77,21 @@ class _Renderer:
         services: bool,
         pools: Collection[str],
     ) -> None:
-        self.files: dict[str, bytes] = {}
+        self._files: dict[str, bytes] = {}
         self._plans = {plan.name: plan for plan in type_plans}
         self._encoders = EncoderViews(self._plans)
         self._environment = environment
         self._services = services
         self._pools = frozenset(pools)
 
-    def add(self, plans: Sequence[TypePlan]) -> None:
+    def printed(self, headers: Iterable[Sequence[TypePlan]]) -> dict[str, bytes]:
+        """Return every file of messages, which come by their headers."""
+        self._files = {}
+        for plans in headers:
+            self._add(plans)
+        return self._files
+
+    def _add(self, plans: Sequence[TypePlan]) -> None:
         """Print every file of the messages that share one header."""
         paths = plans[0].files
         own = [paths.functions, paths.struct]
@@ -115,7 +136,7 @@ class _Renderer:
 
     def _print(self, path: str, template: str, view: dict[str, Any]) -> None:
         text = self._environment.get_template(f"types/{template}.j2").render(view)
-        self.files[path] = text.encode("utf-8")
+        self._files[path] = text.encode("utf-8")
 
 
 def _with(includes: tuple[str, ...], more: str) -> tuple[str, ...]:
