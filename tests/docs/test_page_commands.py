@@ -43,11 +43,14 @@ NEEDS = {
 
 LONG = ("howto/init.md", "tutorial/nucleo_f446re.md")
 """Pages that compile the library by CMake; tests/workspace and test_boards.py have their slices."""
+SYSTEM = ("tutorial/host.md", "tutorial/qemu.md", "howto/component.md")
+"""Pages of which quick_start.md, tests/firmware and tests/selection have the shorter sibling."""
 
 
 def pages_that_run() -> list[Any]:
     names = [name for name in PAGES if name not in ELSEWHERE and runs(name)]
-    return [pytest.param(name, marks=pytest.mark.long if name in LONG else ()) for name in names]
+    marks = {**dict.fromkeys(LONG, pytest.mark.long), **dict.fromkeys(SYSTEM, pytest.mark.system)}
+    return [pytest.param(name, marks=marks.get(name, ())) for name in names]
 
 
 def runs(name: str) -> bool:

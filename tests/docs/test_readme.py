@@ -59,6 +59,7 @@ def test_the_figures_are_those_of_the_footprint() -> None:
     assert row[0] == readme_row(row, load())
 
 
+@pytest.mark.system
 @pytest.mark.builds
 def test_the_firmware_of_the_example_is_built_and_measured(tmp_path: Path) -> None:
     """The lines of the microcontroller; what `run` does with the same image is in tests/firmware/test_run.py."""

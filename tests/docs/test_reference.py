@@ -187,6 +187,7 @@ def test_two_runs_write_the_same() -> None:
     assert json.loads(done.stdout) == generated()
 
 
+@pytest.mark.system
 def test_the_example_of_the_python_api_runs(tmp_path: Path) -> None:
     program = [sys.executable, "-c", python_api.EXAMPLE]
     done = subprocess.run(program, cwd=tmp_path, text=True, capture_output=True, check=True)

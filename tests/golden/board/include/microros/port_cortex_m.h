@@ -24,6 +24,9 @@ void port_cortex_m_fault_record(const uint32_t * frame);
 /* The serial line's interrupt. */
 void port_cortex_m_uart_interrupt(void);
 
+/* The transmit interrupt of the console. */
+void port_cortex_m_console_interrupt(void);
+
 /* Lets interrupt `number` through (0 is the first one after the processor's own 16). */
 void port_cortex_m_interrupt_enable(uint32_t number);
 

@@ -2,6 +2,7 @@
 /* Objects in binary (OMG DDS-XRCE 1.0, 7.7.3 and annex A). */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
+#include "microros/xrce_topic_prefix.h"
 #include "microros/xrce_wire.h"
 
 #include <string.h>
@@ -31,7 +32,7 @@ static uint8_t * binary_put_participant(uint8_t * blob, const xrce_participant_t
 /* No type reference, but a type name, padded to four from the start of the blob. */
 static uint8_t * binary_put_topic(uint8_t * blob, const xrce_endpoint_t * endpoint)
 {
-  uint8_t * end = binary_put_string(blob, "rt", "", endpoint->name);
+  uint8_t * end = binary_put_string(blob, xrce_topic_prefix(endpoint), "", endpoint->name);
 
   *end++ = 0;
   *end++ = 1;
