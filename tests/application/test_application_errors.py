@@ -204,6 +204,16 @@ ERRORS: dict[str, tuple[str, str]] = {
         f"{NODE}    parameters: [{{name: p, type: integer, default: 9, range: {{min: 1, max: 5}}}}]\n",
         "f:3:52: error: the default of the parameter 'p' is not in its range. It goes from 1 to 5",
     ),
+    "no default, and a range without 0": (
+        f"{NODE}    parameters: [{{name: p, type: integer, range: {{min: 1, max: 5}}}}]\n",
+        "f:3:18: error: the parameter 'p' has no default and starts with 0, which is not in its range. "
+        "Write `default: 1`",
+    ),
+    "no default, and a list of values without 0": (
+        f"{NODE}    parameters: [{{name: p, type: integer, one_of: [7, 9]}}]\n",
+        "f:3:18: error: the parameter 'p' has no default and starts with 0, which is none of its values. "
+        "Write `default: 7`",
+    ),
     "default longer than its size": (
         f"{NODE}    parameters: [{{name: p, type: string, default: grün, size: 4}}]\n",
         "f:3:51: error: the default of the parameter 'p' is longer than its size. Set size: 5",
@@ -243,6 +253,20 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "infinite default": (
         f"{NODE}    parameters: [{{name: p, type: double, default: .inf}}]\n",
+        "f:3:51: error: the default of the parameter 'p' is no finite number. Set it in the program",
+    ),
+    "empty list of values": (
+        f"{NODE}    parameters: [{{name: p, type: integer, one_of: []}}]\n",
+        "f:3:51: error: 'nodes[0].parameters[0].one_of' must be a list with at least one item; "
+        "it is an empty list. Add an item, or remove the key",
+    ),
+    "empty list of writers": (
+        "version: 1\nlogging: []\n",
+        "f:2:10: error: 'logging' must be console, callback, rosout or ring, or a list of such writers; "
+        "it is an empty list. Add an item, or remove the key",
+    ),
+    "default that is no number": (
+        f"{NODE}    parameters: [{{name: p, type: double, default: .nan}}]\n",
         "f:3:51: error: the default of the parameter 'p' is no finite number. Set it in the program",
     ),
     "default between steps": (

@@ -4,9 +4,6 @@
 from __future__ import annotations
 
 import json
-import os
-import subprocess
-import sys
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -16,9 +13,8 @@ import pytest
 import microros_gen
 from tests.support.agent.observer import Observer
 from tests.support.agent.process import AgentProcess
-from tests.support.e2e.images import Images, ends_well, started
+from tests.support.e2e.images import Images, ends_well, started, tool
 from tests.support.e2e.relay import Relay
-from tests.support.patience import seconds
 
 COMPONENT = Path(__file__).with_name("components") / "session_diagnostics"
 APPLICATION = f"""\
@@ -64,7 +60,7 @@ def test_rclpy_reads_what_it_publishes(
     stamps = [array["header"]["stamp"] for array in arrays]
     between = [(b["sec"] - a["sec"]) + (b["nanosec"] - a["nanosec"]) / 1e9 for a, b in pairwise(stamps)]
     assert all(period > 0.9 for period in between), "at most once a second"
-    _tool("build", "-c", image.out.parent / "microros.yaml", "-o", image.out)
+    tool("build", "-c", image.out.parent / "microros.yaml", "-o", image.out)
     explained = _explain(image.out, "rcl_diagnostics_publish")
     assert explained["of"] == COMPONENT.name
     assert explained["reasons"] == ["components: +session_diagnostics (microros.yaml:3)"]
@@ -86,13 +82,4 @@ def _diagnostics(observer: Observer, count: int) -> list[dict[str, Any]]:
 
 
 def _explain(out: Path, what: str) -> dict[str, Any]:
-    return dict(json.loads(_tool("explain", out, what, "--format", "json")))
-
-
-def _tool(*arguments: str | Path) -> str:
-    command = [sys.executable, "-m", "microros_gen", *map(str, arguments)]
-    done = subprocess.run(
-        command, text=True, capture_output=True, check=False, timeout=seconds(120), env=dict(os.environ)
-    )
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+    return dict(json.loads(tool("explain", out, what, "--format", "json")))

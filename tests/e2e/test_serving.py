@@ -4,9 +4,7 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
-import sys
 import time
 from pathlib import Path
 
@@ -14,7 +12,7 @@ import pytest
 
 from tests.support.agent.observer import Observer
 from tests.support.agent.process import AgentProcess, running_agent
-from tests.support.e2e.images import C_FILES, QUICK, SANITIZE, Images, started
+from tests.support.e2e.images import C_FILES, QUICK, SANITIZE, Images, started, tool
 from tests.support.e2e.relay import Relay
 from tests.support.e2e.serving import await_line, await_replies
 from tests.support.patience import seconds
@@ -135,6 +133,7 @@ limits: {"*": {string: 16}}
 """
 
 
+@pytest.mark.system
 def test_the_example_asks_itself(images: Images, image_port: Relay, agent: AgentProcess) -> None:
     """Its server and its client are two DDS endpoints; `size` and `explain` know both, with their queues."""
     image = images.build(image_port.port, EXAMPLE, "gcc", QUICK)
@@ -163,11 +162,3 @@ def test_the_example_asks_itself(images: Images, image_port: Relay, agent: Agent
     assert "service /left/grip (std_srvs/srv/SetBool)" in output
     assert "client /left/grip (std_srvs/srv/SetBool)" in output
     assert "/left/empty" not in output
-
-
-def tool(*arguments: str | Path) -> str:
-    command = [sys.executable, "-m", "microros_gen", *map(str, arguments)]
-    environment = {**os.environ, "CFLAGS": "-O0"}
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    return done.stdout

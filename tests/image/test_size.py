@@ -34,6 +34,7 @@ from microros_gen.toolchain.identity import CALL_GRAPH
 from microros_gen.toolchain.toolchain import find_toolchain
 from tests.support.image.size_images import APPLICATION, BOARDS, PROBE, build, tool
 from tests.support.matrix import has
+from tests.support.slices import first
 
 pytestmark = [
     pytest.mark.skipif(not has("gcc") or not has("size"), reason="no gcc or no size"),
@@ -65,7 +66,7 @@ def berkeley(program: str, *files: Path) -> dict[str, int]:
     return dict(zip(("text", "data", "bss"), map(int, last[:3]), strict=True))
 
 
-@pytest.mark.parametrize("target", BOARDS)
+@pytest.mark.parametrize("target", first(BOARDS))
 def test_the_sums_are_those_of_size(measured: Measured, target: str) -> None:
     report = measured(target)
     assert report.folder.image is not None
@@ -77,7 +78,7 @@ def test_the_sums_are_those_of_size(measured: Measured, target: str) -> None:
         assert chunk.section != following.section or chunk.address + chunk.size == following.address
 
 
-@pytest.mark.parametrize("target", BOARDS)
+@pytest.mark.parametrize("target", first(BOARDS))
 def test_every_symbol_of_nm_has_its_size(measured: Measured, target: str) -> None:
     report = measured(target)
     expected: dict[str, int] = {}
@@ -97,7 +98,7 @@ def test_every_symbol_of_nm_has_its_size(measured: Measured, target: str) -> Non
     assert not [n for n in expected if n.startswith(("rcl", "rmw_", "xrce_", "port_")) and n not in counted]
 
 
-@pytest.mark.parametrize("target", BOARDS)
+@pytest.mark.parametrize("target", first(BOARDS))
 def test_an_owner_is_the_object_that_defines_a_symbol(measured: Measured, target: str) -> None:
     """`nm -A` of the library is the oracle: which member defines an exported function."""
     report = measured(target)
@@ -149,6 +150,7 @@ def check_message_storage(report: SizeReport) -> None:
     assert {a.change: a.saves for a in line.advice}["messages: 1"] == storage // 2
 
 
+@pytest.mark.system
 @pytest.mark.skipif(not has("arm-none-eabi-gcc"), reason="no compiler for Cortex-M")
 def test_a_target_without_an_image_is_measured_by_its_library(tmp_path: Path) -> None:
     text = PROBE.replace("nodes:", "transport: {type: custom}\nnodes:")
@@ -301,6 +303,7 @@ def test_every_frame_of_the_chain_is_what_gcc_says(measured: Measured) -> None:
     assert all(expected[link.name] == link.frame for link in compiled)
 
 
+@pytest.mark.system
 def test_clang_gives_no_bound_and_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     if not has("clang"):
         pytest.skip("no clang")

@@ -364,15 +364,17 @@ ELSEWHERE = {
     "executor": "unit_days.c",
     "parameter_client": "test_parameter_client.py: a call over the wrap",
     "parameters_held": "test_parameters_held.py: notices over the wrap; ages have 64 bits",
-    "port_bare": "tests/firmware/c/unit_bare.c and unit_bare_timers.c",
+    "port_bare": "tests/firmware/c/unit_bare.c, unit_bare_timers.c and unit_console.c",
     "timers": "unit_days.c",
 }
 TIMELESS = {
     "base": "constants, and a lock that sleeps a millisecond; no state",
     "graph": "its waits are those of wait sets; the period is a time-out",
+    "graph_topic": "its waits are those of wait sets; the period is a time-out",
     "entities_binary": "the deadline of a QoS is a number for the agent",
     "entities_preconfigured": "hands a time-out on to the session",
     "logging": "stamps messages with the time of day, which has 64 bits; its period is an unsigned difference",
+    "logging_console": "stamps messages with the time of day, which has 64 bits",
     "logging_rosout": "stamps messages with the time of day, which has 64 bits",
     "multithread": "sleeps a millisecond",
     "parameter_messages": "hands the time of arrival on",

@@ -48,7 +48,7 @@ UNITS = {
     ("compiler", "flags"),
     [
         pytest.param("gcc", SANITIZE, id="gcc-sanitized"),
-        pytest.param("gcc", ("-m32", "-Os"), id="gcc-m32"),
+        pytest.param("gcc", ("-m32", "-Os"), id="gcc-m32", marks=pytest.mark.system),
         pytest.param("clang", SANITIZE, id="clang-sanitized", marks=pytest.mark.long),
     ],
 )

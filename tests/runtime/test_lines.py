@@ -23,6 +23,7 @@ from tests.support.runtime.fake_agent import FakeAgent
 from tests.support.runtime.frames import AGENT, CLIENT, events, frame
 from tests.support.runtime.harness import Tree, build, components, render
 from tests.support.runtime.udp import UdpAgent
+from tests.support.slices import first
 
 PLAN = changed(
     POOL, times__connect_timeout_ms=3000, times__create_timeout_ms=3000, times__liveliness_period_ms=50
@@ -145,7 +146,7 @@ CLOSING_MS = {"soon": 20_000, "never": 400}
 
 
 @pytest.mark.parametrize("goes_on", ["soon", "never"])
-@pytest.mark.parametrize("entities", ["preconfigured", "binary"])
+@pytest.mark.parametrize("entities", first(["binary", "preconfigured"]))
 def test_closing_lets_what_waits_for_the_line_leave(entities: str, goes_on: str, tmp_path: Path) -> None:
     """The port holds more than a kilobyte when the session is closed; a line that takes nothing holds it no longer than
     `close_timeout`.
@@ -208,7 +209,7 @@ def _eventually(condition: Callable[[], bool]) -> None:
     ("device", "baud", "words"),
     [
         ("/dev/null", 115200, "no transport to /dev/null\n"),  # no terminal
-        ("/nowhere/tty", 115200, "no transport to /nowhere/tty\n"),
+        pytest.param("/nowhere/tty", 115200, "no transport to /nowhere/tty\n", marks=pytest.mark.system),
     ],
 )
 def test_no_such_line(device: str, baud: int, words: str, tmp_path: Path) -> None:
@@ -217,7 +218,9 @@ def test_no_such_line(device: str, baud: int, words: str, tmp_path: Path) -> Non
     assert (done.returncode, done.stdout) == (2, words)
 
 
-@pytest.mark.parametrize(("baud", "code"), [(9600, 0), (921600, 0), (123456, 2)])
+@pytest.mark.parametrize(
+    ("baud", "code"), [pytest.param(9600, 0, marks=pytest.mark.system), (921600, 0), (123456, 2)]
+)
 def test_speeds(baud: int, code: int, tmp_path: Path) -> None:
     agent = LineAgent()
     agent.start()
@@ -227,7 +230,7 @@ def test_speeds(baud: int, code: int, tmp_path: Path) -> None:
     assert done.returncode == code, done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("way", ["on", "off", "either"])
+@pytest.mark.parametrize("way", first(["either", "on", "off"]))
 def test_custom_over_udp(way: str, tmp_path: Path) -> None:
     agent = UdpAgent()
     agent.start()
@@ -243,7 +246,7 @@ def test_custom_over_udp(way: str, tmp_path: Path) -> None:
         assert agent.agent.values() == list(range(100))
 
 
-@pytest.mark.parametrize("way", ["on", "off", "either"])
+@pytest.mark.parametrize("way", first(["either", "on", "off"]))
 def test_custom_over_a_line(way: str, tmp_path: Path) -> None:
     agent = LineAgent()
     agent.start()
@@ -265,7 +268,7 @@ def test_custom_that_was_never_set(tmp_path: Path) -> None:
     assert done.stdout == "rmw_uros_set_custom_transport was not called before, or refused its arguments\n"
 
 
-@pytest.mark.parametrize("way", ["off", "either"])
+@pytest.mark.parametrize("way", first(["either", "off"]))
 def test_a_call_uses_a_transport_of_packets_once(way: str, tmp_path: Path) -> None:
     """One fragment a call, since the write function may wait; and no read, which waits, while somebody else reads."""
     plan = changed(

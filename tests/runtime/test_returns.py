@@ -26,6 +26,13 @@ limits: {'*': {string: 16, sequence: 4}}
 entities: binary
 pools: {nodes: 2, publishers: 2, subscriptions: 2, services: 2, clients: 2, timers: 2, guard_conditions: 3}
 """
+GRAPH = """\
+version: 1
+profiles: [pure_sender]
+components: [+graph]
+entities: binary
+nodes: [{name: device, namespace: /arm}]
+"""
 
 DIFFERENT: dict[str, tuple[int, int]] = {}
 """Call: what librcl returns, and what is returned here, for a reason."""
@@ -118,3 +125,13 @@ def test_every_state_returns_what_rclc_returns(tree: Tree, tmp_path: Path) -> No
     found = differing(ours, returned(lines))
     assert {key.split(" ", 1)[1]: pair for key, pair in found.items()} == DIFFERENT_RCLC
     assert len(found) == 2 + len(DIFFERENT_RCLC)
+
+
+def test_names_that_the_graph_refuses_are_those_of_librcl(tmp_path: Path) -> None:
+    source = FOLDER / "graph_names.c"
+    whole = write_application(tmp_path / "ours", GRAPH)
+    tree = Tree(whole.folder, tuple(s for s in whole.sources if not s.parent.name.startswith("port_posix")))
+    ours = of_ours(source, tree, tmp_path, [FIXTURES / "port_agent.c"])
+    assert differing(ours, of_librcl(source, tmp_path)) == {}
+    assert {202, 201, 200, 11} <= {value for _, value in ours}
+    assert len(ours) > 80

@@ -12,7 +12,7 @@ import pytest
 
 from tests.support.runtime.driver import Client
 from tests.support.runtime.fake_agent import FakeAgent
-from tests.support.runtime.harness import Tree, build
+from tests.support.runtime.harness import build
 from tests.support.runtime.surface import write_application
 
 SIZE = 700
@@ -80,8 +80,7 @@ def texts(agent: FakeAgent, library: bool = False) -> list[str]:
 @pytest.fixture(scope="module")
 def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
     tree = write_application(tmp_path_factory.mktemp("rosout") / "tree", APPLICATION)
-    sources = tuple(s for s in tree.sources if not s.parent.name.startswith("port_posix"))
-    return build(Tree(tree.folder, sources), ["port_fake.c", "client_logs.c"], "logs")
+    return build(tree.without_port(), ["port_fake.c", "client_logs.c"], "logs")
 
 
 @pytest.fixture

@@ -55,7 +55,11 @@ def program(tmp_path_factory: pytest.TempPathFactory):  # type: ignore[no-untype
 
 
 @pytest.fixture(
-    params=[(name, lock) for name in PLANS for lock in (False, True)],
+    params=[
+        pytest.param((name, lock), marks=[pytest.mark.system] if lock and name != "udp" else [])
+        for name in PLANS
+        for lock in (False, True)
+    ],
     ids=lambda param: f"{param[0]}{'-locked' if param[1] else ''}",
 )
 def client(request: pytest.FixtureRequest, program) -> Iterator[Client]:  # type: ignore[no-untyped-def]

@@ -23,6 +23,7 @@ from tests.support.runtime.harness import (
     link,
     render,
 )
+from tests.support.slices import only
 
 UNWARNED = ("-Os", "-Wno-error")
 """Warnings of gcc that inline what is in other files are no matter of symbols."""
@@ -109,10 +110,7 @@ VARIANTS = {
     "reader-preconfigured-ping": (changed(ONLY_READER, creation__entities="preconfigured"), "ping"),
     "reader-reference-ping": (changed(ONLY_READER, creation__entities="reference"), "ping"),
 }
-QUICK = (
-    *("pool-ping", "declared-acknack", "best-effort-none", "fragments-acknack"),
-    *("creation-none", "reader-ping", "reader-only-none", "reader-fragments-xml-ping"),
-)
+QUICK = (*("best-effort-none", "fragments-acknack", "creation-none", "reader-fragments-xml-ping"),)
 """Variants whose symbols are looked at in `make test`: each kind of stream, of liveliness and of endpoint."""
 FORBIDDEN = re.compile(
     r"\b(malloc|calloc|realloc|free|\w*printf|puts|fputs|fwrite|strtol|strdup|abort|exit|__assert\w*)$"
@@ -120,9 +118,9 @@ FORBIDDEN = re.compile(
 
 
 COMPILATIONS = [
-    ("pool-ping", "gcc", ("-O2",)),
+    pytest.param("pool-ping", "gcc", ("-O2",), marks=pytest.mark.system),
     pytest.param("pool-ping", "clang", ("-m32", "-O1"), marks=pytest.mark.long),
-    ("declared-acknack", "gcc", ("-m32", "-Os")),
+    pytest.param("declared-acknack", "gcc", ("-m32", "-Os"), marks=pytest.mark.system),
     pytest.param("declared-acknack", "clang", ("-Os",), marks=pytest.mark.lint),
     pytest.param("best-effort-none", "gcc", ("-O2",), marks=pytest.mark.long),
     pytest.param("best-effort-none", "clang", ("-Os",), marks=pytest.mark.long),
@@ -210,9 +208,7 @@ def _local(objects: tuple[Path, ...]) -> set[str]:
     return {line.split()[-1] for line in out.splitlines() if " t " in line}
 
 
-@pytest.mark.parametrize(
-    "name", [name if name in QUICK else pytest.param(name, marks=pytest.mark.system) for name in VARIANTS]
-)
+@pytest.mark.parametrize("name", only(QUICK, VARIANTS))
 def test_no_symbol_that_is_not_selected(name: str, tmp_path: Path) -> None:
     plan, liveliness = VARIANTS[name]
     tree = render(tmp_path, plan, components(plan, liveliness))
@@ -286,7 +282,9 @@ ARM = ("-mcpu=cortex-m4", "-mthumb", "-Os")
 
 
 @pytest.mark.skipif(not shutil.which("arm-none-eabi-gcc"), reason="no cross compiler")
-@pytest.mark.parametrize(("error_text_size", "most"), [(160, 9700), (0, 8300)])
+@pytest.mark.parametrize(
+    ("error_text_size", "most"), [pytest.param(160, 9700, marks=pytest.mark.system), (0, 8300)]
+)
 def test_size_on_a_cortex_m4(error_text_size: int, most: int, tmp_path: Path) -> None:
     """Of the library in a pure sender, without a port: two publishers, memcpy and memset of newlib included."""
     plan = changed(

@@ -16,6 +16,7 @@ from tests.support.plans import POOL, changed
 from tests.support.runtime.harness import build, components, render
 from tests.support.runtime.tcp import Sender, TcpAgent, framed, serving, together
 from tests.support.runtime.udp import UdpAgent
+from tests.support.slices import first
 
 PLAN = changed(
     POOL,
@@ -58,7 +59,7 @@ def test_whatever_the_segments(send: Sender, read: int, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("liveliness", ["ping", "none"])
-@pytest.mark.parametrize("close_at", [(12,), (12, 30, 31, 80), (1, 2)])
+@pytest.mark.parametrize("close_at", first([(12, 30, 31, 80), (12,), (1, 2)]))
 def test_a_closed_connection_is_opened_again(
     close_at: tuple[int, ...], liveliness: str, tmp_path: Path
 ) -> None:
@@ -124,7 +125,9 @@ def test_ipv6(transport: str, tmp_path: Path) -> None:
     assert (agent if transport == "tcp" else udp).agent.values() == list(range(100))
 
 
-@pytest.mark.parametrize(("host", "place"), [("127.0.0.1", "127.0.0.1"), ("::1", "[::1]")])
+@pytest.mark.parametrize(
+    ("host", "place"), [("127.0.0.1", "127.0.0.1"), pytest.param("::1", "[::1]", marks=pytest.mark.system)]
+)
 def test_no_listener(host: str, place: str, tmp_path: Path) -> None:
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     with socket.socket(family, socket.SOCK_STREAM) as taken:
@@ -143,7 +146,7 @@ def test_no_listener(host: str, place: str, tmp_path: Path) -> None:
     )
 
 
-@pytest.mark.parametrize("host", ["localhost", "1.2.3", "::g", ""])
+@pytest.mark.parametrize("host", first(["localhost", "1.2.3", "::g", ""]))
 def test_what_is_no_address_in_digits(host: str, tmp_path: Path) -> None:
     done = run(changed(PLAN, transport__agent_host=host, times__connect_timeout_ms=50), tmp_path)
     assert done.returncode == 2

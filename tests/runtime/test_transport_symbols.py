@@ -20,6 +20,7 @@ from tests.support.runtime.harness import (
     link,
     render,
 )
+from tests.support.slices import only
 
 UNWARNED = ("-Os", "-Wno-error")
 """Warnings of gcc that inline what is in other files are no matter of symbols."""
@@ -32,6 +33,8 @@ PLANS = {
     "custom-off": changed(POOL, transport__kind="custom", transport__framing="off"),
     "custom-either": changed(POOL, transport__kind="custom", transport__framing="either"),
 }
+QUICK = ("udp", "serial", "custom-on")
+"""What `make test` looks at: one of each transport."""
 OWN = {
     "udp": re.compile("udp"),
     "serial": re.compile("serial(?!iz)|framing"),
@@ -39,7 +42,7 @@ OWN = {
 }
 
 
-@pytest.mark.parametrize("name", PLANS)
+@pytest.mark.parametrize("name", only(QUICK, PLANS))
 def test_one_transport_and_no_other(name: str, tmp_path: Path) -> None:
     plan = PLANS[name]
     tree = render(tmp_path, plan, components(plan))
@@ -87,10 +90,15 @@ def _text(plan: RuntimePlan, folder: Path) -> int:
     return int(out.splitlines()[1].split()[0])
 
 
+@pytest.mark.system
 @pytest.mark.skipif(not shutil.which("arm-none-eabi-gcc"), reason="no cross compiler")
 @pytest.mark.parametrize(
     ("transport", "framing", "most"),
-    [("serial", "either", 520), ("custom", "on", 860), ("custom", "off", 280)],
+    [
+        ("serial", "either", 520),
+        ("custom", "on", 860),
+        ("custom", "off", 280),
+    ],
 )
 def test_size_with_udp(transport: str, framing: str, most: int, tmp_path: Path) -> None:
     udp = changed(DECLARED, streams__best_effort_size=92, streams__reliable_slot_size=16)

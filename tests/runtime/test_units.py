@@ -25,7 +25,10 @@ ARENA = changed(POOL, memory__arena_size=1024)
         ("unit_memory.c", changed(POOL, memory__arena_size=512), SANITIZE),
         ("unit_strings.c", ARENA, SANITIZE),
         ("unit_strings.c", POOL, ("-O2",)),
-        ("unit_memory.c", changed(POOL, memory__arena_size=512), ("-m32", "-Os")),
+        pytest.param(
+            *("unit_memory.c", changed(POOL, memory__arena_size=512), ("-m32", "-Os")),
+            marks=pytest.mark.system,
+        ),
     ],
     ids=["stream", "memory", "strings", "strings-no-arena", "memory-m32"],
 )

@@ -146,10 +146,13 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "profiles: [pure_sender]\ncomponents: [+parameters]\n",
         "parameter-client": _BUSY
         + "    parameters: [{name: gain, type: double}]\n"
-        + "    parameter_clients: [{node: /motor, operations: [get, set, set_atomically, list, watch], elements: 3}]\n"
+        + "    parameter_clients:\n      - {node: /motor, elements: 3, operations: "
+        + "[get, set, set_atomically, list, describe, get_types, watch]}\n"
         + "profiles: [pure_sender]\ncomponents: [+parameter_client, +subscribe, +parameters]\n",
         "graph": _BUSY
         + "profiles: [pure_sender]\ncomponents: [+graph]\nmemory: {arena: 4096}\nerrors: code\n",
+        "graph-topic": _BUSY
+        + "profiles: [pure_sender]\ncomponents: [+graph_topic]\nmemory: {arena: 4096}\nerrors: code\n",
         "parameter-storage": _BUSY
         + "    parameters: [{name: gain, type: double}]\n"
         + "profiles: [pure_sender]\ncomponents: [+parameter_storage]\n",

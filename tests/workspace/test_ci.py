@@ -113,6 +113,7 @@ def test_the_action_does_the_same(application: Path, tmp_path: Path, installed: 
     assert "--- " in done.stdout
 
 
+@pytest.mark.system
 def test_the_action_is_one(application: Path, tmp_path: Path, installed: Installed) -> None:
     """Its form, and its last step with the generator where the first one puts it."""
     check_schema("github-actions", ACTION)

@@ -101,6 +101,7 @@ def test_the_commands_of_the_page(project: Project) -> None:
     assert (project.source / "size.html").stat().st_size > 10_000
 
 
+@pytest.mark.system
 def test_explain_names_the_way_from_its_main(project: Project) -> None:
     output = json.loads(
         tool(project, "explain", project.build_folder, "rcl_publish", "--format", "json").stdout
@@ -113,6 +114,7 @@ def test_explain_names_the_way_from_its_main(project: Project) -> None:
     assert "publish" in {part["name"] for part in own["holds"]}
 
 
+@pytest.mark.system
 def test_without_a_map_symbols_tell(project: Project) -> None:
     image = project.build_folder / "app"
     mapped = sized(project, project.build_folder)
@@ -228,6 +230,7 @@ def test_run_starts_the_image_of_a_build_folder(project: Project, relay: Relay) 
         assert [topic for topic, _ in observer.got(2)][:2] == ["/turns", "/turns"]
 
 
+@pytest.mark.system
 @pytest.mark.ros
 @pytest.mark.skipif(shutil.which("qemu-system-arm") is None, reason="no qemu-system-arm")
 def test_run_starts_an_image_for_a_board_with_its_agent(board: Project) -> None:

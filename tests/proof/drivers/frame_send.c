@@ -7,9 +7,9 @@
 
 #include "microros/xrce_framing.h"
 
-#include "src/framing/xrce_framing.c"
+#include "src/framing/xrce_framing_send.c"
 
-/*@ ensures writer->held <= XRCE_FRAMING_CHUNK;
+/*@ ensures writer->held <= CHUNK;
     ensures \initialized(&writer->chunk[0 .. writer->held - 1]); */
 static void put(frame_writer_t * writer, uint8_t byte)
 {
@@ -39,7 +39,7 @@ size_t xrce_line_read(struct xrce_transport_t * line, uint8_t * chunk, size_t ca
 
 int main(void)
 {
-  for (uint8_t held = 0; held <= XRCE_FRAMING_CHUNK; ++held) {
+  for (uint8_t held = 0; held <= CHUNK; ++held) {
     frame_writer_t writer;
 
     proof_any(writer.chunk, held);

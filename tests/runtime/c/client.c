@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* An application in the hands of the test: one call for each line of standard input. */
-#include "port_fake.h"
+#include "fake_program.h"
 #include "client.h"
 #include "types.h"
 
@@ -272,21 +272,13 @@ static rcl_ret_t call(const char * line)
   return strncmp(word[0], "ping", 4) == 0 ? client_ping(word) : call_entity(word);
 }
 
+static void work(char * line)
+{
+  report_result(call(line));
+}
+
 int main(void)
 {
   allocator = rcl_get_default_allocator();
-  for (;;) {
-    const char * line = fake_read_line();
-
-    if (strcmp(line, "quit") == 0) {
-      return 0;
-    }
-    if (!fake_take_line(line)) {
-      const rcl_ret_t result = call(line);
-
-      printf("ret %d %s\n", (int)result, rcl_get_error_string().str);
-      rcl_reset_error();
-      (void)fflush(stdout);
-    }
-  }
+  return run_calls(work);
 }

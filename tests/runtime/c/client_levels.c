@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A node with logger services in the hands of the test: one call for each line of standard input. */
-#include "port_fake.h"
-
-#include "microros/port.h"
+#include "fake_no_wait.h"
+#include "fake_program.h"
 
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
@@ -11,25 +10,12 @@
 #include <rcutils/logging.h>
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static rclc_support_t support;
 static rcl_node_t node;
 static rclc_executor_t executor;
 static rcl_allocator_t allocator;
-
-/* Nothing arrives before the test says so: no test lets the executor wait. */
-void port_wait(intptr_t handle, uint32_t timeout_ms)
-{
-  (void)handle;
-  (void)timeout_ms;
-  abort();
-}
-
-void port_wake(void)
-{
-}
 
 static rcl_ret_t start(void)
 {
@@ -68,21 +54,13 @@ static rcl_ret_t call(const char * line)
   }
 }
 
+static void work(char * line)
+{
+  report_result(call(line));
+}
+
 int main(void)
 {
   allocator = rcl_get_default_allocator();
-  for (;;) {
-    const char * line = fake_read_line();
-
-    if (strcmp(line, "quit") == 0) {
-      return 0;
-    }
-    if (!fake_take_line(line)) {
-      const rcl_ret_t result = call(line);
-
-      printf("ret %d %s\n", (int)result, rcl_get_error_string().str);
-      rcl_reset_error();
-      (void)fflush(stdout);
-    }
-  }
+  return run_calls(work);
 }

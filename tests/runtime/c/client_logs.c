@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Log messages and a publisher in the hands of the test: one call for each line of standard input. */
-#include "port_fake.h"
+#include "fake_program.h"
 
 #include <rcl/error_handling.h>
 #include <rcl/logging_rosout.h>
@@ -91,21 +91,13 @@ static rcl_ret_t call(const char * line)
   }
 }
 
+static void work(char * line)
+{
+  report_result(call(line));
+}
+
 int main(void)
 {
   allocator = rcl_get_default_allocator();
-  for (;;) {
-    const char * line = fake_read_line();
-
-    if (strcmp(line, "quit") == 0) {
-      return 0;
-    }
-    if (!fake_take_line(line)) {
-      const rcl_ret_t result = call(line);
-
-      printf("ret %d %s\n", (int)result, rcl_get_error_string().str);
-      rcl_reset_error();
-      (void)fflush(stdout);
-    }
-  }
+  return run_calls(work);
 }

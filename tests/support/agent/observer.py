@@ -98,7 +98,7 @@ def main() -> None:
     threading.Thread(target=_read, args=(commands, woken.trigger), daemon=True).start()
     peer = _Peer(node, arrived)
     while True:
-        executor.spin_once(timeout_sec=0.02)  # a command wakes it; what is polled waits so long at most
+        executor.spin_once(timeout_sec=0.02 if peer.polls else 1.0)  # a command wakes it
         peer.poll()
         try:
             command = json.loads(commands.get_nowait())
@@ -143,6 +143,11 @@ class _Peer:
         self._clients: dict[str, Any] = {}
         self._calls: list[Any] = []
         self._adder: Any = None
+
+    @property
+    def polls(self) -> bool:
+        """Whether there is what no executor waits for."""
+        return bool(self._raw or self._services)
 
     def poll(self) -> None:
         for topic, handle in self._raw:

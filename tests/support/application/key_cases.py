@@ -666,7 +666,8 @@ _NODES = {
         ("list", "watch"),
         _in_node("parameter_clients: [{node: /motor, operations: [gets]}]"),
         "3:53",
-        "'nodes[0].parameter_clients[0].operations[0]' must be get, set, set_atomically, list or watch",
+        "'nodes[0].parameter_clients[0].operations[0]' must be get, set, set_atomically, list, describe, "
+        "get_types or watch",
     ),
     "nodes[].parameter_clients[].parameters": KeyCase(
         _in_node("parameter_clients: [{node: /motor, parameters: 7}]"),
@@ -675,6 +676,22 @@ _NODES = {
         _in_node("parameter_clients: [{node: /motor, parameters: 0}]"),
         "3:52",
         "'nodes[0].parameter_clients[0].parameters' must be",
+    ),
+    "nodes[].parameter_clients[].types": KeyCase(
+        _in_node("parameter_clients: [{node: /motor, types: ['bool[]'], elements: 2}]"),
+        lambda a: _node(a).parameter_clients[0].types,
+        ("bool[]",),
+        _in_node("parameter_clients: [{node: /motor, types: [bool]}]"),
+        "3:48",
+        "'nodes[0].parameter_clients[0].types[0]' must be",
+    ),
+    "nodes[].parameter_clients[].description": KeyCase(
+        _in_node("parameter_clients: [{node: /motor, description: 9}]"),
+        lambda a: _node(a).parameter_clients[0].description,
+        9,
+        _in_node("parameter_clients: [{node: /motor, description: -1}]"),
+        "3:53",
+        "'nodes[0].parameter_clients[0].description' must be",
     ),
     "nodes[].parameter_clients[].string": KeyCase(
         _in_node("parameter_clients: [{node: /motor, string: 0}]"),
@@ -749,7 +766,7 @@ _NODES = {
         "'nodes[0].parameters[0].default' must be true or false, a number, a text or a list of them",
     ),
     "nodes[].parameters[].one_of": KeyCase(
-        _in_node("parameters: [{name: a, type: integer, one_of: [1, 5]}]"),
+        _in_node("parameters: [{name: a, type: integer, default: 1, one_of: [1, 5]}]"),
         lambda a: _node(a).parameters[0].one_of,
         (1, 5),
         _in_node("parameters: [{name: a, type: integer, one_of: 5}]"),
@@ -782,7 +799,7 @@ _NODES = {
         "'yes' is a text in YAML 1.2; write true",
     ),
     "nodes[].parameters[].range": KeyCase(
-        _in_node("parameters: [{name: a, type: integer, range: {min: 1, max: 5, step: 2}}]"),
+        _in_node("parameters: [{name: a, type: integer, default: 1, range: {min: 1, max: 5, step: 2}}]"),
         lambda a: (
             _node(a).parameters[0].minimum,
             _node(a).parameters[0].maximum,
@@ -802,7 +819,7 @@ _NODES = {
         "'nodes[0].parameters[0].range.min' must be a number; it is the text 'low'",
     ),
     "nodes[].parameters[].range.max": KeyCase(
-        _in_node("parameters: [{name: a, type: double, range: {min: 1, max: 1e3}}]"),
+        _in_node("parameters: [{name: a, type: double, default: 1, range: {min: 1, max: 1e3}}]"),
         lambda a: _node(a).parameters[0].maximum,
         1000.0,
         _in_node("parameters: [{name: a, type: double, range: {min: 1, max: 10:30}}]"),
@@ -812,7 +829,7 @@ _NODES = {
         "1.2; write the number in decimal, or in hex with 0x",
     ),
     "nodes[].parameters[].range.step": KeyCase(
-        _in_node("parameters: [{name: a, type: integer, range: {min: 1, max: 5, step: 2}}]"),
+        _in_node("parameters: [{name: a, type: integer, default: 1, range: {min: 1, max: 5, step: 2}}]"),
         lambda a: _node(a).parameters[0].step,
         2,
         _in_node("parameters: [{name: a, type: integer, range: {min: 1, max: 5, step: -2}}]"),

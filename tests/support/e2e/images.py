@@ -177,6 +177,14 @@ def run(
     )
 
 
+def tool(*arguments: str | Path) -> str:
+    """Return what the tool prints, with compilers that do not optimize; AssertionError if it fails."""
+    command = [sys.executable, "-m", "microros_gen", *map(str, arguments)]
+    done = run(command, env={**os.environ, "CFLAGS": "-O0"}, timeout_s=BUILD_S)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
 @contextmanager
 def started(program: Path, *arguments: str) -> Iterator[subprocess.Popen[str]]:
     """Start a program; kill it afterwards where it still runs."""

@@ -150,6 +150,8 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "prints_uart": _BOTH + "target: {name: own.yaml}\n",
         "prints_uart_riscv": _BOTH + "target: {name: own.yaml}\n",
         "prints_semihosting": _BOTH + "target: {name: own.yaml}\nlogging: console\n",
+        "console": _BOTH + "target: {name: own.yaml}\nlogging: console\n",
+        "console_riscv": _BOTH + "target: {name: own.yaml}\nlogging: console\n",
         "prints_nowhere": _BOTH + "target: {name: own.yaml}\n",
         "kept_output": _NODES
         + "      - {topic: large, type: std_msgs/msg/String}\nlimits: {'*': {string: 300}}\n"
@@ -177,9 +179,14 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + EVERY_PARAMETER.replace("parameters:\n", "parameters:\n      at: agent\n      declare:\n")
         + "components: [+parameters]\nlogging: callback\n",
         "parameter_client": _NODES.replace("    publishers:\n", "")
-        + "    parameter_clients: [{node: /motor, operations: [get, set, set_atomically, list, watch], elements: 3}]\n"
+        + "    parameter_clients:\n      - {node: /motor, elements: 3, operations: "
+        + "[get, set, set_atomically, list, describe, get_types, watch]}\n"
         + "components: [+parameter_client, +subscribe, +multithread]\n",
         "graph": _NODES + _SURE + "components: [+graph, +multithread]\nmemory: {arena: 4096}\n",
+        "graph_topic": _NODES + _SURE + "components: [+graph_topic, +multithread]\nmemory: {arena: 4096}\n",
+        "graph_topic_xml": _NODES
+        + _SURE
+        + "components: [+graph_topic]\nentities: xml\nmemory: {arena: 4096}\n",
         "services_less": _SERVED.replace("20", "9") + _ASKED.replace("9", "20"),
         "lent_tcp": _READER + _ALONE + "transport: {type: tcp, agent: '127.0.0.1:8888'}\n",
     }
@@ -194,6 +201,10 @@ TARGETS: Mapping[str, str] = MappingProxyType(
             "qemu-riscv32-virt", "{to: uart, driver: ns16550, base: 0x10001000}"
         ),
         "prints_semihosting": _PRINTS.format("qemu-mps2-an385", "{to: semihosting}"),
+        "console": _PRINTS.format("qemu-mps2-an385", "{to: uart, driver: cmsdk, base: 0x40005000, irq: 2}"),
+        "console_riscv": _PRINTS.format(
+            "qemu-riscv32-virt", "{to: uart, driver: ns16550, base: 0x10001000, irq: 11}"
+        ),
         "prints_nowhere": _PRINTS.format("qemu-mps2-an385", "{to: none}"),
     }
 )

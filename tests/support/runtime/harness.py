@@ -89,6 +89,11 @@ class Tree:
     def include(self) -> Path:
         return self.folder / "include"
 
+    def without_port(self, *kept: str) -> Tree:
+        """Return the tree without the sources of the POSIX port, except those named in `kept`."""
+        chosen = (s for s in self.sources if s.name in kept or not s.parent.name.startswith("port_posix"))
+        return Tree(self.folder, tuple(chosen))
+
 
 def render(out: Path, plan: RuntimePlan, names: Sequence[str]) -> Tree:
     """Write include/ and src/ of the components `names` below `out`."""

@@ -23,27 +23,34 @@ TYPE = re.compile(
     re.MULTILINE,
 )
 ENUMERATION = re.compile(r"\benum\b[^;{]*\{([^}]*)\}")
-# What the headers of the system read, and what holds to the end of a unit.
-TO_THE_END = re.compile(r"^\s*#\s*(?:define\s+_|pragma\b|undef\b)", re.MULTILINE)
+# What the headers of the system read (files that agree on it share a unit), and what holds to the end of a unit.
+FEATURES = re.compile(r"^\s*#\s*define\s+_.*$\n?", re.MULTILINE)
+TO_THE_END = re.compile(r"^\s*#\s*(?:pragma|undef)\b", re.MULTILINE)
 
 
 @dataclass(frozen=True)
 class Names:
-    """The words of a file, and those that it declares for itself; `alone`: it changes what follows it."""
+    """The words of a file, those that it declares for itself, and the macros that it defines for the system's headers.
+
+    `alone`: it changes what follows it.
+    """
 
     words: frozenset[str]
     own: frozenset[str]
+    features: tuple[str, ...]
     alone: bool
 
 
 @dataclass
 class _Unit:
+    features: tuple[str, ...]
     files: list[Path] = field(default_factory=list)
     words: set[str] = field(default_factory=set)
     own: set[str] = field(default_factory=set)
 
     def takes(self, names: Names) -> bool:
-        return self.own.isdisjoint(names.words) and self.words.isdisjoint(names.own)
+        same = self.features == names.features
+        return same and self.own.isdisjoint(names.words) and self.words.isdisjoint(names.own)
 
     def add(self, file: Path, names: Names) -> None:
         self.files.append(file)
@@ -55,24 +62,27 @@ class _Unit:
 def names_of(text: str) -> Names:
     """Return the names in a C file."""
     code = COMMENT_OR_TEXT.sub(" ", text)
+    features = tuple(line.strip() for line in FEATURES.findall(code))
+    code = FEATURES.sub("", code)
     own = {*STATIC.findall(code), *MACRO.findall(code)}
     own |= {name for found in TYPE.findall(code) for name in found if name}
     own |= {word for inside in ENUMERATION.findall(code) for word in WORD.findall(inside)}
-    return Names(frozenset(WORD.findall(code)), frozenset(own), TO_THE_END.search(code) is not None)
+    alone = TO_THE_END.search(code) is not None
+    return Names(frozenset(WORD.findall(code)), frozenset(own), features, alone)
 
 
 def merged(files: Iterable[Path]) -> tuple[tuple[Path, ...], ...]:
-    """Return `files` in groups, each of which can be one translation unit."""
+    """Return `files` in groups, each of which can be one translation unit; assembler files are alone."""
     units: list[_Unit] = []
     alone: list[tuple[Path, ...]] = []
     for file in files:
         names = names_of(file.read_text(encoding="utf-8"))
-        if names.alone:
+        if names.alone or file.suffix != ".c":
             alone.append((file,))
             continue
         unit = next((unit for unit in units if unit.takes(names)), None)
         if unit is None:
-            units.append(unit := _Unit())
+            units.append(unit := _Unit(names.features))
         unit.add(file, names)
     return (*(tuple(unit.files) for unit in units), *alone)
 
