@@ -30,6 +30,7 @@ _SUBJECTS = {
     "migrate": "init",
     "ros": "ROS 2",
     "parameter_server": "The parameter server",
+    "modes": "System modes",
     "agent": "The agent",
     "components": "Components",
     "cli": "The command line",

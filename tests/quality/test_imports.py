@@ -29,12 +29,14 @@ ORDER = (
     "ros",
     "graph_server",
     "parameter_server",
+    "modes",
     "agent",
     "cli",
 )
 MAY = {
     "graph_server": {"graph_server", "ros"},
     "parameter_server": {"diagnostics", "parameter_server", "records", "ros"},
+    "modes": {"application", "diagnostics", "documents", "modes"},
     "agent": {"agent", "diagnostics", "documents", "interfaces", "ros"},
     "cli": set(ORDER),
 }
@@ -95,6 +97,7 @@ def test_only_reading_writing_and_building_touch_the_disk() -> None:
         "typesupport",
         "platform",
         "client",
+        "modes",
     ):
         for path in sorted((PACKAGE / folder).rglob("*.py")):
             names = {module.split(".")[0] for _, module in imports(path)}

@@ -18,7 +18,19 @@ from tests.tools.concerned import changed, concerned, imports
 # Units in Python: of these, a developer runs after each change those that it concerns.
 UNITS = (
     *("diagnostics", "documents", "interfaces", "application", "selection", "typesupport", "platform"),
-    *("client", "output", "toolchain", "image", "compiler", "migrate", "agent", "cli", "ros", "quality"),
+    *(
+        "client",
+        "output",
+        "toolchain",
+        "image",
+        "compiler",
+        "migrate",
+        "modes",
+        "agent",
+        "cli",
+        "ros",
+        "quality",
+    ),
 )
 
 

@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the systems of a model end for every combination of failed nodes, computed system by system.
+
+A node follows its commands, or it is stuck: in one of its modes, or in a state that is not active. Seen from its
+system, a part is therefore a function from commands to statuses, a *behavior*; a subsystem has one for each
+combination of failures below it, and many combinations have the same. A part belongs to one system, so the behaviors
+of the parts of a system are independent of each other.
+
+The combinations of a system are not enumerated. Its parts are taken one after another. Of the parts so far four facts
+are kept for each target of the system: whether one is in error processing, whether one is not what is commanded, which
+rule holds (the last one by name), and which other modes fit. Combinations that are equal in these stay equal whatever
+follows. At the end they say for each target which rule is next: a cycle of targets is an oscillation.
+
+That proves more than requests: whatever happened before, the first rule that is applied commands all parts of its
+system again, and from there on the functions above say what follows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from microros_gen.modes.inference import fulfills
+from microros_gen.modes.model import (
+    ACTIVATING,
+    ACTIVE,
+    DEACTIVATING,
+    ERROR,
+    FINALIZED,
+    INACTIVE,
+    UNCONFIGURED,
+    UNKNOWN,
+    Model,
+    Part,
+    Status,
+    active,
+)
+from microros_gen.records import dataclass
+
+Failures = tuple[tuple[str, Status], ...]
+"""The nodes that are stuck, and where."""
+
+_Behaviors = dict[tuple[Status, ...], Failures]
+"""For each target of a part in `targets_of` order what it ends in, with the fewest failures that this takes."""
+
+_Seen = tuple[bool, bool, int, int]
+"""Error processing, deviates, the index of the rule that holds or -1, the modes that fit as bits."""
+
+
+@dataclass(frozen=True)
+class Oscillation:
+    """A system whose target never settles: the request and the failures that lead there, and the rules of the cycle."""
+
+    system: str
+    request: Status
+    failures: Failures
+    rules: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Settled:
+    """What is known of all systems. `open`: those with too many combinations; `kept`: how many different ones exist."""
+
+    oscillations: tuple[Oscillation, ...]
+    open: tuple[str, ...]
+    kept: int
+
+
+_STABLE = -1
+_WORK = 64
+"""How many pairs of combinations and behaviors are looked at, for each combination that may be kept."""
+
+
+class _TooManyError(Exception):
+    """More different combinations than allowed."""
+
+
+def failure_states(node: Part) -> tuple[Status, ...]:
+    """Return where a node can be stuck."""
+    states = (UNCONFIGURED, INACTIVE, FINALIZED, UNKNOWN, ERROR)
+    return (*map(Status, states), *map(active, node.modes))
+
+
+def targets_of(model: Model, part: Part) -> tuple[Status, ...]:
+    """Return everything that a part can be commanded to be, in a fixed order."""
+    if part.is_system:
+        return model.targets(part)
+    return (Status(UNCONFIGURED), Status(INACTIVE), *map(active, part.modes))
+
+
+def settle_all(model: Model, most: int) -> Settled:
+    """Return what is known of all systems; one with more than `most` different combinations stays open."""
+    behaviors: dict[str, _Behaviors] = {node.name: _of_node(model, node) for node in model.nodes}
+    oscillations: list[Oscillation] = []
+    unproven: list[str] = []
+    kept = 0
+    for system in model.systems:
+        if any(name in unproven for name in system.part_names):
+            unproven.append(system.name)
+            continue
+        try:
+            combined = _combine(model, system, behaviors, most)
+        except _TooManyError:
+            unproven.append(system.name)
+            continue
+        kept += len(combined)
+        found, behaviors[system.name] = _outcomes(model, system, combined)
+        oscillations += found
+    return Settled(tuple(oscillations), tuple(unproven), kept)
+
+
+def _of_node(model: Model, node: Part) -> _Behaviors:
+    targets = targets_of(model, node)
+    stuck = {(status,) * len(targets): ((node.name, status),) for status in failure_states(node)}
+    return {targets: (), **stuck}
+
+
+def _combine(
+    model: Model, system: Part, behaviors: Mapping[str, _Behaviors], most: int
+) -> dict[tuple[_Seen, ...], Failures]:
+    """Return what can be seen of all parts together, by target, with the fewest failures that this takes."""
+    targets = model.targets(system)
+    every_mode = (1 << len(system.modes)) - 1
+    kept: dict[tuple[_Seen, ...], Failures] = {((False, False, -1, every_mode),) * len(targets): ()}
+    for name in system.part_names:
+        seen = _distinct(
+            (_seen(model, system, name, outcomes), failures) for outcomes, failures in behaviors[name].items()
+        )
+        if len(kept) * len(seen) > most * _WORK:
+            raise _TooManyError
+        kept = _distinct(
+            (tuple(map(_join, before, own)), known + failures)
+            for before, known in kept.items()
+            for own, failures in seen.items()
+        )
+        if len(kept) > most:
+            raise _TooManyError
+    return kept
+
+
+def _distinct(
+    found: Iterable[tuple[tuple[_Seen, ...], Failures]],
+) -> dict[tuple[_Seen, ...], Failures]:
+    """Return the first of the fewest failures for each of what is seen."""
+    kept: dict[tuple[_Seen, ...], Failures] = {}
+    for seen, failures in found:
+        known = kept.get(seen)
+        if known is None or len(failures) < len(known):
+            kept[seen] = failures
+    return kept
+
+
+def _join(a: _Seen, b: _Seen) -> _Seen:
+    rule = a[2] if a[2] > b[2] else b[2]
+    if a[0] or b[0]:
+        return True, True, rule, 0  # nothing else can be seen then
+    return False, a[1] or b[1], rule, a[3] & b[3]
+
+
+def _seen(model: Model, system: Part, name: str, outcomes: tuple[Status, ...]) -> tuple[_Seen, ...]:
+    """Return what one part contributes, for each target of its system."""
+    part = model.parts[name]
+    answer = dict(zip(map(str, targets_of(model, part)), outcomes, strict=True))
+    found: list[_Seen] = []
+    for target in model.targets(system):
+        command = model.command(system, target, name)
+        actual = answer[str(command)]
+        rule = max(
+            (
+                i
+                for i, r in enumerate(system.rules)
+                if r.if_part == name and r.if_target.is_same(target) and actual.is_same(r.if_status)
+            ),
+            default=-1,
+        )
+        modes = sum(
+            1 << i for i, m in enumerate(system.modes.values()) if actual.is_same(m.commands[name].target)
+        )
+        found.append((actual.state == ERROR, not fulfills(actual, command), rule, modes))
+    return tuple(found)
+
+
+def _outcomes(
+    model: Model, system: Part, combined: Mapping[tuple[_Seen, ...], Failures]
+) -> tuple[list[Oscillation], _Behaviors]:
+    targets = model.targets(system)
+    cycles: dict[frozenset[str], Oscillation] = {}
+    behaviors: _Behaviors = {}
+    for seen, failures in sorted(combined.items(), key=lambda item: len(item[1])):
+        following = [_next(system, targets, i, seen) for i in range(len(targets))]
+        outcomes: list[Status] = []
+        for start, target in enumerate(targets):
+            path = _path(start, following)
+            last = path[-1]
+            if following[last] == _STABLE:
+                outcomes.append(_infer(system, targets[last], seen[last]))
+                continue
+            outcomes.append(Status(UNKNOWN))
+            rules = tuple(system.rules[seen[i][2]].name for i in path[path.index(following[last]) :])
+            cycles.setdefault(frozenset(rules), Oscillation(system.name, target, failures, rules))
+        behaviors.setdefault(tuple(outcomes), failures)
+    return list(cycles.values()), behaviors
+
+
+def _next(system: Part, targets: tuple[Status, ...], at: int, seen: tuple[_Seen, ...]) -> int:
+    """Return the index of the target after a rule, which may be the same one; _STABLE: no rule holds."""
+    error, deviates, rule, _ = seen[at]
+    return targets.index(system.rules[rule].new_target) if rule >= 0 and (error or deviates) else _STABLE
+
+
+def _path(start: int, following: list[int]) -> list[int]:
+    """Return the targets from `start` until one is stable, or until the next one is among them."""
+    path = [start]
+    while (after := following[path[-1]]) != _STABLE and after not in path:
+        path.append(after)
+    return path
+
+
+def _infer(system: Part, target: Status, seen: _Seen) -> Status:
+    """Return what `Inference.infer_system` returns of parts of which this is seen."""
+    error, deviates, _, modes = seen
+    if error:
+        return Status(ERROR)
+    if not deviates:
+        return target
+    if target.state != ACTIVE:
+        return Status(DEACTIVATING)
+    fitting = (name for i, name in enumerate(system.modes) if modes >> i & 1)
+    return Status(ACTIVATING, min(fitting, default=""))

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a mode manager does with requests and failures, without nodes: commands, rules, repeated commands.
+
+After each event the systems settle. Bottom up, a system that is not in its target applies one of its rules, which
+changes its target and so commands its parts; then all begin again. Where no rule holds, nodes that were changed by
+others are commanded to their target again. Of several rules that hold at once, the last one by name is applied: the
+package system_modes applies all in this order, so that this one decides.
+
+A transition takes no time here: a node that can follow has reached its target when the next rule is looked for, so
+that no rule sees a part on its way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from microros_gen.modes.inference import Inference
+from microros_gen.modes.model import ACTIVE, UNCONFIGURED, Model, Part, Rule, Status, start_sequence
+from microros_gen.records import dataclass
+
+COMMAND, RULE, REPEAT, STATUS, OSCILLATION = "command", "rule", "repeat", "status", "oscillation"
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step of a trace. `kind` is command, rule (its name in `rule`), repeat, status or oscillation."""
+
+    kind: str
+    part: str
+    status: Status
+    rule: str = ""
+
+    def __str__(self) -> str:
+        if self.kind == RULE:
+            return f"rule {self.rule}: {self.part} {self.status}"
+        if self.kind == OSCILLATION:
+            return f"oscillates: {self.part} {self.status} again"
+        return f"{self.kind} {self.part} {self.status}"
+
+
+class Manager:
+    """The targets of all parts and the status of each node; all nodes are unconfigured at first."""
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self.targets: dict[str, Status] = {}
+        self.nodes: dict[str, Status] = {node.name: Status(UNCONFIGURED) for node in model.nodes}
+        self._inference = Inference(model)
+        self._stuck: set[str] = set()
+        self._shown: Mapping[str, Status] = self.statuses()
+
+    def statuses(self) -> Mapping[str, Status]:
+        """Return the status of each part; that of systems is inferred."""
+        return self._inference.infer_all(self.targets, self.nodes)
+
+    def request(self, part: str, target: Status) -> Iterator[Step]:
+        """Command a part to be `target` and settle."""
+        yield from self._command(self.model.parts[part], target)
+        yield from self.settle()
+
+    def fail(self, node: str, status: Status) -> Iterator[Step]:
+        """Let a node be in `status`, where it stays whatever is commanded, and settle."""
+        self._stuck.add(node)
+        yield from self.change(node, status)
+
+    def repair(self, node: str) -> Iterator[Step]:
+        """Let a node follow commands again, and settle."""
+        self._stuck.discard(node)
+        yield from self.settle()
+
+    def change(self, node: str, status: Status) -> Iterator[Step]:
+        """Let a node be changed to `status` by somebody else, and settle."""
+        self.nodes[node] = status
+        if status != self._shown.get(node):
+            self._shown = {**self._shown, node: status}
+            yield Step(STATUS, node, status)
+        yield from self.settle()
+
+    def settle(self) -> Iterator[Step]:
+        """Apply rules until none holds, command deviating nodes again, and say what changed."""
+        known: set[object] = {self._snapshot()}
+        while step := self._apply_rule():
+            yield from step
+            snapshot = self._snapshot()
+            if snapshot in known:
+                yield Step(OSCILLATION, step[0].part, step[0].status)
+                break
+            known.add(snapshot)
+        yield from self._changes()
+
+    def _apply_rule(self) -> list[Step]:
+        """Return the steps of the rule that is applied next, else of repeated commands; empty: it is stable."""
+        statuses = self.statuses()
+        for system in self.model.systems:
+            rule = self._holding(system, statuses)
+            if rule is not None:
+                step = Step(RULE, system.name, rule.new_target, rule.name)
+                return [step, *self._command(system, rule.new_target, by_rule=True)]
+        return list(self._repeat())
+
+    def _holding(self, system: Part, statuses: Mapping[str, Status]) -> Rule | None:
+        target = self.targets.get(system.name)
+        if target is None or statuses[system.name].is_same(target):
+            return None
+        holding = [
+            rule
+            for rule in system.rules
+            if rule.if_target.is_same(target) and statuses[rule.if_part].is_same(rule.if_status)
+        ]
+        return holding[-1] if holding else None
+
+    def _repeat(self) -> Iterator[Step]:
+        for name, status in self.nodes.items():
+            target = self.targets.get(name)
+            if target is not None and name not in self._stuck and not status.is_same(target):
+                self.nodes[name] = target
+                yield Step(REPEAT, name, target)
+
+    def _command(self, part: Part, target: Status, by_rule: bool = False) -> Iterator[Step]:
+        """Set the target of a part and of all below it: first what is stopped, the last started one first."""
+        if not by_rule:
+            if self.targets.get(part.name) == target and self.statuses()[part.name].is_same(target):
+                return
+            yield Step(COMMAND, part.name, target)
+        self.targets[part.name] = target
+        if not part.is_system:
+            if part.name not in self._stuck:
+                self.nodes[part.name] = target
+            return
+        sequence = start_sequence(part.part_names, part.start_after)
+        commands = {name: self.model.command(part, target, name) for name in sequence}
+        stopped = [name for name in reversed(sequence) if commands[name].state != ACTIVE]
+        for name in [*stopped, *(name for name in sequence if name not in stopped)]:
+            yield from self._command(self.model.parts[name], commands[name])
+
+    def _snapshot(self) -> object:
+        return tuple(sorted(self.targets.items(), key=lambda i: i[0])), tuple(self.nodes.items())
+
+    def _changes(self) -> Iterator[Step]:
+        """Yield the status of each part that is another one than before, parts before their systems."""
+        statuses = self.statuses()
+        for name in (*self.nodes, *(system.name for system in self.model.systems)):
+            if statuses[name] != self._shown.get(name):
+                yield Step(STATUS, name, statuses[name])
+        self._shown = statuses

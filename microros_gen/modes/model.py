@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A system with its nodes, their modes and rules, as data.
+
+The terms are those of the package system_modes: a *system* has *parts*, which are nodes or systems; a mode of a node
+is a set of parameter values, a mode of a system is a state, and where that is active a mode, of each part.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import field
+
+from microros_gen.diagnostics import Source, Span
+from microros_gen.documents.named import Named
+from microros_gen.records import dataclass
+
+DEFAULT = "__DEFAULT__"
+"""The mode of a part that is activated without a mode; every other mode inherits from it."""
+
+ACTIVE, INACTIVE, UNCONFIGURED = "active", "inactive", "unconfigured"
+FINALIZED, UNKNOWN, ERROR = "finalized", "unknown", "errorprocessing"
+ACTIVATING, DEACTIVATING = "activating", "deactivating"
+
+STATES = (
+    UNKNOWN,
+    UNCONFIGURED,
+    INACTIVE,
+    ACTIVE,
+    FINALIZED,
+    "configuring",
+    "cleaningup",
+    "shuttingdown",
+    ACTIVATING,
+    DEACTIVATING,
+    ERROR,
+)
+"""The states of lifecycle_msgs/msg/State as the package spells them."""
+
+Scalar = bool | int | float | str
+
+
+@dataclass(frozen=True)
+class Status:
+    """A state of the life cycle and, where it is active, a mode; `mode` empty: an active node is in no known mode."""
+
+    state: str
+    mode: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.state}.{self.mode}" if self.mode else self.state
+
+    def is_same(self, other: Status) -> bool:
+        """Return whether both are one state, and one mode where that is active."""
+        return self.state == other.state and (self.state != ACTIVE or self.mode == other.mode)
+
+
+def active(mode: str = DEFAULT) -> Status:
+    """Return the status active in `mode`."""
+    return Status(ACTIVE, mode)
+
+
+@dataclass(frozen=True)
+class Value:
+    """A parameter value in a mode. `type` is bool, integer, double, string or `T[]`.
+
+    `parent` is not empty: the value is that of the parameter `parent` of the system that the part is in, `value` is
+    None and `type` empty. `span` is the place of the value, `name_span` that of its name.
+    """
+
+    value: Scalar | tuple[Scalar, ...] | None
+    type: str
+    span: Span
+    name_span: Span
+    parent: str = ""
+
+
+@dataclass(frozen=True)
+class Command:
+    """What a mode of a system commands one of its parts to be."""
+
+    target: Status
+    span: Span
+
+
+@dataclass(frozen=True)
+class Mode:
+    """A mode with all that it inherits from `__DEFAULT__`; `commands` are those of a system, by part."""
+
+    name: str
+    span: Span
+    parameters: Mapping[str, Value] = field(default_factory=dict)
+    commands: Mapping[str, Command] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Rule:
+    """If a system with the target `if_target` is not in it, and `if_part` is in `if_status`, its target changes."""
+
+    name: str
+    if_target: Status
+    if_part: str
+    if_status: Status
+    new_target: Status
+    span: Span
+
+
+@dataclass(frozen=True)
+class Part:
+    """A node or a system; `parts`, `rules` and `start_after` are those of a system.
+
+    `rules` are sorted by name, modes are in the order of the file. `start_after` has for a part the parts that are
+    commanded before it.
+    """
+
+    name: str
+    is_system: bool
+    span: Span
+    modes: Mapping[str, Mode]
+    parts: tuple[Named, ...] = ()
+    rules: tuple[Rule, ...] = ()
+    start_after: Mapping[str, tuple[Named, ...]] = field(default_factory=dict)
+
+    @property
+    def part_names(self) -> tuple[str, ...]:
+        """Return the names of the parts in the order of the file."""
+        return tuple(part.name for part in self.parts)
+
+
+@dataclass(frozen=True)
+class Model:
+    """All parts in the order of the file. `parents` has the system of each part that is in one."""
+
+    source: Source
+    parts: Mapping[str, Part]
+    parents: Mapping[str, str]
+
+    @property
+    def systems(self) -> tuple[Part, ...]:
+        """Return the systems, each after the systems that are its parts."""
+        found: dict[str, Part] = {}
+        for part in self.parts.values():
+            found.update((p.name, p) for p in self._bottom_up(part) if p.is_system)
+        return tuple(found.values())
+
+    @property
+    def nodes(self) -> tuple[Part, ...]:
+        """Return the nodes in the order of the file."""
+        return tuple(part for part in self.parts.values() if not part.is_system)
+
+    @property
+    def roots(self) -> tuple[Part, ...]:
+        """Return the parts that are in no system, in the order of the file."""
+        return tuple(part for part in self.parts.values() if part.name not in self.parents)
+
+    def leaves(self, name: str) -> Iterator[Part]:
+        """Yield the nodes below a part, or the part itself where it is one."""
+        yield from (part for part in self._bottom_up(self.parts[name]) if not part.is_system)
+
+    def _bottom_up(self, part: Part) -> Iterator[Part]:
+        for name in part.part_names:
+            yield from self._bottom_up(self.parts[name])
+        yield part
+
+    def targets(self, system: Part) -> tuple[Status, ...]:
+        """Return everything that a system can be commanded to be: inactive, and active in each of its modes."""
+        return (Status(INACTIVE), *(active(mode) for mode in system.modes))
+
+    def command(self, system: Part, target: Status, part: str) -> Status:
+        """Return what `part` is commanded to be when the target of its system is `target`."""
+        if target.state != ACTIVE:
+            return Status(INACTIVE)
+        return system.modes[target.mode].commands[part].target
+
+
+def start_sequence(parts: tuple[str, ...], after: Mapping[str, tuple[Named, ...]]) -> tuple[str, ...]:
+    """Return `parts` so that each follows those it starts after, otherwise in their order.
+
+    Parts in a cycle, and those after one, are left out.
+    """
+    done: list[str] = []
+    while ready := next(
+        (p for p in parts if p not in done and all(a.name in done for a in after.get(p, ()))), None
+    ):
+        done.append(ready)
+    return tuple(done)

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A model file of the package system_modes → Model."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from microros_gen.diagnostics import Diagnostics, Source, reads
+from microros_gen.documents.files import read_text, reason_of
+from microros_gen.documents.tree_read import check_keys, expect_mapping
+from microros_gen.documents.yaml_tree import parse_yaml
+from microros_gen.modes.hierarchy import check_start_order, find_parents
+from microros_gen.modes.model import DEFAULT, Mode, Model, Part
+from microros_gen.modes.outline import PARAMETERS, Outline, parse_outlines
+from microros_gen.modes.part_names import parse_parts
+from microros_gen.modes.systems import parse_system
+from microros_gen.modes.templates import check_templates
+from microros_gen.modes.values import inherit, parse_values
+
+
+def read_model(path: Path) -> Model:
+    """Return the model of a file. Raises UserError with all that is wrong with it."""
+    diagnostics = Diagnostics()
+    source = read_source(path, diagnostics)
+    model = parse_model(source, diagnostics) if source is not None else None
+    diagnostics.check()
+    assert model is not None
+    return model
+
+
+def read_source(path: Path, diagnostics: Diagnostics) -> Source | None:
+    """Return the text of a model file or a script, named as the user wrote it; None: it was reported."""
+    try:
+        return Source(str(path), read_text(path))
+    except (OSError, UnicodeDecodeError) as error:
+        reason = reason_of(error) if isinstance(error, OSError) else "it is not UTF-8 text"
+        hint = "Give the path of a YAML file"
+        diagnostics.error(f"cannot read '{path}': {reason}", hint=hint, id="MG-8801")
+        return None
+
+
+@reads
+def parse_model(source: Source, diagnostics: Diagnostics) -> Model | None:
+    """Return the model that `source` describes; None where `diagnostics` got errors from it.
+
+    Every mistake is reported in one run, in the order of the lines.
+    """
+    found = Diagnostics()
+    tree = parse_yaml(source, found)
+    if tree is None and not found.has_errors():
+        found.error(f"'{source.name}' has no parts", hint="Write at least one node", id="MG-8802")
+    mapping = expect_mapping(tree, "a model file", found)
+    outlines, unreadable = parse_outlines(mapping, found) if mapping is not None else ({}, frozenset())
+    lists = {o.name: parse_parts(o, outlines, unreadable, found) for o in outlines.values() if o.is_system}
+    parents = find_parents({name: listed.parts for name, listed in lists.items()}, found)
+    has_structure = not found.has_errors()
+    parts = {
+        name: parse_system(outline, lists[name], outlines, found)
+        if outline.is_system
+        else Part(name, False, outline.span, _node_modes(outline, found))
+        for name, outline in outlines.items()
+    }
+    model = Model(source, parts, parents)
+    for system in parts.values():
+        check_start_order(system, found)
+    if has_structure:
+        check_templates(model, found)
+    diagnostics.extend(sorted(found, key=lambda d: (d.span.line, d.span.column) if d.span else (0, 0)))
+    return None if found.has_errors() else model
+
+
+def _node_modes(outline: Outline, diagnostics: Diagnostics) -> dict[str, Mode]:
+    found: dict[str, Mode] = {}
+    default = outline.modes.get(DEFAULT)
+    for entry in ([default] if default else []) + [e for e in outline.modes.values() if e is not default]:
+        mode = expect_mapping(entry.value, f"the mode '{entry.key}'", diagnostics)
+        if mode is not None:
+            check_keys(mode, (PARAMETERS,), (PARAMETERS,), diagnostics)
+            expect_mapping(mode.get(PARAMETERS), f"'{PARAMETERS}' of '{entry.key}'", diagnostics)
+        own = parse_values(mode.get(PARAMETERS) if mode else None, diagnostics)
+        base = found[DEFAULT].parameters if DEFAULT in found else None
+        values = inherit(entry.key, own, base, diagnostics)
+        found[entry.key] = Mode(entry.key, entry.key_span, values)
+    return {name: found[name] for name in outline.modes}

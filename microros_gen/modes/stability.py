@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whether the rules of a model end in a stable state for every combination of failures; counterexamples as traces."""
+
+from __future__ import annotations
+
+from math import prod
+
+from microros_gen.diagnostics import Diagnostic, Diagnostics, Severity
+from microros_gen.modes.behavior import Failures, Oscillation, failure_states, settle_all
+from microros_gen.modes.manager import Manager
+from microros_gen.modes.model import Model, Status
+from microros_gen.modes.report import OPEN, PROVEN, REFUTED, Property
+
+MOST_COMBINATIONS = 100_000
+"""Different combinations of a system that are kept by default; 6 parts with a few modes and rules have some hundred."""
+
+_LONGEST_TRACE = 40
+
+
+def check_stability(model: Model, most: int, diagnostics: Diagnostics) -> Property:
+    """Report each cycle of rules with a trace, and each system of which `most` combinations do not say enough."""
+    settled = settle_all(model, most)
+    for oscillation in settled.oscillations:
+        diagnostics.add(_oscillation(model, oscillation))
+    for name in settled.open:
+        message = f"not proven for '{name}': more than {most} different combinations of failures"
+        hint = "Raise --limit, or split the system"
+        span = model.parts[name].span
+        diagnostics.add(Diagnostic(message, span, hint, Severity.WARNING, id="MG-8845"))
+    result = REFUTED if settled.oscillations else OPEN if settled.open else PROVEN
+    count = prod(1 + len(failure_states(node)) for node in model.nodes)
+    rules = sum(len(part.rules) for part in model.parts.values())
+    detail = f"rules: {rules}; combinations of failures: {count:,}, different: {settled.kept:,}"
+    return Property("stable rules", result, detail)
+
+
+def _oscillation(model: Model, found: Oscillation) -> Diagnostic:
+    system = model.parts[found.system]
+    rule = next(rule for rule in system.rules if rule.name == found.rules[0])
+    names = ", ".join(f"'{name}'" for name in found.rules)
+    message = f"the rules of '{found.system}' oscillate: {names}"
+    hint = "Let one of them lead to a target that has no rule for this failure"
+    block = tuple(f"  {line}" for line in trace(model, found.failures, found.system, found.request))
+    return Diagnostic(message, rule.span, hint, block=block, id="MG-8844")
+
+
+def trace(model: Model, failures: Failures, part: str, request: Status) -> list[str]:
+    """Return the lines of what happens when a part is requested while nodes are stuck."""
+    manager = Manager(model)
+    lines = []
+    for node, status in failures:
+        lines.append(f"failed {node} {status}")
+        for _ in manager.fail(node, status):
+            pass  # no part has a target yet: nothing happens
+    lines.append(f"request {part} {request}")
+    lines += [str(step) for step in manager.request(part, request)]
+    return lines if len(lines) <= _LONGEST_TRACE else [*lines[:_LONGEST_TRACE], "…"]

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Proves the properties of a model, or shows what contradicts them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from microros_gen.application.find import read_application
+from microros_gen.application.model import NodeDecl
+from microros_gen.application.parameter_find import with_parameter_files
+from microros_gen.application.parser import parse_application
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.modes.leaf_parameters import check_parameters
+from microros_gen.modes.model import Model
+from microros_gen.modes.properties import (
+    check_commands,
+    check_inference,
+    check_reachable,
+    check_start_orders,
+)
+from microros_gen.modes.reader import parse_model, read_source
+from microros_gen.modes.report import Report
+from microros_gen.modes.stability import MOST_COMBINATIONS, check_stability
+
+
+def check(path: Path, applications: Sequence[Path] = (), most: int = MOST_COMBINATIONS) -> Report:
+    """Return what is proven of the model of a file, and everything that is wrong with it.
+
+    `applications` are application files whose nodes declare the parameters that modes set. `most` bounds the
+    different combinations of failures that are kept of a system; if they are more, its stability is not proven.
+    """
+    diagnostics = Diagnostics()
+    source = read_source(path, diagnostics)
+    model = parse_model(source, diagnostics) if source is not None else None
+    nodes = [node for application in applications for node in read_nodes(application, diagnostics)]
+    if model is None or diagnostics.has_errors():
+        return Report(str(path), (), tuple(diagnostics))
+    return check_model(model, nodes, most)
+
+
+def check_model(model: Model, nodes: Sequence[NodeDecl] = (), most: int = MOST_COMBINATIONS) -> Report:
+    """Return what is proven of a model; `nodes` are those of application files."""
+    diagnostics = Diagnostics()
+    properties = (
+        check_parameters(model, nodes, diagnostics),
+        check_start_orders(model),
+        check_inference(model, diagnostics),
+        check_reachable(model, diagnostics),
+        check_stability(model, most, diagnostics),
+        check_commands(model),
+    )
+    return Report(model.source.name, properties, tuple(diagnostics))
+
+
+def read_nodes(path: Path, diagnostics: Diagnostics) -> tuple[NodeDecl, ...]:
+    """Return the nodes of an application file with all parameters that they declare."""
+    source = read_application(path, Path(), diagnostics)
+    application = parse_application(source, diagnostics) if source is not None else None
+    if application is None:
+        return ()
+    return with_parameter_files(application, path.parent, diagnostics)[0].nodes

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Random models: the proof of stable rules and the simulation agree with trying every combination of failures."""
+
+from __future__ import annotations
+
+from itertools import islice
+
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.modes import Event, Manager, Model, Status, parse_model, simulate
+from microros_gen.modes.behavior import settle_all
+from microros_gen.modes.stability import MOST_COMBINATIONS, trace
+from tests.support.modes.oracle import STUCK, OscillatesError, PlainModel, settle
+from tests.support.modes.random_models import plain_models
+
+_FEW = settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+
+
+def parsed(plain: PlainModel) -> Model:
+    diagnostics = Diagnostics()
+    model = parse_model(Source("random.yaml", plain.text()), diagnostics)
+    assert model is not None, [d.render() for d in diagnostics]
+    return model
+
+
+def status(text: str) -> Status:
+    state, _, mode = text.partition(".")
+    return Status(state, mode)
+
+
+def oscillating(plain: PlainModel) -> set[str]:
+    """Return the systems whose own rules never end, without those above one."""
+    found: set[str] = set()
+    for name, system in plain.systems.items():
+        for failures in plain.failures():
+            for target in system.targets:
+                try:
+                    settle(plain, name, target, failures)
+                except OscillatesError as error:
+                    found.add(str(error))
+                    break
+            if found:
+                return found
+    return found
+
+
+@_FEW
+@given(plain_models())
+def test_the_proof_finds_exactly_the_oscillations(plain: PlainModel) -> None:
+    settled = settle_all(parsed(plain), MOST_COMBINATIONS)
+    assert settled.open == ()
+    found = [o.system for o in settled.oscillations]
+    assert set(found[:1]) == oscillating(plain)
+
+
+@_FEW
+@given(plain_models())
+def test_the_trace_of_an_oscillation_shows_it(plain: PlainModel) -> None:
+    model = parsed(plain)
+    for oscillation in settle_all(model, MOST_COMBINATIONS).oscillations[:1]:
+        lines = trace(model, oscillation.failures, oscillation.system, oscillation.request)
+        assert "oscillates: " in "\n".join(lines)
+        assert all(any(f"rule {rule}: " in line for line in lines) for rule in oscillation.rules)
+
+
+@_FEW
+@given(plain_models(), st.integers(0, 10**6))
+def test_the_simulation_ends_where_trying_ends(plain: PlainModel, skipped: int) -> None:
+    model = parsed(plain)
+    every = 1
+    for modes in plain.nodes.values():
+        every *= 6 + len(modes)
+    first = skipped % every
+    for failures in islice(plain.failures(), first, first + 25):
+        top = list(plain.systems)[-1]
+        for target in plain.systems[top].targets:
+            try:
+                expected = settle(plain, top, target, failures)
+            except OscillatesError:
+                continue
+            manager = Manager(model)
+            for node, state in failures.items():
+                assert {step.kind for step in manager.fail(node, status(state))} <= {"status"}
+            steps = list(manager.request(top, status(target)))
+            assert "oscillation" not in [step.kind for step in steps]
+            assert str(manager.statuses()[top]) == expected
+
+
+@st.composite
+def histories(draw: st.DrawFn) -> tuple[PlainModel, tuple[Event, ...]]:
+    """Draw a model and what happens to it."""
+    plain = draw(plain_models())
+    events = []
+    for i in range(draw(st.integers(1, 8))):
+        kind = draw(st.sampled_from(("request", "fail", "repair", "change")))
+        if kind == "request":
+            part = draw(st.sampled_from(sorted(plain.systems)))
+            events.append(Event(i, kind, part, status(draw(st.sampled_from(plain.systems[part].targets)))))
+            continue
+        part = draw(st.sampled_from(sorted(plain.nodes)))
+        states = (*STUCK, *(f"active.{mode}" for mode in plain.nodes[part]))
+        found = None if kind == "repair" else status(draw(st.sampled_from(states)))
+        events.append(Event(i, kind, part, found))
+    return plain, tuple(events)
+
+
+@settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(histories())
+def test_what_is_proven_is_stable_whatever_happens(history: tuple[PlainModel, tuple[Event, ...]]) -> None:
+    """Requests, failures, repairs and changes by others, in any order and one after another."""
+    plain, events = history
+    model = parsed(plain)
+    if not settle_all(model, MOST_COMBINATIONS).oscillations:
+        assert simulate(model, events).is_stable

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Systems as plain data, and where they end for a request and failures: found by trying, without the package."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import product
+
+DEFAULT = "active.__DEFAULT__"
+STUCK = ("unconfigured", "inactive", "finalized", "unknown", "errorprocessing")
+
+
+@dataclass(frozen=True)
+class PlainRule:
+    """Statuses are texts: `inactive`, `active.A`."""
+
+    name: str
+    if_target: str
+    part: str
+    status: str
+    new_target: str
+
+
+@dataclass(frozen=True)
+class PlainSystem:
+    """`modes`: mode → part → what it is commanded to be."""
+
+    modes: Mapping[str, Mapping[str, str]]
+    rules: tuple[PlainRule, ...]
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        return tuple(self.modes["__DEFAULT__"])
+
+    @property
+    def targets(self) -> tuple[str, ...]:
+        return ("inactive", *(f"active.{mode}" for mode in self.modes))
+
+
+@dataclass(frozen=True)
+class PlainModel:
+    """`nodes`: node → its modes. The last system contains, or is, all others."""
+
+    nodes: Mapping[str, tuple[str, ...]]
+    systems: Mapping[str, PlainSystem]
+
+    def text(self) -> str:
+        """Return the model as a file."""
+        return "\n".join((*self._systems(), *self._nodes())) + "\n"
+
+    def _systems(self) -> Iterator[str]:
+        for name, system in self.systems.items():
+            yield f"{name}:\n  ros__parameters:\n    type: system\n    parts:"
+            yield from (f"      {part}" for part in system.parts)
+            yield "    modes:"
+            for mode, commands in system.modes.items():
+                yield f"      {mode}:"
+                yield from (f"        {part}: {command}" for part, command in commands.items())
+            if system.rules:
+                yield "    rules:"
+            for rule in system.rules:
+                yield f"      {rule.name}:\n        if_target: {rule.if_target}"
+                yield f"        if_part: [{rule.part}, {rule.status}]"
+                yield f"        new_target: {rule.new_target}"
+
+    def _nodes(self) -> Iterator[str]:
+        for name, modes in self.nodes.items():
+            yield f"{name}:\n  ros__parameters:\n    type: node\n    modes:"
+            for i, mode in enumerate(modes):
+                yield f"      {mode}:\n        ros__parameters:\n          level: {i}"
+
+    def failures(self) -> Iterator[dict[str, str]]:
+        """Yield every combination of stuck nodes, the one without any first."""
+        choices = [("", *STUCK, *(f"active.{mode}" for mode in modes)) for modes in self.nodes.values()]
+        for states in product(*choices):
+            yield {node: state for node, state in zip(self.nodes, states, strict=True) if state}
+
+
+class OscillatesError(Exception):
+    """The rules of the named system never end."""
+
+
+def settle(model: PlainModel, part: str, target: str, failures: Mapping[str, str]) -> str:
+    """Return the status that a part ends in; raises OscillatesError."""
+    system = model.systems.get(part)
+    if system is None:
+        return failures.get(part, target)
+    known = {target}
+    while True:
+        actual = {p: settle(model, p, _commanded(system, target, p), failures) for p in system.parts}
+        status = _infer(system, target, actual)
+        holding = sorted(
+            (rule.name, rule.new_target)
+            for rule in system.rules
+            if rule.if_target == target
+            and actual[rule.part].split(".")[0] == rule.status.split(".")[0]
+            and (not rule.status.startswith("active.") or actual[rule.part] == rule.status)
+        )
+        if status == target or not holding:
+            return status
+        target = holding[-1][1]
+        if target in known:
+            raise OscillatesError(part)
+        known.add(target)
+
+
+def _commanded(system: PlainSystem, target: str, part: str) -> str:
+    if target == "inactive":
+        return "inactive"
+    command = system.modes[target.removeprefix("active.")].get(part, system.modes["__DEFAULT__"][part])
+    return DEFAULT if command == "active" else command
+
+
+def _infer(system: PlainSystem, target: str, actual: Mapping[str, str]) -> str:
+    if "errorprocessing" in actual.values():
+        return "errorprocessing"
+    if target == "inactive":
+        resting = set(actual.values()) <= {"inactive", "unconfigured"}
+        return "inactive" if resting else "deactivating"
+    wanted = {part: _commanded(system, target, part) for part in system.parts}
+    if all(actual[p] == w or (w == "inactive" and actual[p] == "unconfigured") for p, w in wanted.items()):
+        return target
+    for mode in sorted(system.modes):
+        if all(actual[p] == _commanded(system, f"active.{mode}", p) for p in system.parts):
+            return f"activating.{mode}"
+    return "activating"

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Small random models for property tests."""
+
+from __future__ import annotations
+
+from hypothesis import strategies as st
+
+from tests.support.modes.oracle import STUCK, PlainModel, PlainRule, PlainSystem
+
+MODES = ("__DEFAULT__", "A", "B")
+
+
+@st.composite
+def plain_models(draw: st.DrawFn) -> PlainModel:
+    """Draw a system of one to three nodes, or one above a node and a system of one or two."""
+    nested = draw(st.booleans())
+    count = draw(st.integers(1, 2 if nested else 3))
+    nodes = {f"n{i}": MODES[: draw(st.integers(1, 3))] for i in range(count)}
+    lower = draw(_system(nodes))
+    systems = {"low": lower}
+    if nested:
+        nodes["extra"] = MODES[:2]
+        parts = {"low": tuple(lower.modes), "extra": nodes["extra"]}
+        systems["top"] = draw(_system(parts, systems=("low",)))
+    return PlainModel(nodes, systems)
+
+
+@st.composite
+def _system(draw: st.DrawFn, parts: dict[str, tuple[str, ...]], systems: tuple[str, ...] = ()) -> PlainSystem:
+    names = MODES[: draw(st.integers(1, 3))]
+    modes = {mode: {p: draw(_command(modes)) for p, modes in parts.items()} for mode in names}
+    targets = st.sampled_from(("inactive", *(f"active.{mode}" for mode in names)))
+    rules = [
+        PlainRule(f"r{i}", draw(targets), part, draw(_status(part, parts, systems)), draw(targets))
+        for i, part in enumerate(draw(st.lists(st.sampled_from(sorted(parts)), max_size=6)))
+    ]
+    return PlainSystem(modes, tuple(rules))
+
+
+def _command(modes: tuple[str, ...]) -> st.SearchStrategy[str]:
+    return st.sampled_from(("inactive", "active", *(f"active.{mode}" for mode in modes)))
+
+
+def _status(part: str, parts: dict[str, tuple[str, ...]], systems: tuple[str, ...]) -> st.SearchStrategy[str]:
+    states = ("activating", "deactivating", "inactive", "errorprocessing") if part in systems else STUCK
+    return st.sampled_from((*states, *(f"active.{mode}" for mode in parts[part])))
