@@ -16,7 +16,7 @@ from tests.support.command_line import Runner
 from tests.support.paths import ROOT
 
 IDL = str(ROOT / "microros_gen" / "idl")
-ALL_COMMANDS = [*_COMMANDS, "agent udp4"]
+ALL_COMMANDS = [*_COMMANDS, "agent udp4", "modes check", "modes simulate", "modes graph"]
 
 
 def data_of(run: Runner, *arguments: str) -> Any:

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`microros-gen modes`: the group of the commands on model files."""
+
+from __future__ import annotations
+
+import click
+
+from microros_gen.cli.modes.check import check_command
+from microros_gen.cli.modes.graph import graph_command
+from microros_gen.cli.modes.simulate import simulate_command
+from microros_gen.diagnostics import nearest
+
+
+class _Commands(click.Group):
+    """Commands of which a wrong name gets the nearest one."""
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        if args and not args[0].startswith("-") and args[0] not in self.commands:
+            hint = nearest(args[0], self.commands) or f"Available: {', '.join(self.commands)}"
+            raise click.UsageError(f"unknown command '{args[0]}'. {hint}", ctx)
+        return super().resolve_command(ctx, args)
+
+
+@click.group(cls=_Commands)
+def command() -> None:
+    """Check, simulate and draw a system of nodes with modes.
+
+    SYSTEM.yaml is a model file of the package system_modes.
+
+    \b
+    microros-gen modes check robot.yaml
+    microros-gen modes simulate robot.yaml faults.yaml
+    microros-gen modes graph robot.yaml -o robot.svg
+    """
+
+
+command.add_command(check_command, "check")
+command.add_command(simulate_command, "simulate")
+command.add_command(graph_command, "graph")

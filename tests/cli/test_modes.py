@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`microros-gen modes`: what its commands print and end with."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from tests.support.command_line import Runner
+from tests.support.modes.models import MODELS, changed, model_text
+
+SCRIPT = """\
+- {at: 0 s, request: arm, target: active.QUICK}
+- {at: 1500 ms, fail: joint, state: inactive}
+"""
+
+
+@pytest.fixture
+def models(folder: Path) -> Path:
+    """The current folder with the model files and a script."""
+    for path in MODELS.glob("*.yaml"):
+        shutil.copy(path, folder / path.name)
+    (folder / "faults.yaml").write_text(SCRIPT, encoding="utf-8")
+    return folder
+
+
+@pytest.mark.usefixtures("models")
+def test_check_prints_the_properties(run: Runner) -> None:
+    outcome = run("modes", "check", "arm.yaml", "--application", "microros.yaml")
+    assert (outcome.status, outcome.err) == (0, "")
+    assert (
+        outcome.out
+        == """\
+parameters       proven      nodes as in application files: 1, as in __DEFAULT__: 1
+start order      proven      parts that wait for another one: 0
+inference        proven      modes of systems: 3
+reachable modes  proven      modes: 9
+stable rules     proven      rules: 3; combinations of failures: 81, different: 20
+single commands  proven      parts with one system: 2; pairs of rules of which the last by name is applied: 1
+"""
+    )
+
+
+@pytest.mark.usefixtures("models")
+def test_check_refuses_a_misspelled_part(run: Runner) -> None:
+    outcome = run("modes", "check", "two_arms.yaml")
+    assert (outcome.status, outcome.out) == (2, "")
+    assert (
+        outcome.err
+        == """\
+two_arms.yaml:15:9: error: unknown part 'right/arn' in the mode 'BOTH'. Did you mean 'right/arm'? [MG-8813]
+          right/arn: active.SLOW
+          ^~~~~~~~~
+"""
+    )
+
+
+@pytest.mark.usefixtures("models")
+def test_check_as_json(run: Runner) -> None:
+    outcome = run("modes", "check", "two_arms.yaml", "--format", "json")
+    assert (outcome.status, outcome.err) == (2, "")
+    assert json.loads(outcome.out) == {
+        "version": 1,
+        "model": "two_arms.yaml",
+        "result": "refuted",
+        "properties": [],
+        "findings": [
+            {
+                "id": "MG-8813",
+                "severity": "error",
+                "message": "unknown part 'right/arn' in the mode 'BOTH'",
+                "hint": "Did you mean 'right/arm'?",
+                "file": "two_arms.yaml",
+                "line": 15,
+                "column": 9,
+                "trace": [],
+            }
+        ],
+    }
+
+
+@pytest.mark.usefixtures("models")
+def test_what_is_not_proven_ends_with_1(run: Runner) -> None:
+    outcome = run("modes", "check", "arm.yaml", "--limit", "2")
+    assert outcome.status == 1
+    assert "stable rules     not proven" in outcome.out
+    assert (
+        "arm.yaml:5:1: warning: not proven for 'arm': more than 2 different combinations of failures"
+        in outcome.err
+    )
+    data = json.loads(run("modes", "check", "arm.yaml", "--limit", "2", "--format", "json").out)
+    assert data["result"] == "not proven"
+
+
+def test_an_oscillation_has_its_trace_in_json(run: Runner, models: Path) -> None:
+    text = changed(model_text("arm"), "        new_target: inactive\n", "        new_target: active.QUICK\n")
+    (models / "bad.yaml").write_text(text, encoding="utf-8")
+    outcome = run("modes", "check", "bad.yaml", "--format", "json")
+    assert outcome.status == 2
+    (finding,) = json.loads(outcome.out)["findings"]
+    assert finding["id"] == "MG-8844"
+    assert finding["trace"][:3] == [
+        "failed joint inactive",
+        "request arm active.QUICK",
+        "command arm active.QUICK",
+    ]
+    (models / "s.yaml").write_text(SCRIPT, encoding="utf-8")
+    outcome = run("modes", "simulate", "bad.yaml", "s.yaml")
+    assert outcome.status == 1
+    assert "  oscillates: arm active.QUICK again\n" in outcome.out
+
+
+@pytest.mark.usefixtures("models")
+def test_simulate_prints_the_trace(run: Runner) -> None:
+    outcome = run("modes", "simulate", "arm.yaml", "faults.yaml")
+    assert (outcome.status, outcome.err) == (0, "")
+    assert (
+        outcome.out
+        == """\
+0 s       request arm active.QUICK
+            command arm active.QUICK
+            command gripper active.FIRM
+            command joint active.RUSH
+            status gripper active.FIRM
+            status joint active.RUSH
+            status arm active.QUICK
+1.5 s     fail joint inactive
+            status joint inactive
+            rule without_joint: arm inactive
+            command joint inactive
+            command gripper inactive
+            status gripper inactive
+            status arm inactive
+end       arm inactive
+          gripper inactive
+          joint inactive
+"""
+    )
+
+
+@pytest.mark.usefixtures("models")
+def test_simulate_as_json(run: Runner) -> None:
+    data = json.loads(run("modes", "simulate", "arm.yaml", "faults.yaml", "--format", "json").out)
+    assert (data["version"], data["stable"]) == (1, True)
+    assert [(event["time_us"], event["event"]) for event in data["events"]] == [
+        (0, "request arm active.QUICK"),
+        (1_500_000, "fail joint inactive"),
+    ]
+    assert data["events"][1]["steps"][1] == {
+        "kind": "rule",
+        "part": "arm",
+        "status": "inactive",
+        "rule": "without_joint",
+    }
+    assert data["end"][0] == {"part": "arm", "status": "inactive", "target": "inactive"}
+
+
+def test_graph_writes_what_it_prints(run: Runner, models: Path) -> None:
+    printed = run("modes", "graph", "robot.yaml")
+    assert (printed.status, printed.err) == (0, "")
+    outcome = run("modes", "graph", "robot.yaml", "-o", "robot.svg")
+    assert (outcome.status, outcome.out, outcome.err) == (0, "", "")
+    assert (models / "robot.svg").read_text(encoding="utf-8") == printed.out
+    assert printed.out.startswith("<svg xmlns=")
+
+
+@pytest.mark.usefixtures("models")
+@pytest.mark.parametrize("command", [("graph",), ("simulate", "faults.yaml")])
+def test_others_refuse_a_file_with_mistakes(run: Runner, command: tuple[str, ...]) -> None:
+    outcome = run("modes", command[0], "two_arms.yaml", *command[1:])
+    assert (outcome.status, outcome.out) == (2, "")
+    assert "[MG-8813]" in outcome.err
+
+
+def test_a_wrong_command_gets_the_nearest(run: Runner) -> None:
+    outcome = run("modes", "checks")
+    assert outcome.status == 2
+    assert "unknown command 'checks'. Did you mean 'check'?" in outcome.err
