@@ -11,6 +11,7 @@ import time
 import tracemalloc
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -36,7 +37,7 @@ from tests.support.agent.fakes import FakeTransport
 from tests.support.agent.process import own_domain
 from tests.support.patience import deadline, seconds
 
-pytestmark = pytest.mark.ros
+pytestmark = [pytest.mark.ros, pytest.mark.system]
 
 INT32 = dds_type("std_msgs/msg/Int32")
 NODE, UP, DOWN = 0x11, 0x12, 0x22
@@ -51,7 +52,7 @@ OBJECTS = (
     (0x17, service_blob("/goes/asks", GET_TYPES), NODE),
     (0x18, service_blob("/goes/serves", GET_TYPES), NODE),
 )
-CYCLES = 150
+CYCLES, ROUNDS = 150, 3
 PYTHON_BYTES, HEAP_BYTES = 200, 400
 """What one life may leave on average: it has nine objects, and tables that fill up differ by this much."""
 
@@ -106,7 +107,10 @@ def _until(agent: Agent, done: Callable[[], bool]) -> None:
 
 
 def measured() -> tuple[float, float]:
-    """Return what a life leaves, in bytes of Python's and of the heap of C."""
+    """Return what a life leaves, in bytes of Python's and of the heap of C.
+
+    The least of several rounds: a leak is in each, and what DDS on a busy machine has still to do in one alone.
+    """
     transport = FakeTransport()
     with opened(own_domain()) as bridged, Path(os.devnull).open("w") as out:
         core = Agent(
@@ -115,11 +119,13 @@ def measured() -> tuple[float, float]:
         tracemalloc.start()
         try:
             _lives(core, bridged, transport)
-            before = _lives(core, bridged, transport)
-            after = _lives(core, bridged, transport)
+            rounds = [_lives(core, bridged, transport) for _ in range(ROUNDS)]
         finally:
             tracemalloc.stop()
-    python, heap = ((last - first) / CYCLES for first, last in zip(before, after, strict=True))
+    grown = [
+        [(last - first) / CYCLES for first, last in zip(*pair, strict=True)] for pair in pairwise(rounds)
+    ]
+    python, heap = (min(of_kind) for of_kind in zip(*grown, strict=True))
     return python, heap
 
 
@@ -127,16 +133,15 @@ def _lives(core: Agent, bridged: Bridged, transport: FakeTransport) -> tuple[int
     """Live CYCLES times; return the bytes that are in use then."""
     for _ in range(CYCLES):
         live(core, bridged.domain, transport)
-    used = 0
-    for _ in range(
-        40
-    ):  # whoever looks for somebody forgets them when it looks again, on a busy machine later
+    used, end = (0, 0), deadline(6)
+    # Whoever looks for somebody forgets them when it looks again, and DDS has its own threads: later on a busy machine.
+    while time.monotonic() < end:
         bridged.wait_for(0.15)
         gc.collect()
-        before, used = used, tracemalloc.get_traced_memory()[0]
+        before, used = used, (tracemalloc.get_traced_memory()[0], heap_bytes())
         if used == before:
             break
-    return used, heap_bytes()
+    return used
 
 
 def test_a_life_leaves_nothing() -> None:

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from tests.support.agent.process import AgentProcess, running_agent
-from tests.support.e2e.images import C_FILES, SANITIZE, Images, ends_well, started
+from tests.support.e2e.images import C_FILES, Images, ends_well, started
 from tests.support.e2e.parameter_calls import (
     BOTH,
     DEVICE,
@@ -27,7 +27,7 @@ from tests.support.e2e.parameter_calls import (
 from tests.support.e2e.parameter_peer import ParameterPeer, parameter_peer
 from tests.support.e2e.relay import Relay
 from tests.support.parameter_server.process import parameter_server
-from tests.support.patience import deadline, seconds
+from tests.support.patience import deadline
 
 pytestmark = pytest.mark.ros
 
@@ -43,7 +43,7 @@ HELD = "held until the node is back"
 
 @pytest.fixture(scope="module")
 def program(images: Images, image_port: Relay, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    image = images.build(image_port.port, APPLICATION, "gcc", SANITIZE)
+    image = images.build(image_port.port, APPLICATION)
     folder = tmp_path_factory.mktemp("held")
     return image.application(C_FILES / "parameters.c", folder / "parameters", *STRICT)
 
@@ -65,13 +65,16 @@ def await_line(process: subprocess.Popen[str], beginning: str) -> None:
     raise AssertionError(f"the program ended without '{beginning}'")
 
 
-def values(peer: ParameterPeer, *names: str) -> list[Any]:
-    return [value for _, value in peer.call(DEVICE, "get_parameters", names)["values"]]
+def values(peer: ParameterPeer, *names: str) -> Any:
+    """Return values of the device, None without a response."""
+    response = peer.attempt(DEVICE, "get_parameters", names)
+    return response and [value for _, value in response["values"]]
 
 
-def set_steps(peer: ParameterPeer, value: int) -> tuple[bool, str]:
-    (result,) = peer.call(DEVICE, "set_parameters", [("motor.steps", value)])["results"]
-    return result["successful"], result["reason"]
+def set_steps(peer: ParameterPeer, value: int) -> Any:
+    """Return whether it was set and the reason, None without a response."""
+    response = peer.attempt(DEVICE, "set_parameters", [("motor.steps", value)])
+    return response and [(result["successful"], result["reason"]) for result in response["results"]]
 
 
 def wait_for_server(agent: AgentProcess) -> None:
@@ -101,14 +104,15 @@ def test_as_an_rclpy_node_and_without_the_board(
                 sets(peer)
                 sets_atomically(peer)
                 events(peer)
-            until(lambda: set_steps(peer, 40), (True, HELD))
-            assert set_steps(peer, 41)[1] == "Parameter {motor.steps} doesn't comply with integer range."
+            until(lambda: set_steps(peer, 40), [(True, HELD)])
+            odd = "Parameter {motor.steps} doesn't comply with integer range."
+            assert set_steps(peer, 41) == [(False, odd)]
             assert values(peer, *NAMES[:2]) == [True, 40]
             with started(program) as process:
                 await_line(process, "changed motor.steps 40")
-                until(lambda: set_steps(peer, 42), (True, ""))
+                until(lambda: set_steps(peer, 42), [(True, "")])
                 await_line(process, "changed motor.steps 42")
-            until(lambda: set_steps(peer, 66), (True, HELD))
+            until(lambda: set_steps(peer, 66), [(True, HELD)])
             assert agent.stop() == 0
         assert json.loads(file.read_text())["nodes"][DEVICE]["parameters"]["motor.steps"]["value"] == 66
         with running_agent(domain, *options) as agent:  # another agent, the same file; the board refuses 66
@@ -135,28 +139,13 @@ def test_a_server_of_its_own_that_restarts(program: Path, relay: Relay, domain: 
             await_line(process, "ready")
             agent.wait_for("parameters are held by another /microros_parameters")
             peer.wait(DEVICE)
-            until(lambda: set_steps(peer, 30), (True, ""))
+            until(lambda: set_steps(peer, 30), [(True, "")])
             await_line(process, "changed motor.steps 30")
         with parameter_server(domain, file), started(program) as process:
             await_line(process, "changed motor.steps 30")
-            until(lambda: set_steps(peer, 120), (True, ""))
+            until(lambda: set_steps(peer, 120), [(True, "")])
             ends_well(process)
     assert not (tmp_path / "agent.json").exists()
-
-
-def asked(peer: ParameterPeer, service: str, *arguments: Any) -> Any:
-    """Call a service that may not be there yet; return None without a response."""
-    return peer.ask(node=DEVICE, service=service, arguments=arguments, timeout=seconds(5))
-
-
-def steps_of(peer: ParameterPeer) -> Any:
-    response = asked(peer, "get_parameters", ["motor.steps"])
-    return response and [value for _, value in response["values"]]
-
-
-def set_steps_of(peer: ParameterPeer, value: int) -> Any:
-    response = asked(peer, "set_parameters", [("motor.steps", value)])
-    return response and [result["reason"] for result in response["results"]]
 
 
 def test_a_short_script_instead_of_the_server(
@@ -172,10 +161,10 @@ def test_a_short_script_instead_of_the_server(
         relay.connect(agent.port)
         with started(program) as process:
             await_line(process, "ready")
-            until(lambda: steps_of(peer), [10])
-            until(lambda: set_steps_of(peer, 66), ["rejected by the callback"])
-            until(lambda: set_steps_of(peer, 30), [""])
+            until(lambda: values(peer, "motor.steps"), [10])
+            until(lambda: set_steps(peer, 66), [(False, "rejected by the callback")])
+            until(lambda: set_steps(peer, 30), [(True, "")])
             await_line(process, "changed motor.steps 30")
         with started(program) as process:  # it has lost its values
             await_line(process, "changed motor.steps 30")
-            until(lambda: steps_of(peer), [30])
+            until(lambda: values(peer, "motor.steps"), [30])

@@ -36,6 +36,14 @@ class ParameterPeer(LineProcess):
         assert response is not None, f"no reply of {node}/{service}"
         return response
 
+    def attempt(self, node: str, service: str, *arguments: Any) -> Any:
+        """Call a service; return None without a response, on which a caller repeats the request (docs/howto).
+
+        rclpy counts a server that was killed, without a goodbye, among those that can answer until its DDS lease ends;
+        one that has just started may not know the client yet.
+        """
+        return self.ask(node=node, service=service, arguments=arguments, timeout=seconds(5))
+
     def events(self, node: str) -> list[dict[str, Any]]:
         return list(self.ask(node=node, events=True))
 
