@@ -7,6 +7,7 @@ import json
 import re
 import shutil
 from collections.abc import Iterator
+from functools import cache
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,7 @@ import pytest
 import microros_gen
 from microros_gen.cli import main as cli
 from microros_gen.cli.size.html import HEIGHT, WIDTH, treemap
+from microros_gen.image.report import measure
 from tests.support.command_line import Runner
 
 pytestmark = [pytest.mark.skipif(not shutil.which("gcc"), reason="no gcc"), pytest.mark.builds]
@@ -57,6 +59,14 @@ def report(built: Path, tmp_path_factory: pytest.TempPathFactory) -> Any:
         cli.main(["size", str(built), "--format", "json", "-o", str(file)])
     assert end.value.code == 0
     return json.loads(file.read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module", autouse=True)
+def measured_once() -> Iterator[None]:
+    """Let `explain` of a folder and an image that stay as they are find what was measured of them before."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("microros_gen.cli.explain.measure", cache(measure))
+        yield
 
 
 def sized(run: Runner, out: Path) -> Any:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.components.rendered import SANITIZE, UNITS, rendered, run
+from tests.support.components.rendered import UNITS, program_of, rendered, run
 
 APPLICATION = """\
 version: 1
@@ -23,13 +23,12 @@ WHEELS = Path(sys.prefix)
 @pytest.mark.ros
 def test_messages_are_formatted_as_by_librcutils(tmp_path: Path) -> None:
     source, libraries = UNITS / "log_messages.c", WHEELS / "lib"
-    theirs, ours = tmp_path / "theirs", tmp_path / "ours"
+    theirs = tmp_path / "theirs"
     include = f"-I{WHEELS / 'include' / 'rcutils'}"
     search = (f"-L{libraries}", "-lrcutils", f"-Wl,-rpath,{libraries}")
     run("gcc", "-std=gnu99", include, source, "-o", theirs, *search)
     out = rendered(tmp_path, APPLICATION)
-    sources = sorted((out / "src").rglob("*.c"))
-    run("gcc", *SANITIZE, f"-I{out / 'include'}", source, *sources, "-o", ours)
+    ours = program_of(out, source.name)
     expected = run(theirs)
     assert len(expected.splitlines()) > 40
     assert run(ours) == expected

@@ -16,7 +16,7 @@ from microros_gen.components.logging_rosout.plan import RosoutPlan
 from microros_gen.diagnostics import UserError
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.toolchain.toolchain import WARNINGS
-from tests.support.components.rendered import SANITIZE, UNITS, planned, rendered, run
+from tests.support.components.rendered import SANITIZE, UNITS, planned, program_of, rendered, run
 from tests.support.ids import without_id
 from tests.support.paths import ROOT
 
@@ -42,8 +42,8 @@ def unit(out: Path, name: str, folder: Path, *flags: str) -> str:
     return run(program)
 
 
-def test_formats_are_those_of_the_c_library(verbose: Path, tmp_path: Path) -> None:
-    assert int(unit(verbose, "unit_log_format.c", tmp_path).split()[0]) > 100_000
+def test_formats_are_those_of_the_c_library(verbose: Path) -> None:
+    assert int(run(program_of(verbose, "unit_log_format.c")).split()[0]) > 100_000
 
 
 @pytest.mark.system
@@ -85,8 +85,8 @@ def test_names_of_loggers_have_room_for_those_of_nodes(tmp_path: Path) -> None:
     assert rosout.name == size - 1
 
 
-def test_macros_levels_and_the_console(verbose: Path, tmp_path: Path) -> None:
-    unit(verbose, "unit_logging.c", tmp_path)
+def test_macros_levels_and_the_console(verbose: Path) -> None:
+    run(program_of(verbose, "unit_logging.c"))
 
 
 MACROS = """\

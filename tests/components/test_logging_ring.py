@@ -11,8 +11,9 @@ from microros_gen.components.logging.plan import LoggingPlan
 from microros_gen.components.logging_ring.plan import RingPlan
 from microros_gen.components.logging_rosout.plan import RosoutPlan
 from microros_gen.diagnostics import UserError
-from tests.support.components.rendered import SANITIZE, UNITS, planned, rendered, run
+from tests.support.components.rendered import UNITS, planned, rendered, run
 from tests.support.ids import without_id
+from tests.support.runtime.harness import quick
 
 APPLICATION = """\
 version: 1
@@ -27,8 +28,9 @@ WRAPPED = 700
 
 def test_lines_after_a_reset_at_every_access(tmp_path: Path) -> None:
     out = rendered(tmp_path, APPLICATION % WRAPPED)
-    folder, program = out / "src" / "logging_ring", tmp_path / "unit"
-    run("gcc", *SANITIZE, f"-I{out / 'include'}", f"-I{folder}", UNITS / "unit_log_ring.c", "-o", program)
+    program, (by, flags) = tmp_path / "unit", quick()
+    include = (f"-I{out / 'include'}", f"-I{out / 'src' / 'logging_ring'}", f"-I{UNITS}")
+    run(by, "-std=gnu99", *flags, *include, UNITS / "unit_log_ring.c", "-o", program)
     assert int(run(program).split()[0]) > 1000
 
 

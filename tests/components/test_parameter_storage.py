@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from microros_gen import compiler
-from tests.support.components.rendered import SANITIZE, UNITS, planned, rendered, run
+from tests.support.components.rendered import SANITIZE, UNITS, planned, program_of, rendered, run
 from tests.support.matrix import has
 from tests.support.patience import seconds
 
@@ -33,11 +33,9 @@ def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return rendered(tmp_path_factory.mktemp("storage"), APPLICATION)
 
 
-def test_power_is_lost_at_every_unit(out: Path, tmp_path: Path) -> None:
+def test_power_is_lost_at_every_unit(out: Path) -> None:
     """The unit's memory stands in for that of the port, whose file is left out."""
-    sources = [p for p in sorted((out / "src").rglob("*.c")) if p.name != "port_posix_storage.c"]
-    program = tmp_path / "unit"
-    run("gcc", *SANITIZE, f"-I{out / 'include'}", UNITS / "unit_parameter_storage.c", *sources, "-o", program)
+    program = program_of(out, "unit_parameter_storage.c", without=["port_posix_storage.c"])
     assert int(run(program).split()[0]) > 40
 
 

@@ -12,7 +12,7 @@ from tests.support.agent.observer import Observer, observing
 from tests.support.agent.process import AgentProcess, own_domain, running_agent
 from tests.support.e2e.images import DECLARED as DECLARED_YAML
 from tests.support.e2e.images import POOLS as POOLS_YAML
-from tests.support.e2e.images import QUICK, Image, Images
+from tests.support.e2e.images import QUICK, SANITIZE, Image, Images
 from tests.support.e2e.live import Live
 from tests.support.e2e.relay import Relay
 
@@ -41,7 +41,7 @@ def relay(image_port: Relay) -> Iterator[Relay]:
 @pytest.fixture(scope="session")
 def profile_image(images: Images, image_port: Relay) -> Image:
     """The profile alone, as `microros-gen generate --profile pure_sender` writes it, with sanitizers."""
-    return images.build(image_port.port)
+    return images.build(image_port.port, flags=SANITIZE)
 
 
 # These are for live.c, which is told where its agent is.
@@ -50,25 +50,25 @@ def profile_image(images: Images, image_port: Relay) -> Image:
 @pytest.fixture(scope="session")
 def pool_image(images: Images) -> Image:
     """An application with pools; liveliness ping, on_full error; with sanitizers."""
-    return images.build(1, POOLS_YAML)
+    return images.build(1, POOLS_YAML, flags=SANITIZE)
 
 
 @pytest.fixture(scope="session")
 def declared_image(images: Images) -> Image:
     """An application with declared nodes, without sanitizers."""
-    return images.build(1, DECLARED_YAML, "gcc", QUICK)
+    return images.build(1, DECLARED_YAML, flags=QUICK)
 
 
 @pytest.fixture(scope="session")
 def acknack_image(images: Images) -> Image:
     """As pool_image with liveliness acknack and on_full drop_oldest, without sanitizers."""
-    return images.build(1, POOLS_YAML + "liveliness: acknack\non_full: drop_oldest\n", "gcc", QUICK)
+    return images.build(1, POOLS_YAML + "liveliness: acknack\non_full: drop_oldest\n", flags=QUICK)
 
 
 @pytest.fixture(scope="session")
 def none_image(images: Images) -> Image:
     """As pool_image without liveliness, on_full block 20 ms, without sanitizers."""
-    return images.build(1, POOLS_YAML + "liveliness: none\non_full: block 20 ms\n", "gcc", QUICK)
+    return images.build(1, POOLS_YAML + "liveliness: none\non_full: block 20 ms\n", flags=QUICK)
 
 
 @pytest.fixture(scope="session")

@@ -88,7 +88,7 @@ def test_the_line_of_the_hint_fixes_the_error(
     application = (declared_image.out.parent / "microros.yaml").read_text()
     mended = application.replace("    publishers:\n", f"    publishers:\n      - {line}\n")
     assert mended != application
-    image = images.build(1, mended, "gcc", declared_image.flags)
+    image = images.build(1, mended, flags=declared_image.flags)
     with Live(images.live(image)) as live:
         live.ok(f"open 2 {port}")
         live.ok("node 0 imu_node /arm")
@@ -214,7 +214,7 @@ def test_another_plan_does_not_link(acknack_image: Image, none_image: Image, tmp
     none_image.application(source, tmp_path / "program")
     plan = re.search(r'MICROROS_PLAN_ID "(\w+)"', (none_image.out / "include/microros_config.h").read_text())
     assert plan is not None
-    with pytest.raises(AssertionError, match=f"undefined reference to .rclc_support_init__plan_{plan[1]}"):
+    with pytest.raises(AssertionError, match=f"undefined .*.rclc_support_init__plan_{plan[1]}"):
         none_image.application(source, tmp_path / "program", against=acknack_image)
 
 

@@ -85,7 +85,7 @@ def echo(observer: Observer, program: Path, count: int, timeout_s: float) -> dic
 def over_udp(
     images: Images, observer: Observer, agent: AgentProcess, relay: Relay, count: int, timeout_s: float
 ) -> None:
-    image = images.build(relay.port, APPLICATION.format(transport=""), "gcc", QUICK)
+    image = images.build(relay.port, APPLICATION.format(transport=""), flags=QUICK)
     program = image.application(C_FILES / "echo.c", image.out.parent / "echo", "-std=c99", "-Wall", "-Werror")
     relay.connect(agent.port)
     relay.fault, relay.cut = lossy(count), cutting(count)
@@ -102,7 +102,7 @@ def over_a_line(
     """A line of 115200 baud, a part of whose frames is cut or changed."""
     device = folder / "line"
     text = APPLICATION.format(transport=f'transport: {{type: serial, device: "{device}"}}')
-    image = images.build(0, text, "gcc", QUICK)
+    image = images.build(0, text, flags=QUICK)
     program = image.application(C_FILES / "echo.c", folder / "echo", "-std=c99", "-Wall", "-Werror")
     with (
         LineRelay(device, 115_200, 0.01, count) as line,

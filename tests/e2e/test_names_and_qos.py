@@ -46,7 +46,7 @@ def test_the_graph_shows_names_and_policies(
     images: Images, shared_agent: AgentProcess, observer: Observer, domain: int
 ) -> None:
     """The source has other names, which the generated example passes: /bench/source, raw."""
-    image = images.build(shared_agent.port, APPLICATION.replace("DOMAIN", str(domain)), "gcc", QUICK)
+    image = images.build(shared_agent.port, APPLICATION.replace("DOMAIN", str(domain)), flags=QUICK)
     with started(image.out / "bin" / "pure_sender+pure_reader"):
         node = "/left/timed"
         assert endpoint(observer, "/robot/raw") == (node, "RELIABLE", "VOLATILE", 250_000_000, 1_500_000_000)

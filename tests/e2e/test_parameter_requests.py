@@ -331,7 +331,7 @@ def test_the_struct_of_declared_values(
     images: Images, image_port: Relay, tmp_path: Path, flags: tuple[str, ...]
 ) -> None:
     """It has every value, says what changed, and keeps what was deleted."""
-    image = images.build(image_port.port, DECLARED, flags=(*SANITIZE, *flags))
+    image = images.build(image_port.port, DECLARED, flags=(*SANITIZE, *flags) if flags else ())
     program = image.application(
         C_FILES / "parameter_values.c", tmp_path / "values", "-std=c99", "-Wall", "-Wextra", "-Werror"
     )

@@ -61,7 +61,7 @@ STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror")
 
 
 def program_of(images: Images, port: int, folder: Path, *flags: str, application: str = APPLICATION) -> Path:
-    image = images.build(port, application, flags=(*SANITIZE, *flags))
+    image = images.build(port, application, flags=(*SANITIZE, *flags) if flags else ())
     return image.application(C_FILES / "parameters.c", folder / "parameters", *STRICT)
 
 

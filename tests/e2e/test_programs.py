@@ -48,12 +48,12 @@ def port() -> int:
 
 @pytest.fixture(scope="module")
 def image(images: Images, port: int, domain: int) -> Image:
-    return images.build(port, DECLARED.replace("DOMAIN", str(domain)), "gcc", QUICK)
+    return images.build(port, DECLARED.replace("DOMAIN", str(domain)), flags=QUICK)
 
 
 @pytest.fixture(scope="module")
 def short_image(images: Images, port: int, domain: int) -> Image:
-    return images.build(port, DECLARED.replace("DOMAIN", str(domain)), "gcc", (*QUICK, "-DEXAMPLE_SAMPLES=5"))
+    return images.build(port, DECLARED.replace("DOMAIN", str(domain)), flags=(*QUICK, "-DEXAMPLE_SAMPLES=5"))
 
 
 @contextmanager

@@ -78,7 +78,7 @@ def test_three_seconds_of_round_trip(
     images: Images, observer: Observer, agent: AgentProcess, relay: Relay, how: str
 ) -> None:
     application = APPLICATION.format(more="session: {round_trip: 3500 ms}")
-    image = images.build(relay.port, application, "gcc", QUICK)
+    image = images.build(relay.port, application, flags=QUICK)
     program = image.application(
         C_FILES / "slow.c", image.out.parent / "slow", "-std=gnu99", "-Wall", "-Werror"
     )
@@ -95,7 +95,7 @@ def test_three_seconds_of_round_trip(
 def test_a_line_of_2400_baud(images: Images, observer: Observer, domain: int, tmp_path: Path) -> None:
     device = tmp_path / "line"
     transport = f'transport: {{type: serial, device: "{device}", baud: 2400}}'
-    image = images.build(0, APPLICATION.format(more=transport), "gcc", QUICK)
+    image = images.build(0, APPLICATION.format(more=transport), flags=QUICK)
     program = image.application(C_FILES / "slow.c", tmp_path / "slow", "-std=gnu99", "-Wall", "-Werror")
     with (
         LineRelay(device, 2400, 0.0, 1) as line,

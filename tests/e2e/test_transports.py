@@ -41,7 +41,7 @@ def test_functions_of_an_application(
 ) -> None:
     """An application as those for micro-ROS are written: packets as they are, and frames on a stream of bytes."""
     text = APPLICATION.format(transport="custom", key=11 if way == "udp" else 12, topic=f"custom_{way}")
-    image = images.build(0, text, "gcc", QUICK)
+    image = images.build(0, text, flags=QUICK)
     source = tmp_path / "custom.c"
     slower = (
         CUSTOM.read_text()
@@ -73,7 +73,7 @@ def test_tcp_and_an_agent_that_restarts(images: Images, observer: Observer, doma
     port = _free_port()
     text = APPLICATION.format(transport=f'tcp, agent: "127.0.0.1:{port}"', key=14, topic="tcp")
     flags = (*QUICK, f"-DEXAMPLE_SAMPLES={4 * LAST}", "-DEXAMPLE_PERIOD_MS=15")
-    image = images.build(0, text, "gcc", flags)
+    image = images.build(0, text, flags=flags)
     where = ("tcp4", "--port", str(port))
     observer.subscribe("/tcp", "std_msgs/msg/Int32")
     with (
@@ -96,7 +96,7 @@ def test_an_agent_that_is_searched_for(images: Images, observer: Observer, domai
     text = APPLICATION.replace("pure_sender", "ad_hoc_discoverable_sender").format(
         transport=f'udp, agent: "discover:{port}"', key=15, topic="found"
     )
-    image = images.build(0, text, "gcc", (*QUICK, f"-DEXAMPLE_SAMPLES={4 * LAST}", "-DEXAMPLE_PERIOD_MS=15"))
+    image = images.build(0, text, flags=(*QUICK, f"-DEXAMPLE_SAMPLES={4 * LAST}", "-DEXAMPLE_PERIOD_MS=15"))
     options = ("--domain", str(domain), "--discovery-port", str(port))
     observer.subscribe("/found", "std_msgs/msg/Int32")
     with (
@@ -118,7 +118,7 @@ def test_a_serial_line(images: Images, observer: Observer, domain: int, tmp_path
     line = tmp_path / "line"
     text = APPLICATION.format(transport=f'serial, device: "{line}"', key=13, topic="serial")
     flags = (*QUICK, f"-DEXAMPLE_SAMPLES={SAMPLES}", "-DEXAMPLE_PERIOD_MS=15")
-    image = images.build(0, text, "gcc", flags)
+    image = images.build(0, text, flags=flags)
     with running_agent(domain, "--domain", str(domain), transport=("pty", "--link", str(line))):
         observer.subscribe("/serial", "std_msgs/msg/Int32")
         with started(image.program) as running:

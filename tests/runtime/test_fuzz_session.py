@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.runtime.fuzzing import CORPUS, SECONDS, TARGETS, Target, fuzz, fuzzer
+from tests.support.runtime.fuzzing import CORPUS, QUICK, SECONDS, TARGETS, Target, fuzz, fuzzer
 
 pytestmark = [
     pytest.mark.skipif(not shutil.which("clang"), reason="libFuzzer comes with clang"),
@@ -28,7 +28,7 @@ def test_corpus_and_a_little_more(target: Target, tmp_path: Path) -> None:
     (tmp_path / "new").mkdir()
     runs = str(3 * len(kept) + 1000)
     fuzz(
-        fuzzer(target, tmp_path),
+        fuzzer(target, tmp_path, QUICK),
         target,
         tmp_path / "new",
         CORPUS / target.name,

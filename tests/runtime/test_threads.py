@@ -13,7 +13,7 @@ import pytest
 from microros_gen.client.plan.runtime_entities import QueuePlan
 from tests.support.patience import seconds
 from tests.support.plans import EXECUTOR, changed
-from tests.support.runtime.harness import build, components, render
+from tests.support.runtime.harness import SANITIZER, build, components, render
 from tests.support.runtime.reading_agent import ReadingAgent
 from tests.support.slices import first
 
@@ -32,7 +32,7 @@ PLAN = changed(
     times__connect_timeout_ms=20_000,
     times__liveliness_period_ms=5000,
 )
-THREAD_SANITIZER = ("-g", "-O1", "-fsanitize=thread")
+THREAD_SANITIZER = ("-g0", "-O0", "-fsanitize=thread")
 
 
 def serve(agent: ReadingAgent, served: socket.socket) -> None:
@@ -60,7 +60,7 @@ def test_nothing_is_lost_and_nothing_races(tmp_path: Path, queue: QueuePlan) -> 
         thread.start()
         plan = changed(PLAN, transport__agent_port=served.getsockname()[1], input__queues=(queue,))
         tree = render(tmp_path, plan, components(plan))
-        program = build(tree, ["types_read.c", "threads.c"], "threads", "gcc", THREAD_SANITIZER)
+        program = build(tree, ["types_read.c", "threads.c"], "threads", SANITIZER, THREAD_SANITIZER)
         done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(120), check=False)
     assert (done.returncode, done.stderr) == (0, "")
     for task in range(TASKS):
@@ -72,6 +72,6 @@ def test_nothing_is_lost_and_nothing_races(tmp_path: Path, queue: QueuePlan) -> 
 def test_two_tasks_that_search_for_agents_do_not_share_answers(tmp_path: Path) -> None:
     plan = changed(EXECUTOR, session__multithread=True, transport__kind="custom", transport__framing="on")
     tree = render(tmp_path, plan, components(plan))
-    program = build(tree, ["unit_inquiry.c"], "unit", "gcc", THREAD_SANITIZER)
+    program = build(tree, ["unit_inquiry.c"], "unit", SANITIZER, THREAD_SANITIZER)
     done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
     assert (done.returncode, done.stderr) == (0, "")

@@ -53,7 +53,7 @@ limits:
   memory_msgs/srv/Ask_Response: {data: 5}
 memory: {messages: 2}
 """
-SANITIZE = ("-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+SANITIZE = ("-O0", "-g0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 VARIANTS: Mapping[str, Sequence[str]] = {
     "gcc": ("gcc", *SANITIZE),
     "clang": ("clang", *SANITIZE),

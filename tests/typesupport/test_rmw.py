@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import ctypes
+import shutil
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -83,8 +84,9 @@ def compiled(out: Path) -> ctypes.CDLL:
     others += [out / "src/publish/rmw_serialize.c", *sorted((out / "src/support").glob("error_*.c"))]
     others += [*sorted((out / "src/cdr").glob("*.c")), *sorted((out / "src/write").glob("rmw_encode_*.c"))]
     library = out / "types.so"
-    options = ["-std=c99", "-O0", "-fPIC", "-shared", "-Wl,-Bsymbolic", "-Wl,-z,defs", f"-I{out / 'include'}"]
-    run(["gcc", *options, unity, *others, "-o", library])
+    options = ["-std=c99", "-O0", "-fPIC", "-shared", "-Wl,-Bsymbolic", f"-I{out / 'include'}"]
+    # tcc takes a twentieth of the time of gcc.
+    run(["tcc" if shutil.which("tcc") else "gcc", *options, unity, *others, "-o", library])
     return ctypes.CDLL(str(library))
 
 

@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 import subprocess
+from collections.abc import Collection
 from pathlib import Path
 
 from microros_gen import compiler
 from microros_gen.interfaces.find import shipped_folder
 from tests.support.paths import TESTS
 from tests.support.patience import seconds
+from tests.support.runtime.harness import Tree, compile_merged, link, quick
 
 UNITS = TESTS / "runtime" / "c"
 SANITIZE = ("-std=gnu99", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all", f"-I{UNITS}")
@@ -30,6 +32,15 @@ def rendered(folder: Path, text: str) -> Path:
         (out / name).parent.mkdir(parents=True, exist_ok=True)
         (out / name).write_bytes(content)
     return out
+
+
+def program_of(out: Path, source: str, without: Collection[str] = ()) -> Path:
+    """Compile a C file of tests/runtime/c with all sources of an output folder (names in `without`: left out)."""
+    sources = [path for path in sorted((out / "src").rglob("*.c")) if path.name not in without]
+    compiler, flags = quick()
+    flags = (*flags, "-std=gnu99", "-Wno-error")
+    objects = compile_merged(Tree(out, ()), sources, [UNITS / source], compiler, flags)
+    return link(objects, compiler, flags, out / Path(source).stem)
 
 
 def run(*command: str | Path) -> str:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
 import os
 import shutil
@@ -47,15 +48,22 @@ def headers_digest(*folders: Path) -> str:
 
 
 def made(key: str, name: str, make: Callable[[Path], str]) -> tuple[Path, str]:
-    """Return the file `name` of the cache, and what `make` says when it could not make it."""
+    """Return the file `name` of the cache, and what `make` says when it could not make it.
+
+    While one process makes it the others wait: they would take as long, and the processor from the first.
+    """
     kept = _folder() / key / name
     if kept.is_file():
         os.utime(kept.parent)
         return kept, ""
     kept.parent.mkdir(exist_ok=True)
-    with TemporaryDirectory(dir=kept.parent) as folder:
-        fresh = Path(folder, name)
-        words = make(fresh)
-        if not words:
-            fresh.replace(kept)
+    with (kept.parent / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if kept.is_file():
+            return kept, ""
+        with TemporaryDirectory(dir=kept.parent) as folder:
+            fresh = Path(folder, name)
+            words = make(fresh)
+            if not words:
+                fresh.replace(kept)
     return kept, words

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import io
+import os
 import re
 import tokenize
 from functools import cache
@@ -15,6 +16,7 @@ from tests.support.paths import ROOT
 
 PHRASES = ROOT / "tests/quality/wording.yaml"
 SUFFIXES = {".md", ".py", ".c", ".h", ".j2", ".S", ".yaml", ".json", ".cmake", ".yml", ".toml"}
+ENDINGS = tuple(SUFFIXES)
 FOLDERS = ("microros_gen", "tests", "docs", "examples", "cmake", "profiles")
 # Golden copies follow from the sources, dialogues and corpora are recordings, the list and its test contain the
 # phrases.
@@ -50,13 +52,12 @@ def phrases() -> list[tuple[re.Pattern[str], str]]:
 @cache
 def files() -> dict[str, Path]:
     """Return the files with prose, by their path in the repository."""
-    found = {"README.md": ROOT / "README.md"}
-    for folder in FOLDERS:
-        for path in sorted((ROOT / folder).rglob("*")):
-            name = path.relative_to(ROOT).as_posix()
-            if path.suffix in SUFFIXES and path.is_file() and not name.startswith(EXCLUDED):
-                found[name] = path
-    return found
+    names = ["README.md"]
+    for folder in FOLDERS:  # `Path.rglob` takes two seconds, in each process of the suite
+        for place, _, inside in os.walk(ROOT / folder):
+            below = place[len(str(ROOT)) + 1 :]
+            names += sorted(f"{below}/{name}" for name in inside if name.endswith(ENDINGS))
+    return {name: ROOT / name for name in sorted(names) if not name.startswith(EXCLUDED)}
 
 
 def blanked(text: str) -> str:

@@ -24,7 +24,10 @@ from tests.support.runtime.harness import Tree, build, components, render
 
 CORPUS = TESTS / "runtime" / "corpus"
 SECONDS = int(os.environ.get("MICROROS_FUZZ_SECONDS", "600"))
-COMPILE = ("-g", "-O1", "-fsanitize=fuzzer-no-link,address,undefined", "-fno-sanitize-recover=all")
+INSTRUMENTED = ("-fsanitize=fuzzer-no-link,address,undefined", "-fno-sanitize-recover=all")
+COMPILE = ("-g", "-O1", *INSTRUMENTED)
+QUICK = ("-g0", "-O0", *INSTRUMENTED)
+"""For a few thousand inputs: optimizing would take longer than running them."""
 LINK = ("-fsanitize=fuzzer,address,undefined",)
 
 
@@ -63,13 +66,13 @@ SESSION = Target(
 TARGETS = (FRAMING, SESSION)
 
 
-def fuzzer(target: Target, folder: Path) -> Path:
+def fuzzer(target: Target, folder: Path, flags: Sequence[str] = COMPILE) -> Path:
     """Compile `target`; its objects are cached by their content."""
     names = [name for name in components(target.plan) if name != "port_posix"]
     tree = render(folder / target.name, target.plan, names)
     chosen = tuple(s for s in tree.sources if not target.sources or s.name in target.sources)
     return build(
-        Tree(tree.folder, chosen), target.fixtures, f"fuzz_{target.name}", "clang", COMPILE, link_flags=LINK
+        Tree(tree.folder, chosen), target.fixtures, f"fuzz_{target.name}", "clang", flags, link_flags=LINK
     )
 
 
