@@ -156,6 +156,7 @@ def test_mutations_of_valid_messages_at_length(seed: int) -> None:
     unharmed(bombard(50_000, seed))
 
 
+@pytest.mark.system
 def test_memory_is_bounded() -> None:
     """Strangers, fragments that never end and gaps that never close leave nothing that grows."""
     bench = Bench(LIMITS)

@@ -43,8 +43,8 @@ NEEDS = {
 
 LONG = ("howto/init.md", "tutorial/nucleo_f446re.md")
 """Pages that compile the library by CMake; tests/workspace and test_boards.py have their slices."""
-SYSTEM = ("tutorial/host.md", "tutorial/qemu.md", "howto/component.md")
-"""Pages of which quick_start.md, tests/firmware and tests/selection have the shorter sibling."""
+SYSTEM = ("tutorial/host.md", "tutorial/qemu.md", "howto/component.md", "howto/migrate.md")
+"""Pages of which quick_start.md, tests/firmware, tests/selection and tests/migrate have the shorter sibling."""
 
 
 def pages_that_run() -> list[Any]:

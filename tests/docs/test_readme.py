@@ -32,6 +32,7 @@ def test_the_example_is_the_demos_application() -> None:
     assert shown == "".join(line for line in lines if not line.startswith("#"))
 
 
+@pytest.mark.system
 @pytest.mark.builds
 def test_the_console_example_prints_what_it_shows(tmp_path: Path) -> None:
     (block,) = texts("console")

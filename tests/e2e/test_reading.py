@@ -52,7 +52,7 @@ def test_rclpy_publishes_and_the_client_takes(
     entities: str,
 ) -> None:
     """Every reliable sample once and in order; a word above its limit is refused in words; the graph shows the node."""
-    flags = ("-m32", *SANITIZE) if entities == "xml" else SANITIZE
+    flags = ("-m32", *SANITIZE) if entities == "xml" else ()
     image = images.build(image_port.port, f"{APPLICATION}entities: {entities}\n", flags=flags)
     program = image.application(C_FILES / "listen.c", tmp_path / "listen", "-std=c99", "-Wall", "-Werror")
     publish(observer, "/numbers", "std_msgs/msg/Int32")
@@ -87,11 +87,19 @@ limits: {"*": {string: 1000}}
 """
 
 
+@pytest.mark.parametrize(
+    "flags", [(), pytest.param(("-m32", *SANITIZE), marks=pytest.mark.system)], ids=["64", "32"]
+)
 def test_samples_of_any_size_share_the_bytes_of_a_queue(
-    images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, tmp_path: Path
+    images: Images,
+    image_port: Relay,
+    agent: AgentProcess,
+    observer: Observer,
+    tmp_path: Path,
+    flags: tuple[str, ...],
 ) -> None:
     """rclpy writes faster than the program takes; the large ones come in fragments. Each arrives once, in order."""
-    image = images.build(image_port.port, SHARED, flags=("-m32", *SANITIZE))
+    image = images.build(image_port.port, SHARED, flags=flags)
     program = image.application(C_FILES / "words.c", tmp_path / "words", "-std=c99", "-Wall", "-Werror")
     chance = random.Random(1)
     sizes = [chance.choice((1, 20, 400, 1000, chance.randrange(1, 1001))) for _ in range(120)]

@@ -82,7 +82,7 @@ def answer(program: Path, observer: Observer) -> None:
 def test_rclpy_calls_a_service(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, tmp_path: Path, entities: str
 ) -> None:
-    flags = ("-m32", *SANITIZE) if entities == "xml" else SANITIZE
+    flags = ("-m32", *SANITIZE) if entities == "xml" else ()
     image = images.build(image_port.port, f"{SERVER}entities: {entities}\n", flags=flags)
     call(image.application(C_FILES / "serve.c", tmp_path / "serve", *STRICT), observer)
 
@@ -91,7 +91,7 @@ def test_rclpy_calls_a_service(
 def test_a_client_calls_rclpy(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, tmp_path: Path, entities: str
 ) -> None:
-    flags = ("-m32", *SANITIZE) if entities == "binary" else SANITIZE
+    flags = ("-m32", *SANITIZE) if entities == "xml" else ()
     image = images.build(image_port.port, f"{ASKER}entities: {entities}\n", flags=flags)
     answer(image.application(C_FILES / "ask.c", tmp_path / "ask", *STRICT), observer)
 
@@ -107,7 +107,7 @@ def test_the_agent_holds_them(
     sources = {SERVER: ("serve.c", call), ASKER: ("ask.c", answer)}
     options, programs = [], []
     for (application, (source, act)), way in zip(sources.items(), ways, strict=True):
-        image = images.build(relay.port, f"{application}entities: {way}\n", "gcc", QUICK)
+        image = images.build(relay.port, f"{application}entities: {way}\n", flags=QUICK)
         (file,) = (image.out / "agent").iterdir()
         options += ["--references" if way == "reference" else "--entities", str(file)]
         programs.append((image.application(C_FILES / source, tmp_path / source[:-2], *STRICT), act))
@@ -136,7 +136,7 @@ limits: {"*": {string: 16}}
 @pytest.mark.system
 def test_the_example_asks_itself(images: Images, image_port: Relay, agent: AgentProcess) -> None:
     """Its server and its client are two DDS endpoints; `size` and `explain` know both, with their queues."""
-    image = images.build(image_port.port, EXAMPLE, "gcc", QUICK)
+    image = images.build(image_port.port, EXAMPLE, flags=QUICK)
     with started(image.program) as process:
         assert process.stdout is not None
         lines: set[str] = set()

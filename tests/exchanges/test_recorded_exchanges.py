@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.exchanges.recorded import GOLDEN, build_clock, exchange_of, recorded
+from tests.support.slices import only
 
 
 @pytest.fixture(scope="module")
@@ -18,7 +19,25 @@ def still_time(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return build_clock(tmp_path_factory.mktemp("clock"))
 
 
-@pytest.mark.parametrize("name", recorded())
+SHORT = (
+    *(
+        "best_effort",
+        "declared",
+        "discovery",
+        "graph",
+        "graph_topic",
+        "hard_liveliness",
+        "large",
+        "lent_serial",
+    ),
+    *("logging", "parameter_client", "parameters", "parameters_held", "pool", "preconfigured", "reader"),
+    *("reference", "reliable_creation", "rosout", "serial", "services", "session_states", "sleep_reader"),
+    *("simulation_timers", "tcp", "threads", "timers", "types", "xml"),
+)
+"""Those of `make test`: each component, transport and way to create entities."""
+
+
+@pytest.mark.parametrize("name", only(SHORT, recorded()))
 def test_an_exchange_equals_its_recording(name: str, tmp_path: Path, still_time: Path) -> None:
     recorded_text = (GOLDEN / f"{name}.txt").read_text(encoding="utf-8")
     assert exchange_of(name, tmp_path, still_time) == recorded_text

@@ -17,10 +17,11 @@ import pytest
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.platform.find import read_target
 from tests.support.agent.observer import Observer
-from tests.support.firmware.board import C_FILES, Built, board, build, need
+from tests.support.firmware.board import C_FILES, Built, board, compile_merged_image, need, run_tool
 from tests.support.firmware.instructions import trace_regions
 from tests.support.firmware.running import started
 from tests.support.patience import deadline
+from tests.support.slices import first
 
 LINES = 60
 SIZE = 400
@@ -63,8 +64,10 @@ INTERRUPTS = ("port_bare_tick", "port_cortex_m_console_interrupt", "port_console
 """They send the bytes while the program works; how many of them fall into one log call depends on the line."""
 
 
-def firmware(home: Path, way: str, application: str, console: str, baud: int = 115_200) -> Built:
-    """Build for a console of CONSOLES at the line `console` of QEMU."""
+def firmware(
+    home: Path, way: str, application: str, console: str, baud: int = 115_200, command: str = "generate"
+) -> Built:
+    """Make the library for a console of CONSOLES at the line `console` of QEMU; `build`: as one that is measured."""
     name = way.split()[0]
     program, machine = MACHINES[name]
     text = f"target: mine\nextends: {name}\n" + CONSOLES[way].replace("BAUD", str(baud))
@@ -72,10 +75,13 @@ def firmware(home: Path, way: str, application: str, console: str, baud: int = 1
     (home / "mine.yaml").write_text(text)
     found = read_target("mine.yaml", home, None, Diagnostics())
     assert found is not None
-    done = build(home, "mine.yaml", application)
+    done = run_tool(command, home, "mine.yaml", application)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "waits until" not in done.stderr
-    return Built(home / "out", replace(found.target, name=name))
+    built = Built(home / "out", replace(found.target, name=name))
+    if command == "generate":
+        compile_merged_image(built)
+    return built
 
 
 class StalledLine:
@@ -121,7 +127,7 @@ def stalled_line(folder: Path) -> Iterator[StalledLine]:
         line.close()
 
 
-@pytest.mark.parametrize("way", CONSOLES)
+@pytest.mark.parametrize("way", first(CONSOLES))
 def test_a_burst_on_a_stalled_line_fits_or_is_reported(tmp_path: Path, way: str) -> None:
     need(way.split()[0], emulator=True)
     application = APPLICATION.replace("TRANSPORT", "{type: udp}" if way == RISC_V else "{type: serial}")
@@ -144,13 +150,14 @@ def test_a_burst_on_a_stalled_line_fits_or_is_reported(tmp_path: Path, way: str)
     assert elapsed < 100, "60 lines take 180 ms at 115,200 baud, and a stalled line takes forever"
 
 
+@pytest.mark.system
 @pytest.mark.parametrize("baud", [9600, 921_600])
 def test_a_log_call_takes_bounded_instructions_on_any_line(tmp_path: Path, baud: int) -> None:
     need(CORTEX_M, emulator=True)
     application = APPLICATION.replace("TRANSPORT", "{type: serial}")
     counts = []
     with stalled_line(tmp_path) as line:
-        built = firmware(tmp_path, CORTEX_M, application, line.arguments, baud)
+        built = firmware(tmp_path, CORTEX_M, application, line.arguments, baud, "build")
         image = built.link(C_FILES / "console.c", tmp_path / "console.elf", "-DCONSOLE_MARKS")
         emulator = built.target.emulator
         assert emulator is not None
@@ -164,6 +171,7 @@ def test_a_log_call_takes_bounded_instructions_on_any_line(tmp_path: Path, baud:
         assert 0 < max(found) < MOST_INSTRUCTIONS, found
 
 
+@pytest.mark.system
 @pytest.mark.ros
 def test_the_ring_outlasts_a_reset_in_the_middle_of_the_output(
     tmp_path: Path, domain: int, observer: Observer

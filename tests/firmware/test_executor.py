@@ -18,9 +18,8 @@ NAME = "qemu-mps2-an386"
 SAMPLES = 12
 
 
-@pytest.mark.parametrize(
-    "kind", ["", pytest.param(", kind: rtos", marks=pytest.mark.system)], ids=["clock", "rtos"]
-)
+@pytest.mark.system
+@pytest.mark.parametrize("kind", ["", ", kind: rtos"], ids=["clock", "rtos"])
 def test_a_timer_publishes_under_the_executor(builds: Builds, kind: str) -> None:
     built = builds.build(NAME, APPLICATION % kind)
     image = builds.application(built, "ticker.c")
@@ -37,9 +36,10 @@ def test_a_timer_publishes_under_the_executor(builds: Builds, kind: str) -> None
     assert proven // 4 < touched <= proven
 
 
+@pytest.mark.system
 @pytest.mark.parametrize(
     ("listens", "text", "ram"),
-    [(False, 11250, 1000), pytest.param(True, 15500, 1220, marks=pytest.mark.system)],
+    [(False, 11250, 1000), (True, 15500, 1220)],
     ids=["talks", "talks-and-listens"],
 )
 def test_its_size(builds: Builds, listens: bool, text: int, ram: int) -> None:

@@ -55,7 +55,7 @@ PRINTING = {
 }
 
 
-SHORT = ("uart", "float", "riscv float")
+SHORT = ("uart",)
 """What the default suite has."""
 
 

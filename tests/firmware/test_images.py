@@ -15,7 +15,7 @@ from tests.support.slices import only
 
 POOL = "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\n"
 # What a C library has for input and output, memory, its own start-up and its state between calls.
-EACH_BOARD = only(("qemu-mps2-an386", "qemu-riscv32-virt"), BOARDS)
+EACH_BOARD = only(("qemu-mps2-an386",), BOARDS)
 CMSIS = re.compile(
     r"\w+_(Handler|IRQHandler)|SystemInit|SystemCoreClock|__isr_vector|_estack|_s?[ed]?(data|bss)"
 )
@@ -118,6 +118,7 @@ def own_board(tmp_path_factory: pytest.TempPathFactory) -> Built:
     return Built(home / "out", found.target)
 
 
+@pytest.mark.system
 def test_an_application_brings_the_serial_line_of_its_board(own_board: Built, tmp_path: Path) -> None:
     image = own_board.link(C_FILES / "own_serial.c", tmp_path / "own.elf", "-DOWN_SERIAL")
     symbols = own_board.symbols(image)
@@ -127,6 +128,7 @@ def test_an_application_brings_the_serial_line_of_its_board(own_board: Built, tm
     assert entry == symbols["mine_uart_interrupt"] | 1
 
 
+@pytest.mark.system
 def test_without_it_the_linker_says_what_is_missing(own_board: Built, tmp_path: Path) -> None:
     with pytest.raises(AssertionError) as error:
         own_board.link(C_FILES / "own_serial.c", tmp_path / "own.elf")

@@ -47,7 +47,7 @@ def changed(peer: ParameterPeer, count: int) -> list[Any]:
 @pytest.mark.ros
 @pytest.mark.parametrize("flags", [(), ADDED], ids=["declared", "added"])
 def test_rclpy_sets_what_the_firmware_uses(builds: Builds, domain: int, flags: tuple[str, ...]) -> None:
-    built = builds.build(NAME, APPLICATION)
+    built = builds.merged(NAME, APPLICATION)
     need(NAME, emulator=True)
     image = builds.application(built, "parameters.c", *flags)
     with (
@@ -81,16 +81,18 @@ def test_rclpy_sets_what_the_firmware_uses(builds: Builds, domain: int, flags: t
     assert changes == 1
 
 
-@pytest.mark.parametrize(("name", "limits"), SIZES.items(), ids=SIZES)
-def test_its_size(builds: Builds, name: str, limits: tuple[int, int, int]) -> None:
+@pytest.mark.system
+@pytest.mark.parametrize("name", SIZES)
+def test_its_size(builds: Builds, name: str) -> None:
     """Four declared parameters, six services, executor, over a serial line."""
     need(name)
-    found = taken(builds, name)
-    assert found.flash <= limits[0]
-    assert found.size.ram <= limits[1]
-    assert found.stack <= limits[2]
+    found, (flash, ram, stack) = taken(builds, name), SIZES[name]
+    assert found.flash <= flash
+    assert found.size.ram <= ram
+    assert found.stack <= stack
 
 
+@pytest.mark.system
 def test_its_size_where_the_program_adds_them(builds: Builds) -> None:
     """As sources for rclc do: their names and ranges are in RAM."""
     need(NAME)
@@ -100,6 +102,7 @@ def test_its_size_where_the_program_adds_them(builds: Builds) -> None:
     assert found.stack <= 1_104
 
 
+@pytest.mark.system
 def test_its_instructions(builds: Builds) -> None:
     """Goals: 15,000, 4,000 and 6,000 for init, get and set; not met for requests, met for calls."""
     need(NAME, emulator=True)
@@ -111,10 +114,12 @@ def test_its_instructions(builds: Builds) -> None:
     assert found.set_call <= 3_102
 
 
-@pytest.mark.parametrize(("kind", "limits"), COSTS.items(), ids=COSTS)
-def test_what_one_more_takes(builds: Builds, kind: str, limits: tuple[int, int]) -> None:
+@pytest.mark.system
+@pytest.mark.parametrize("kind", COSTS)
+def test_what_one_more_takes(builds: Builds, kind: str) -> None:
     """In the store: messages that have room for all parameters grow as well."""
     need(NAME)
     flash, ram = cost(builds, NAME, kind, messages=False)
-    assert 0 < flash <= limits[0]
-    assert 0 < ram <= limits[1]
+    flash_most, ram_most = COSTS[kind]
+    assert 0 < flash <= flash_most
+    assert 0 < ram <= ram_most

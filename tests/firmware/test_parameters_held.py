@@ -98,6 +98,7 @@ def test_board_and_agent_restart(builds: Builds, domain: int, tmp_path: Path) ->
             running.wait_for(lambda: steps_of(running) == 92, 30)
 
 
+@pytest.mark.system
 @pytest.mark.parametrize(
     ("name", "flash", "ram", "stack"),
     [

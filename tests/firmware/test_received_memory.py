@@ -74,6 +74,7 @@ def _times(builds: Builds, line: str, ranges: int, storage: str = "none") -> flo
     return (grown + GOAL * _largest(small) + least) / _largest(large)
 
 
+@pytest.mark.system
 @pytest.mark.parametrize("line", first(LINES))
 def test_a_laser_scan_at_depth_1(builds: Builds, line: str) -> None:
     """Queue, input buffer, the interrupt's ring, bound storage, and the message with its buffers in the program."""
@@ -81,6 +82,7 @@ def test_a_laser_scan_at_depth_1(builds: Builds, line: str) -> None:
     assert _times(builds, line, 360) <= GOAL
 
 
+@pytest.mark.system
 def test_storage_that_the_library_binds_is_the_difference(builds: Builds) -> None:
     """Without `storage: none` the library has memory for the message besides that of the program."""
     need(CORTEX_M4)

@@ -127,6 +127,7 @@ nodes:
 """
 
 
+@pytest.mark.system
 def test_closing_lets_what_waits_for_the_line_leave(builds: Builds) -> None:
     """What the ring holds when the session ends; a line that stands holds the end no longer than `close_timeout`."""
     built = counted(builds.merged(NAME, CLOSING))

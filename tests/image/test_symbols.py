@@ -269,6 +269,7 @@ def test_the_catalogue_knows_what_is_optional() -> None:
     )
 
 
+@pytest.mark.system
 def test_the_built_library_and_image(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What `build` makes, with its own flags: the archive holds exactly sources.txt, the image only what it calls."""
     for variable in ("CC", "AR", "CFLAGS"):

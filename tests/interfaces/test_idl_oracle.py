@@ -155,6 +155,7 @@ def test_the_oracle_of_c_takes_what_is_right(text: str, tmp_path: Path) -> None:
 
 @settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(declared=messages())
+@pytest.mark.system
 def test_a_struct_made_at_random_is_to_ros_what_it_is_here(declared: Message, tmp_path: Path) -> None:
     theirs = ros_idl(idl_text(declared), tmp_path)
     assert theirs is not None
@@ -222,6 +223,7 @@ members = st.tuples(*map(st.sampled_from, (ANNOTATIONS, TYPES, DECLARATORS, ENDS
 
 @settings(max_examples=120, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(before=st.sampled_from(BEFORE), member=members)
+@pytest.mark.system
 def test_members_made_at_random_are_taken_or_refused_as_by_ros(
     before: str, member: str, tmp_path: Path
 ) -> None:

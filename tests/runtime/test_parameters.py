@@ -6,8 +6,9 @@ tests/e2e/test_parameters.py has rclpy.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from functools import cache
 from typing import Any
 
 import pytest
@@ -41,6 +42,7 @@ TEXTS = MANY.replace(
 LARGE = "the request is too large, none of it was set"
 COUNT_WRITER = 1
 MOST = 65535
+Programs = Callable[[str], Program]
 
 
 @pytest.fixture(scope="module")
@@ -49,10 +51,14 @@ def codec() -> Codec:
 
 
 @pytest.fixture(scope="module")
-def programs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Program]:
-    return {
-        text: program_of(tmp_path_factory.mktemp("parameters") / "a", text) for text in (MANY, FEW, TEXTS)
-    }
+def programs(tmp_path_factory: pytest.TempPathFactory) -> Programs:
+    """Return a function that builds the program of an application when a test first needs it."""
+
+    @cache
+    def built(text: str) -> Program:
+        return program_of(tmp_path_factory.mktemp("parameters") / "a", text)
+
+    return built
 
 
 @pytest.fixture
@@ -61,15 +67,15 @@ def stack() -> Iterator[ExitStack]:
         yield stack
 
 
-def started(programs: dict[str, Program], stack: ExitStack, codec: Codec, text: str = MANY) -> Device:
+def started(programs: Programs, stack: ExitStack, codec: Codec, text: str = MANY) -> Device:
     agent = ServingAgent(mtu=200)
-    client = stack.enter_context(Client(programs[text].path, agent))
+    client = stack.enter_context(Client(programs(text).path, agent))
     client.ok("init")
     return Device(client, agent, codec)
 
 
 @pytest.fixture
-def device(programs: dict[str, Program], stack: ExitStack, codec: Codec) -> Device:
+def device(programs: Programs, stack: ExitStack, codec: Codec) -> Device:
     return started(programs, stack, codec)
 
 
@@ -170,17 +176,22 @@ def test_closed_and_opened_again(device: Device) -> None:
 
 @pytest.mark.parametrize(
     ("text", "mtu", "count"),
-    [(MANY, 64, 60), (MANY, MOST, 60), (FEW, MOST, 60), (FEW, MOST, 7)],
+    [
+        (MANY, 64, 60),
+        (MANY, MOST, 60),
+        pytest.param(FEW, MOST, 60, marks=pytest.mark.system),
+        pytest.param(FEW, MOST, 7, marks=pytest.mark.system),
+    ],
     ids=["small fragments", "fragments", "only large ones in fragments", "whole"],
 )
 def test_large_requests(
-    programs: dict[str, Program], stack: ExitStack, codec: Codec, text: str, mtu: int, count: int
+    programs: Programs, stack: ExitStack, codec: Codec, text: str, mtu: int, count: int
 ) -> None:
     """Each is answered in its turn, counted and reported once; the next one is as any other."""
     device = started(programs, stack, codec, text)
     device.open("a")
     device.spin(12)
-    device.agent.mtu = min(mtu, programs[text].input_size)
+    device.agent.mtu = min(mtu, programs(text).input_size)
     before = device.client.statistics()
     names = ["a"] * count
     numbers = [
@@ -233,7 +244,7 @@ def reasons(device: Device, *values: dict[str, Any]) -> list[str]:
     return [r["reason"] for r in device.call("set_parameters", parameters=list(values))["results"]]
 
 
-def test_strings(programs: dict[str, Program], stack: ExitStack, codec: Codec) -> None:
+def test_strings(programs: Programs, stack: ExitStack, codec: Codec) -> None:
     device = started(programs, stack, codec, TEXTS)
     device.open()
     client = device.client
@@ -270,14 +281,14 @@ def test_strings(programs: dict[str, Program], stack: ExitStack, codec: Codec) -
     assert client.call("text n a").error == "parameter n: it has another type"
 
 
-def test_three_strings_for_two_places(programs: dict[str, Program], stack: ExitStack, codec: Codec) -> None:
+def test_three_strings_for_two_places(programs: Programs, stack: ExitStack, codec: Codec) -> None:
     """Larger than the input: in fragments that fit it is refused with a reason; a datagram above it is malformed."""
     device = started(programs, stack, codec, TEXTS)
     device.open()
     device.client.ok("text label +")
     device.spin(12)
     values = [text_of("label", "a" * size) for size in (3, 4, 5)]
-    device.agent.mtu = programs[TEXTS].input_size
+    device.agent.mtu = programs(TEXTS).input_size
     assert reasons(device, *values) == [LARGE] * 3
     assert device.client.statistics()["malformed"] == 0
     device.agent.mtu = MOST

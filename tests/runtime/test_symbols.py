@@ -110,7 +110,7 @@ VARIANTS = {
     "reader-preconfigured-ping": (changed(ONLY_READER, creation__entities="preconfigured"), "ping"),
     "reader-reference-ping": (changed(ONLY_READER, creation__entities="reference"), "ping"),
 }
-QUICK = (*("best-effort-none", "fragments-acknack", "creation-none", "reader-fragments-xml-ping"),)
+QUICK = ("best-effort-none", "fragments-acknack", "reader-fragments-xml-ping")
 """Variants whose symbols are looked at in `make test`: each kind of stream, of liveliness and of endpoint."""
 FORBIDDEN = re.compile(
     r"\b(malloc|calloc|realloc|free|\w*printf|puts|fputs|fwrite|strtol|strdup|abort|exit|__assert\w*)$"
@@ -281,10 +281,9 @@ def test_objects_of_another_plan_do_not_link(tree: Tree, tmp_path: Path) -> None
 ARM = ("-mcpu=cortex-m4", "-mthumb", "-Os")
 
 
+@pytest.mark.system
 @pytest.mark.skipif(not shutil.which("arm-none-eabi-gcc"), reason="no cross compiler")
-@pytest.mark.parametrize(
-    ("error_text_size", "most"), [pytest.param(160, 9700, marks=pytest.mark.system), (0, 8300)]
-)
+@pytest.mark.parametrize(("error_text_size", "most"), [(160, 9700), (0, 8300)])
 def test_size_on_a_cortex_m4(error_text_size: int, most: int, tmp_path: Path) -> None:
     """Of the library in a pure sender, without a port: two publishers, memcpy and memset of newlib included."""
     plan = changed(

@@ -22,6 +22,7 @@ from tests.support.runtime.harness import build, components, render
 from tests.support.runtime.reading_agent import ReadingAgent
 from tests.support.runtime.time_sync import EPOCH_NS, answer, moment
 from tests.support.runtime.times import with_times
+from tests.support.slices import first
 
 ROUND_TRIP_MS = 3000
 CREATE_CLIENT, CREATE, GET_INFO, READ_DATA, HEARTBEAT = 0x00, 0x01, 0x02, 0x08, 0x0B
@@ -208,9 +209,9 @@ BATTERY = SessionTimes(retry_max=600_000, liveliness_period=300_000)
 @pytest.mark.parametrize(
     ("liveliness", "times", "most"),
     [
-        ("none", SessionTimes(), 1),
+        pytest.param("none", SessionTimes(), 1, marks=pytest.mark.system),
         ("acknack", SessionTimes(), 1),
-        ("ping", SessionTimes(), 2 * 3600),
+        pytest.param("ping", SessionTimes(), 2 * 3600, marks=pytest.mark.system),
         ("ping", BATTERY, 2 * 12),
     ],
     ids=["none", "acknack", "ping", "ping of a battery device"],
@@ -220,7 +221,7 @@ def test_a_quiet_node_rests(liveliness: str, times: SessionTimes, most: int, tmp
     assert woke <= most + 1, "in an hour"
 
 
-@pytest.mark.parametrize("liveliness", ["ping", "acknack"])
+@pytest.mark.parametrize("liveliness", first(["ping", "acknack"]))
 def test_a_node_without_its_agent_rests_longer_and_longer(liveliness: str, tmp_path: Path) -> None:
     _, woke, questions = hour(with_times(QUIET, BATTERY), liveliness, tmp_path)
     pauses = [b - a for a, b in pairwise(questions)]

@@ -13,7 +13,7 @@ from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.selection.find_components import parts_folder
 from tests.support.patience import seconds
 from tests.support.plans import POOL, changed
-from tests.support.runtime.harness import SANITIZE, Tree, build, compilers, components, render
+from tests.support.runtime.harness import SANITIZE, SANITIZER, Tree, build, compilers, components, render
 
 ARENA = changed(POOL, memory__arena_size=1024)
 
@@ -24,7 +24,7 @@ ARENA = changed(POOL, memory__arena_size=1024)
         ("unit_stream.c", POOL, SANITIZE),
         ("unit_memory.c", changed(POOL, memory__arena_size=512), SANITIZE),
         ("unit_strings.c", ARENA, SANITIZE),
-        ("unit_strings.c", POOL, ("-O2",)),
+        pytest.param("unit_strings.c", POOL, ("-O2",), marks=pytest.mark.system),
         pytest.param(
             *("unit_memory.c", changed(POOL, memory__arena_size=512), ("-m32", "-Os")),
             marks=pytest.mark.system,
@@ -35,7 +35,7 @@ ARENA = changed(POOL, memory__arena_size=1024)
 def test_unit(unit: str, plan: RuntimePlan, flags: tuple[str, ...], tmp_path: Path) -> None:
     names = [name for name in components(plan) if name != "port_posix"]
     tree = render(tmp_path, plan, names)
-    program = build(tree, ["port_fake.c", unit], "unit", flags=flags)
+    program = build(tree, ["port_fake.c", unit], "unit", SANITIZER, flags)
     done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
     assert done.returncode == 0, done.stderr
 
@@ -64,7 +64,7 @@ def test_messages_that_the_line_does_not_copy(tmp_path: Path) -> None:
     shutil.copy(bare / "src" / "port_bare_wait.c", tree.include)
     shutil.copy(bare / "src" / "port_bare_serial.c", tree.include)
     (tree.include / "microros" / "port_board.h").write_text(BOARD)
-    program = build(tree, ["port_fake.c", "unit_kept.c"], "unit")
+    program = build(tree, ["port_fake.c", "unit_kept.c"], "unit", SANITIZER, SANITIZE)
     done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
     assert done.returncode == 0, done.stderr
 
@@ -74,9 +74,9 @@ def test_messages_that_the_line_does_not_copy(tmp_path: Path) -> None:
     [
         (1, "gcc", SANITIZE),
         (2, "clang", SANITIZE),
-        (4, "gcc", SANITIZE),
+        pytest.param(4, "gcc", SANITIZE, marks=pytest.mark.system),
         (16, "gcc", ("-m32", "-Os")),
-        (1, "clang", ("-m32", "-O1")),
+        pytest.param(1, "clang", ("-m32", "-O1"), marks=pytest.mark.system),
     ],
 )
 def test_reliable_input(slots: int, compiler: str, flags: tuple[str, ...], tmp_path: Path) -> None:

@@ -24,7 +24,7 @@ _ALSO_CLANG = (
 )
 # Every variant is compiled by test_symbols.py with gcc, 64 bit, -Os; `pool` and `demo` share all other cases.
 CASES = [
-    ("pool", "gcc", 32, "-Os"),
+    pytest.param("pool", "gcc", 32, "-Os", marks=pytest.mark.system),
     *(
         pytest.param(*case, marks=pytest.mark.lint)
         for case in (

@@ -14,6 +14,7 @@ import pytest
 
 from microros_gen.cli import main as cli
 from microros_gen.interfaces.find import shipped_folder
+from tests.support.slices import first
 from tests.support.typesupport.build import WARNINGS, run
 
 pytestmark = [pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc"), pytest.mark.builds]
@@ -77,7 +78,7 @@ def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return place / "out"
 
 
-@pytest.mark.parametrize("flags", [("-fsanitize=address,undefined",), ("-m32",)])
+@pytest.mark.parametrize("flags", first([("-fsanitize=address,undefined",), ("-m32",)]))
 def test_each_topic_has_the_capacities_of_its_own_limits(out: Path, flags: tuple[str, ...]) -> None:
     """Topics with one name in C differ by a number; of one topic in two nodes the larger limit holds."""
     program = out.parent / "program.c"

@@ -15,6 +15,7 @@ from microros_gen.documents.templates import shared_environment
 from microros_gen.typesupport.plan.members import TABLES_HEADER
 from microros_gen.typesupport.plan.types import TypePlan
 from microros_gen.typesupport.views.members import render_members
+from tests.support.slices import first
 from tests.support.typesupport import cdr
 from tests.support.typesupport.build import (
     COMPONENTS,
@@ -178,7 +179,7 @@ def function(library: ctypes.CDLL, plan: TypePlan, name: str) -> ctypes._NamedFu
     return found
 
 
-@pytest.mark.parametrize("compiler", [["gcc", "-m32"], ["clang"], ["clang", "-m32"]])
+@pytest.mark.parametrize("compiler", first([["gcc", "-m32"], ["clang"], ["clang", "-m32"]]))
 def test_sizes_hold_for_other_data_models(letters: Generated, compiler: list[str], tmp_path: Path) -> None:
     sources = letters.sources("__type_support.c", "__storage.c", "__functions.c", "__decode.c")
     for path, content in render_members(letters.plans, shared_environment()).items():

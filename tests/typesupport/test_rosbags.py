@@ -60,6 +60,7 @@ def check_samples(
     return unknown
 
 
+@pytest.mark.system
 def test_rosbags_and_this_project_write_and_read_the_same(
     limits_case: Generated, library: ctypes.CDLL, oracle: Oracle
 ) -> None:

@@ -128,6 +128,7 @@ def test_the_action_is_one(application: Path, tmp_path: Path, installed: Install
     assert "the interface path 'no such' does not exist" in faulty.stderr
 
 
+@pytest.mark.system
 def test_the_hook_is_one(application: Path, installed: Installed) -> None:
     """Its form, its files, and its command as pre-commit starts it."""
     command = [sys.executable, "-m", "pre_commit", "validate-manifest", str(HOOKS)]

@@ -78,6 +78,7 @@ def test_its_stack_counts_the_callbacks_of_the_application(project: Project) -> 
     assert all(link["known_from"] == "compiler" for link in stack["main"]["chain"])
 
 
+@pytest.mark.system
 def test_the_output_folder_in_it_and_its_image_are_the_same(project: Project) -> None:
     whole = sized(project, project.build_folder)
     assert sized(project, project.out) == whole
@@ -91,6 +92,7 @@ def test_a_page_with_its_treemaps(project: Project) -> None:
     assert re.search(r"<title>publish \(component\): \d+ bytes</title>", text)
 
 
+@pytest.mark.system
 def test_the_commands_of_the_page(project: Project) -> None:
     """All but `run`, which is below."""
     (block,) = re.findall(r"^```console\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
