@@ -27,6 +27,11 @@ class Region:
         """The first address that the image may use."""
         return self.origin + self.offset
 
+    @property
+    def moved_to(self) -> int:
+        """The first address of an image that does not begin where the region does; 0: it does."""
+        return self.first if self.offset else 0
+
 
 @dataclass(frozen=True)
 class Memory:
@@ -200,6 +205,11 @@ class Target:
     def has_register(self, name: str) -> bool:
         """Whether the target says where `name` is."""
         return any(known == name for known, _ in self.registers)
+
+    @property
+    def memories_with_sections(self) -> tuple[Memory, ...]:
+        """Further memories that hold sections of the program."""
+        return tuple(memory for memory in self.memories if memory.sections)
 
     @property
     def stack_memory(self) -> str:

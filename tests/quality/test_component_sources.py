@@ -5,12 +5,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from functools import cache
 from pathlib import Path
 
 from jinja2 import Environment, nodes
 
+from microros_gen.platform.capabilities import capabilities
 from microros_gen.selection.component import Component
-from microros_gen.selection.find_components import components_folder, load_catalogue
+from microros_gen.selection.find_components import components_folder, load_catalogue, parts_folder
 
 ROOT = components_folder()
 CATALOGUE = load_catalogue()
@@ -20,7 +22,8 @@ SELECTING_FILTERS = {"select", "selectattr", "reject", "rejectattr", "default", 
 
 
 def templates() -> list[Path]:
-    return sorted(ROOT.rglob("*.j2"))
+    """Return the templates of all components, parts of a platform included."""
+    return sorted(path for component in CATALOGUE.values() for path in component.folder.rglob("*.j2"))
 
 
 def conditions(text: str) -> int:
@@ -36,17 +39,22 @@ def test_conditions_are_counted_in_every_form() -> None:
     assert conditions(text) == 6
 
 
+def test_no_template_of_a_component_or_part_is_left_out() -> None:
+    assert set(templates()) == {*ROOT.rglob("*.j2"), *parts_folder().rglob("*.j2")}
+
+
 def test_templates_decide_little() -> None:
     """Choices are files with conditions in component.yaml; templates had 396 before."""
     assert sum(conditions(path.read_text(encoding="utf-8")) for path in templates()) <= 100
 
 
+@cache
 def headers() -> dict[str, set[str]]:
     """Return which components bring each header; one that stands in for another's does not count."""
     found: dict[str, set[str]] = {}
     for component in CATALOGUE.values():
         replaces = {r.header for r in component.contributes.replaces}
-        folder = ROOT / component.name / "include"
+        folder = component.folder / "include"
         paths = [
             p.relative_to(folder).as_posix().removesuffix(".j2") for p in folder.rglob("*") if p.is_file()
         ]
@@ -59,7 +67,7 @@ def headers() -> dict[str, set[str]]:
 def includes(component: Component) -> Iterator[tuple[str, str]]:
     """Yield each file of a component with the component whose header it includes; a choice of several has no owner."""
     owners = headers()
-    for path in sorted((ROOT / component.name).rglob("*")):
+    for path in sorted(component.folder.rglob("*")):
         if path.suffix in (".c", ".h", ".j2", ".S"):
             for header in _INCLUDE.findall(path.read_text(encoding="utf-8")):
                 owner = owners.get(header, set())
@@ -96,7 +104,18 @@ def test_groups_are_found() -> None:
 
 def test_components_do_not_include_each_other() -> None:
     edges = {(c.name, owner) for c in CATALOGUE.values() for _, owner in includes(c)}
+    assert {name for name, _ in edges} > {"publish", "session", "port_bare", "port_cortex_m"}, "all are read"
     assert groups(edges) == []
+
+
+def declaring(component: Component) -> set[str]:
+    """Return who declares the capabilities that a part of a platform provides or asks for, in their headers."""
+    if component.layer != "port":
+        return set()
+    asks = (*component.asks, *(ask for provided in component.provides for ask in provided.asks))
+    names = {ask.capability for ask in asks} | {provided.capability for provided in component.provides}
+    owners = headers()
+    return {owner for name in names for owner in owners[capabilities()[name].header]}
 
 
 def needed(component: Component) -> set[str]:
@@ -112,7 +131,7 @@ def needed(component: Component) -> set[str]:
     conditions = [part.when for part in (*parts.hooks, *parts.handlers, *parts.state, *parts.replaces)]
     conditions += [source.when for source in component.sources]
     names = [path for when in conditions for path, _ in when if path.startswith("component.")]
-    return found | {name.partition(".")[2] for name in names}
+    return found | {name.partition(".")[2] for name in names} | declaring(component)
 
 
 def test_what_is_included_is_needed() -> None:
@@ -142,18 +161,23 @@ def test_calls_go_down() -> None:
     assert wrong == []
 
 
+@cache
+def shared_texts() -> dict[str, str]:
+    """Return the files of components and the shared templates, each with its text."""
+    package = ROOT.parent
+    paths = [p for folder in (ROOT, package / "templates") for p in sorted(folder.rglob("*"))]
+    return {
+        p.relative_to(package).as_posix(): p.read_text(encoding="utf-8")
+        for p in paths
+        if p.suffix in (".c", ".h", ".j2", ".yaml")
+    }
+
+
 def mentions(component: str) -> list[str]:
     """Return the files of other components and the shared templates that name a component."""
     word = re.compile(rf"(?:has\(['\"]|component\.|\"){component}\b")
-    folders = (ROOT, ROOT.parent / "templates")
-    paths = [
-        p for folder in folders for p in sorted(folder.rglob("*")) if p.suffix in (".c", ".h", ".j2", ".yaml")
-    ]
-    return [
-        p.relative_to(ROOT.parent).as_posix()
-        for p in paths
-        if p.relative_to(ROOT.parent).parts[1] != component and word.search(p.read_text(encoding="utf-8"))
-    ]
+    own = f"{ROOT.name}/{component}/"
+    return [path for path, text in shared_texts().items() if not path.startswith(own) and word.search(text)]
 
 
 MOST_MENTIONS = 9

@@ -62,6 +62,11 @@ class BoardPlan:
     console_size: int = 0
 
     @property
+    def handled_interrupts(self) -> tuple[tuple[int, str], ...]:
+        """Number and handler of each interrupt that has one."""
+        return tuple((number, name) for number, name in enumerate(self.vectors) if name)
+
+    @property
     def has_stdio(self) -> bool:
         """Whether the port has what the C library's standard output needs."""
         return self.stdio != "absent"

@@ -8,7 +8,7 @@ from typing import Generic, TypeVar
 
 from microros_gen.application.kinds import KIND
 from microros_gen.client.plan.runtime_entities import NodePlan, PublisherPlan, SubscriptionPlan
-from microros_gen.client.plan.runtime_rows import EndpointRow
+from microros_gen.client.plan.runtime_rows import EndpointRow, SourceMembers
 from microros_gen.client.plan.services import ServicePlan
 from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.names import include_path, type_files
@@ -140,6 +140,18 @@ class EntitiesPlan:
         """Whether some name of the source is another one on the wire."""
         nodes = any(node.given_name for node in self.nodes.declared)
         return nodes or any(row.declared_as for row in self.endpoints)
+
+    @property
+    def source_members(self) -> SourceMembers:
+        """Where the names of the source are: without `remap:` those on the wire."""
+        if self.remaps:
+            return SourceMembers("given_name", "given_namespace", "given")
+        return SourceMembers("name", "namespace_", "name")
+
+    @property
+    def stored_subscriptions(self) -> tuple[SubscriptionPlan, ...]:
+        """The declared subscriptions to whose messages the library binds storage."""
+        return tuple(s for s in self.subscriptions.declared if s.stored)
 
     @property
     def limited_headers(self) -> tuple[str, ...]:

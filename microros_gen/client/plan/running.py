@@ -15,6 +15,17 @@ from microros_gen.selection.model import Selection
 _NS_PER_US = 1000
 
 
+_TICK_SOURCES = {"rtos": "port_timer", "hardware": "port_hardware_timer"}
+
+
+@dataclass(frozen=True)
+class TickSource:
+    """What makes timers of a kind ready: `functions` is how the names of its C functions begin."""
+
+    kind: str
+    functions: str
+
+
 @dataclass(frozen=True, kw_only=True)
 class TimersPlan:
     """`max` places of timers, the first for those that are `declared`; 0: `timers` is not selected."""
@@ -36,6 +47,12 @@ class TimersPlan:
     def has_hardware(self) -> bool:
         """Whether the application drives a declared timer."""
         return any(timer.kind == "hardware" for timer in self.declared)
+
+    @property
+    def tick_sources(self) -> tuple[TickSource, ...]:
+        """The sources of ticks that declared timers use."""
+        used = {timer.kind for timer in self.declared}
+        return tuple(TickSource(kind, name) for kind, name in _TICK_SOURCES.items() if kind in used)
 
     @property
     def has_ticked(self) -> bool:

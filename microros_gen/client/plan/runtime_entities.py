@@ -93,6 +93,11 @@ class SubscriptionPlan:
     declared_as: str = field(default="", repr=False)
 
     @property
+    def binder(self) -> str:
+        """The C function that binds its message to storage: NULL without such."""
+        return f"subscription_bind_{self.index}" if self.stored else "NULL"
+
+    @property
     def dds_type(self) -> str:
         """The type's name on the wire: `std_msgs::msg::dds_::Int32_`."""
         return dds_type(self.type)

@@ -16,6 +16,20 @@ class EndpointRow:
     limited: str = ""
     declared_as: str = ""
 
+    @property
+    def limited_type(self) -> str:
+        """The address in C of the type with its own limits; NULL without such."""
+        return f"&{self.limited}__message_type" if self.limited else "NULL"
+
+
+@dataclass(frozen=True)
+class SourceMembers:
+    """Members of the tables of declarations that hold the names of the source code."""
+
+    node: str
+    namespace: str
+    endpoint: str
+
 
 @dataclass(frozen=True)
 class QueueRow:

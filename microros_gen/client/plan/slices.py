@@ -305,6 +305,11 @@ class MemoryPlan:
         return "pools" if self.message_pools else "allocator"
 
     @property
+    def pool_headers(self) -> tuple[str, ...]:
+        """Headers that declare the elements of the pools, sorted; those of characters and numbers need none."""
+        return tuple(sorted({pool.header for pool in self.message_pools if pool.header}))
+
+    @property
     def pool_pointers(self) -> tuple[PoolPointer, ...]:
         """What functions of rosidl_runtime_c name for each kind of element."""
         return pool_pointers(self.message_pools)

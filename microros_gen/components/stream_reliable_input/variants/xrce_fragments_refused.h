@@ -1,13 +1,9 @@
-{% set kept = plan.input.fragments == 'kept' %}
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Fragments of the agent's reliable stream: DATA above the MTU arrives as consecutive fragments, one
- * message each {% if kept %} (OMG DDS-XRCE 1.0, 8.3.5.14). They need no separate buffer: each is copied to
- * the slot in which the sample will wait; a reader has a free slot for every requested sample. A sample
- * larger than a slot is refused with its first fragment. {% else %} (OMG DDS-XRCE 1.0, 8.3.5.14). No
+ * message each  (OMG DDS-XRCE 1.0, 8.3.5.14). No
  * sample of this plan needs fragments, so a fragmented one is too large: it is refused with its first
- * fragment. {% endif %}
- */
+ * fragment.  */
 #ifndef MICROROS_XRCE_FRAGMENTS_H
 #define MICROROS_XRCE_FRAGMENTS_H
 
@@ -16,9 +12,6 @@
 #include <stdint.h>
 
 #include "microros/xrce_forward.h"
-{% if kept %}
-#include "microros/xrce_read.h"
-{% endif %}
 
 #ifdef __cplusplus
 extern "C" {
@@ -26,12 +19,6 @@ extern "C" {
 
 /* Zero-initialized: nothing received. */
 typedef struct xrce_fragments_t {
-{% if kept %}
-  xrce_arrival_t sample; /* the sample being assembled; valid from its first fragment on */
-  uint16_t arrived;      /* bytes of the sample in its slot */
-  uint16_t next;         /* number of the message that must contain the next fragment */
-  bool begun;
-{% endif %}
   bool skipping; /* skip up to the last fragment of an incomplete sample */
 } xrce_fragments_t;
 
