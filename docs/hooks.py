@@ -101,6 +101,13 @@ def on_page_context(context: dict[str, Any], page: Page, config: MkDocsConfig, n
     context["build_date_utc"] = "left out"
 
 
+def on_post_build(config: MkDocsConfig) -> None:
+    """Write the index of the search as a script, too: a page opened from disk may load no other file."""
+    folder = Path(config.site_dir) / "search"
+    index = (folder / "search_index.json").read_text(encoding="utf-8")
+    (folder / "search_index.js").write_text(f"var __index = {index}", encoding="utf-8")
+
+
 def _origin(path: str) -> str:
     """Return where a page of the site lies in the repository."""
     return next((origin for origin, page in OUTSIDE.items() if page == path), f"docs/{path}")

@@ -7,6 +7,7 @@ colors follow the theme, and it is the same in every run.
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
 import subprocess
@@ -72,6 +73,35 @@ def components() -> str:
     return _svg(columns * width + 10, rows * height - 18, "Components of the demo application", parts)
 
 
+def node_graph() -> str:
+    """Draw the nodes of an application and its topics and services, from the manifest that `generate` writes."""
+    with tempfile.TemporaryDirectory() as folder:
+        _tool("generate", "-c", "examples/ping_pong/microros.yaml", "-o", f"{folder}/out")
+        entities = json.loads(Path(folder, "out", "manifest.json").read_text(encoding="utf-8"))["entities"]
+    ends = [
+        (kind, end["node"], end.get("topic") or end["name"], end["type"])
+        for kind in ("publishers", "subscriptions", "services", "clients")
+        for end in entities.get(kind, ())
+    ]
+    names = sorted({(name, type_) for _, _, name, type_ in ends})
+    height = 70 * max(len(names), len(entities["nodes"]))
+    parts = []
+    for i, node in enumerate(entities["nodes"]):
+        y = height * (2 * i + 1) / (2 * len(entities["nodes"]))
+        parts.append(_box(10, y - 22, 240, 44, f"{node['namespace'].rstrip('/')}/{node['name']}", "accent"))
+        for kind, number, name, type_ in ends:
+            if number == i:
+                end = height * (2 * names.index((name, type_)) + 1) / (2 * len(names))
+                sends = kind in ("publishers", "clients")
+                left, right = (254, y - 8), (516, end - 8)
+                ways = (*left, *right) if sends else (right[0], right[1] + 16, left[0], left[1] + 16)
+                parts.append(_arrow(*ways))
+    for i, (name, type_) in enumerate(names):
+        y = height * (2 * i + 1) / (2 * len(names))
+        parts.append(_box(520, y - 22, 380, 44, f"{name}  {type_}"))
+    return _svg(910, height, "Node graph of the example ping_pong", parts)
+
+
 @cache
 def treemap() -> str:
     """Draw the flash of pure_sender on a Cortex-M4 as `size --format html` does, or say which compiler is missing."""
@@ -86,7 +116,12 @@ def treemap() -> str:
     return f'<div class="keys">{found[1][3:-4]}</div>{found[2]}'.replace("\n", "")
 
 
-_PICTURES = {"data_flow": data_flow, "components": components, "treemap": treemap}
+_PICTURES = {
+    "data_flow": data_flow,
+    "components": components,
+    "node_graph": node_graph,
+    "treemap": treemap,
+}
 
 
 def _tool(*arguments: str) -> str:

@@ -36,7 +36,7 @@ def _client(item: YamlNode, full: str, diagnostics: Diagnostics) -> ParameterCli
     operations = tuple(text for part in items(listed) if (text := text_of(part)) is not None)
     if listed is not None and operations == ("watch",):
         diagnostics.error(
-            f"the client of '{full}' calls nothing: an executor runs it for a call",
+            f"the client of '{full}' only watches, and needs another operation",
             listed.span,
             "Write operations: [get, watch]",
             id="MG-3090",

@@ -22,9 +22,9 @@ from microros_gen.output.runs import compiled_templates
 def command(output: Path | None, **options: Any) -> None:
     """Generate a selection, compile it to OUT/lib/libmicroros.a and link the profile's example to OUT/bin.
 
-    Only what changed is compiled again. CC, AR and CFLAGS are taken from the environment for the host.
-    Budgets of the application file (memory.ram_budget, flash_budget, stack) are checked afterwards; one that is
-    exceeded ends with 1 and names what would bring it down. `microros-gen size OUT` shows the figures.
+    Only changed files are compiled again. For the host, CC, AR and CFLAGS are taken from the environment.
+    Budgets of the application file (memory.ram_budget, flash_budget, stack) are checked afterwards. If one is
+    exceeded, the exit status is 1 and the error lists what would reduce it. `microros-gen size OUT` shows the figures.
 
     \b
     microros-gen build --profile pure_sender

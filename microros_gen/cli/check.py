@@ -20,13 +20,13 @@ from microros_gen.cli.options import selection_options
     required=True,
     type=click.Path(path_type=Path),
     metavar="DIR",
-    help="The folder of the golden copy, under version control.",
+    help="Folder of the golden copy, under version control.",
 )
 @click.option("--update", is_flag=True, help="Rewrite the golden copy instead of comparing.")
 def command(golden: Path, update: bool, **options: Any) -> int:
-    """Generate in memory and compare with a golden copy; exit 1 and a unified diff where it differs.
+    """Generate in memory and compare with a golden copy. If they differ, print a unified diff and exit with 1.
 
-    The generator's version is left out of the comparison.
+    The version of the generator is not compared.
 
     \b
     microros-gen check --profile pure_sender --golden golden/pure_sender

@@ -22,9 +22,7 @@ from microros_gen.selection.find_components import load_catalogue
 @click.command()
 @click.argument("out", metavar="OUT|ID", type=click.Path(path_type=Path))
 @click.argument("what", metavar="[SYMBOL|FILE|COMPONENT]", required=False)
-@image_option(
-    "Explain this image of yours, which was linked with OUT's library. Default: the one that was built."
-)
+@image_option("Your own image to explain, linked with the library of OUT. Default: the image that was built.")
 @map_option
 @click.option(
     "--format",
@@ -35,11 +33,12 @@ from microros_gen.selection.find_components import load_catalogue
     help="Lines for people, or JSON for programs.",
 )
 def command(out: Path, what: str | None, image: Path | None, linker_map: Path | None, kind: str) -> None:
-    """Say where SYMBOL, FILE or COMPONENT of OUT comes from, and why it is there; or what the diagnostic ID means.
+    """Show where SYMBOL, FILE or COMPONENT of OUT comes from and why it is there, or what the diagnostic ID means.
 
-    OUT is what `build` wrote, or a CMake build folder, whose own image is explained. A symbol may be given by a unique
-    beginning, a file by its name alone; a type (pkg/msg/Type) works as well. For what is not in the image the answer
-    says what would bring it. ID is the end of the first line of an error or warning.
+    OUT is a folder that `build` wrote, or a CMake build folder with its own image. A unique prefix of a symbol and the
+    name of a file without its folder are sufficient; types (pkg/msg/Type) are accepted, too. For something that is
+    not in the image, the answer says what would add it. An ID is at the end of the first line of each error or
+    warning.
 
     \b
     microros-gen explain build/pure_sender rcl_publish

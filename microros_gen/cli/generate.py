@@ -27,18 +27,18 @@ if TYPE_CHECKING:
     "--depfile",
     type=click.Path(path_type=Path, dir_okay=False),
     metavar="FILE",
-    help="Write what the output was made from, as a dependency file for make, Ninja and CMake.",
+    help="Write a dependency file for make, Ninja and CMake: the inputs of the output.",
 )
 @click.option(
     "--default-target",
     metavar="NAME",
     hidden=True,
-    help="For build systems: the target where nothing else says it and one of this name is built in.",
+    help="For build systems: target if nothing else selects one and this name is built in.",
 )
 def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
     """Write the C sources of a selection to OUT, without compiling.
 
-    Only files whose content changes are touched; files that are no longer selected are removed.
+    Only files with new content are written; files that are no longer selected are removed.
 
     \b
     microros-gen generate --profile pure_sender --interface sensor_msgs/msg/Imu

@@ -26,12 +26,12 @@ def graph_peer(domain: int | None) -> Peer:
     "--domain", type=click.IntRange(0, 232), metavar="ID", help="ROS domain. Default: ROS_DOMAIN_ID, else 0."
 )
 def command(domain: int | None) -> None:
-    """Answer queries of the ROS graph by service, and publish when it changes.
+    """Answer queries of the ROS graph by service, and publish its changes.
 
-    The node /microros_graph has the services list_names and list_endpoints and the topic changes, with the types of
-    microros_graph_msgs (`microros-gen interfaces microros_graph_msgs/srv/ListNames`). A request states how many names
-    it has room for and how long they are: a board with 2 KB of memory can ask about one topic in a system of 500
-    nodes. Run it on any machine of the domain; one in a domain is enough. Needs ROS 2 Jazzy, as the agent does.
+    The node /microros_graph has the services list_names and list_endpoints and the topic changes, with types of
+    microros_graph_msgs (`microros-gen interfaces microros_graph_msgs/srv/ListNames`). A request states how many
+    names of which size the caller has room for, so a board with 2 KB of memory can query one topic in a system of
+    500 nodes. One server per domain is enough, on any machine. Needs ROS 2 Jazzy, like the agent.
 
     \b
     microros-gen graph-server

@@ -23,7 +23,7 @@ from microros_gen.migrate.proposal import InitOptions, draft_of
     "profiles",
     multiple=True,
     metavar="NAME",
-    help="Profile, built-in or a file; several combine. Default without --from and --from-colcon-meta: pure_sender.",
+    help="Profile, built-in or a file; can be repeated. Default without --from and --from-colcon-meta: pure_sender.",
 )
 @click.option("--target", metavar="NAME", help="Target, see `microros-gen targets`. Default: host.")
 @click.option(
@@ -39,7 +39,7 @@ from microros_gen.migrate.proposal import InitOptions, draft_of
     multiple=True,
     type=click.Path(path_type=Path),
     metavar="FILE",
-    help="Read the settings of a colcon.meta (RMW_UXRCE_*, UCLIENT_*, …); of several the last one wins.",
+    help="Read the settings of a colcon.meta (RMW_UXRCE_*, UCLIENT_*, …). If several are given, the last one wins.",
 )
 @click.option(
     "--ci",
@@ -59,8 +59,8 @@ def command(
 ) -> int:
     """Write a new application folder: microros.yaml, main.c, CMakeLists.txt, README.md.
 
-    No file that is there already is changed. What could not be decided is marked in microros.yaml, with the file and
-    line that it is about, and reported as a warning.
+    Existing files are never changed. What could not be decided is marked in microros.yaml with the source file and
+    line, and reported as a warning.
 
     \b
     microros-gen init my_robot --profile pure_sender

@@ -30,27 +30,27 @@ from microros_gen.output.interface_files import one_idl, write_descriptions, wri
     type=click.Choice(["table", "json", "idl"]),
     default="table",
     show_default=True,
-    help="Tables for people, JSON for programs (of one type with its type description), OMG IDL for DDS tools.",
+    help="Tables, JSON (of one type, with its type description), or OMG IDL for DDS tools.",
 )
 @click.option(
     "-o",
     "--output",
     type=click.Path(path_type=Path),
     metavar="DIR",
-    help="Write files DIR/<pkg>/<kind>/<Type>.idl (or .json); of IDL with all that they include.",
+    help="Write files DIR/<pkg>/<kind>/<Type>.idl (or .json); IDL with all included files.",
 )
 @click.option(
     "--portable",
     is_flag=True,
-    help="IDL for compilers of DDS vendors: include guards, keywords escaped. ROS 2's own reader takes neither.",
+    help="IDL for compilers of DDS vendors: include guards, escaped keywords. ROS 2's own reader accepts neither.",
 )
 def command(
     name: str | None, interface_paths: tuple[Path, ...], form: str, output: Path | None, portable: bool
 ) -> None:
-    """List interface packages; with NAME = pkg its types, with NAME = pkg/Type that message, service or action.
+    """List interface packages, the types of one (NAME = pkg), or one message, service or action (NAME = pkg/Type).
 
-    Packages are looked for in --interface-path, AMENT_PREFIX_PATH, packages installed by pip, and the
-    definitions that ship with this tool, in this order; the first place that has a package hides the others.
+    Packages are searched in --interface-path, AMENT_PREFIX_PATH, packages installed by pip, and the interfaces included
+    in this tool, in this order. The first match hides the others.
 
     \b
     microros-gen interfaces

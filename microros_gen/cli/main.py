@@ -22,7 +22,7 @@ _COMMANDS = {
     "generate": "Write the C sources of a selection, without compiling.",
     "check": "Compare what would be generated with a golden copy.",
     "size": "Show flash, RAM and stack of what was built, per component and entity.",
-    "explain": "Say why a symbol, file or component is in the image, and what would remove it.",
+    "explain": "Show why a symbol, file or component is in the image, and what would remove it.",
     "resolve": "Print components, XRCE profiles, pools and sizes, each with its reason.",
     "profiles": "List the profiles, or show what one of them selects.",
     "interfaces": "List packages and types, or show one of them.",
@@ -69,13 +69,13 @@ class _LazyGroup(click.Group):
 @click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="microros-gen")
 def cli() -> None:
-    """ROS 2 interfaces and YAML profiles to static, allocation-free C99 for microcontrollers.
+    """Turn ROS 2 interfaces and YAML profiles into static, allocation-free C99 for microcontrollers.
 
     \b
-    microros-gen build --profile pure_sender      from nothing to build/pure_sender/lib/libmicroros.a
-    microros-gen agent udp4 --port 8888           connects the firmware to ROS 2
+    microros-gen build --profile pure_sender      creates build/pure_sender/lib/libmicroros.a
+    microros-gen agent udp4 --port 8888           connects firmware to ROS 2
 
-    Exit status: 0 done; 2 wrong use or input; 1 a check differs, a build fails, a budget is exceeded.
+    Exit status: 0 success; 1 a check differs, a build fails or a budget is exceeded; 2 invalid usage or input.
     """
 
 

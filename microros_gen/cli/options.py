@@ -18,7 +18,7 @@ interface_path_option = click.option(
     multiple=True,
     type=click.Path(path_type=Path),
     metavar="DIR",
-    help="Package, folder of packages or colcon workspace; searched before ament, pip and the shipped set.",
+    help="Package, folder of packages or colcon workspace, searched before ament, pip and the included interfaces.",
 )
 
 
@@ -30,28 +30,29 @@ def selection_options(function: F) -> F:
                 "-c",
                 "--config",
                 type=click.Path(path_type=Path),
-                help="Application file. Without it, microros.yaml of this folder where there is one.",
+                help="Application file. Default: microros.yaml in the current folder, if it exists.",
             ),
             click.option(
                 "--profile",
                 "profiles",
                 multiple=True,
                 metavar="NAME",
-                help="Profile, built-in or a file; several combine. Replaces `profiles` of the file.",
+                help="Profile, built-in or a file; can be repeated. Replaces `profiles` of the file.",
             ),
             click.option(
                 "--component",
                 "components",
                 multiple=True,
                 metavar="[+-]NAME",
-                help="Component to add, or with - to leave out. Adds to `components` of the file.",
+                help="Component to add, or to remove (-). Extends `components` of the file.",
             ),
             click.option(
                 "--interface",
                 "interfaces",
                 multiple=True,
                 metavar="PKG[/Type]",
-                help="Message, service, action or all of a package. Adds to the file's. Default: std_msgs/msg/Int32.",
+                help="Message, service, action, or whole package. Extends `interfaces` of the file."
+                " Default: std_msgs/msg/Int32.",
             ),
             interface_path_option,
             click.option(
@@ -60,7 +61,7 @@ def selection_options(function: F) -> F:
             click.option(
                 "--agent",
                 metavar="HOST:PORT|DEVICE",
-                help="Where the agent is: an address (default: 127.0.0.1:8888) or a serial device (/dev/ttyACM0).",
+                help="Address of the agent (default: 127.0.0.1:8888), or a serial device (/dev/ttyACM0).",
             ),
         ]
     ):
@@ -75,7 +76,7 @@ def output_option(function: F) -> F:
         "--output",
         type=click.Path(path_type=Path),
         metavar="OUT",
-        help="Output folder; it belongs to the tool. Default: build/<profiles joined by +>.",
+        help="Output folder, managed by the tool. Default: build/<profiles joined by +>.",
     )(function)
 
 
@@ -90,11 +91,11 @@ map_option = click.option(
     "linker_map",
     type=click.Path(path_type=Path, dir_okay=False, exists=True),
     metavar="FILE.map",
-    help="What the linker wrote of it with -Wl,-Map=FILE.map; by default it lies beside the image.",
+    help="Linker map of the image (-Wl,-Map=FILE.map). Default: the one next to the image.",
 )
 
 
 def check_map(image: Path | None, linker_map: Path | None) -> None:
     """Refuse a map without the image that it is of."""
     if linker_map is not None and image is None:
-        raise click.UsageError("--map is the map of an --image, which is not given.")
+        raise click.UsageError("--map needs the --image that it belongs to.")

@@ -39,7 +39,7 @@ def usual_file(domain: int | None) -> Path:
     "--file",
     type=click.Path(path_type=Path, dir_okay=False),
     metavar="FILE",
-    help="Where the values are kept. Default: parameters-DOMAIN.json in ~/.local/state/microros-gen"
+    help="File of the values. Default: parameters-DOMAIN.json in ~/.local/state/microros-gen"
     " (XDG_STATE_HOME).",
 )
 @click.option(
@@ -48,17 +48,17 @@ def usual_file(domain: int | None) -> Path:
 def command(file: Path | None, domain: int | None) -> None:
     """Hold the parameters of firmware whose application file says `parameters: {at: agent}`.
 
-    The node /microros_parameters serves the six parameter services in the name of each such node, also while its board
-    sleeps or is away, keeps the values in a file, and brings both sides together when the board is back: the last
-    writer wins. The agent does the same by itself where no such node runs; run this on any machine of the domain. Of
-    several ones one serves, and another takes over when that one is gone. Needs ROS 2 Jazzy, as the agent does.
+    The node /microros_parameters serves the six parameter services in the name of each such node, even while its board
+    sleeps or is away. It keeps the values in a file, and synchronizes both sides when the board is back: the last
+    writer wins. Without this node, the agent does the same. Run it on any machine of the domain. If several run,
+    one of them serves, and another one takes over when it is gone. Needs ROS 2 Jazzy, like the agent.
 
     \b
     microros-gen parameter-server
     microros-gen parameter-server --file arm.json --domain 5
 
-    Prints 'parameter server ready: /microros_parameters' on stdout, and what was overruled on stderr. SIGINT and
-    SIGTERM end it with status 0.
+    Prints 'parameter server ready: /microros_parameters' on stdout, and overruled values on stderr. SIGINT and SIGTERM
+    end it with status 0.
     """
     server = ServerInTurn(STANDALONE, lambda name: parameter_peer(name, domain), _Report())
     with closing(ParameterFile(file or usual_file(domain))) as kept, stopped_by_signals(server):

@@ -35,10 +35,10 @@ from microros_gen.selection.resolve import resolve_selection
     type=click.Choice(FORMATS),
     default="table",
     show_default=True,
-    help="Tables for people, JSON for programs, or a graph for Graphviz.",
+    help="Tables, JSON, or a graph for Graphviz.",
 )
 def command(name: str | None, kind: str) -> None:
-    """List the profiles, or show what profile NAME (built-in, or a file) selects by itself.
+    """List the profiles, or show what profile NAME (built-in or a file) selects by itself.
 
     \b
     microros-gen profiles

@@ -29,12 +29,12 @@ from microros_gen.typesupport.plan.types import DATA_MODELS, TypePlan
     type=click.Choice(("table", "json", "dot")),
     default="table",
     show_default=True,
-    help="Tables for people, JSON for programs, or a graph for Graphviz.",
+    help="Tables, JSON, or a graph for Graphviz.",
 )
 def command(kind: str, **options: Any) -> None:
     """Print components, XRCE profiles, pools and sizes of a selection, each with its reason.
 
-    Works for every profile; sizes are only there when all of its components are.
+    Works for every profile; sizes are shown only if all of its components are ready.
 
     \b
     microros-gen resolve --profile pure_sender --interface sensor_msgs/msg/Imu

@@ -30,27 +30,25 @@ AGENT_READY = "agent ready"
 
 @click.command()
 @click.argument("out", type=click.Path(path_type=Path))
-@image_option(
-    "Start this image of yours, which was linked with OUT's library. Default: the one that was built."
-)
+@image_option("Your own image to start, linked with the library of OUT. Default: the image that was built.")
 @click.option(
     "--no-agent",
     is_flag=True,
-    help="Start the image alone: an agent runs already, or you start one yourself.",
+    help="Start only the image: an agent is already running, or you start one yourself.",
 )
 @click.option(
     "--domain",
     type=click.IntRange(0, 232),
-    help="ROS domain that the agent puts the image into. Default: the one that the image asks for.",
+    help="ROS domain that the agent puts the image into. Default: the one that the image requests.",
 )
 def command(out: Path, image: Path | None, no_agent: bool, domain: int | None) -> int:
     """Start the image of OUT and an agent for it; Ctrl-C or SIGTERM ends both.
 
-    OUT is what `build` wrote, or a CMake build folder, whose own image is started. An image for a board runs in the
-    target's emulator, its serial line on a pseudo-terminal, whose path is printed: an agent may leave it and come
-    back, the image runs on. The exit status is the image's (128 and more: a signal ended it), or 0 after Ctrl-C. When
-    a board restarts itself, because main() returned or after a fault, the run ends with 0; with --no-agent the board
-    starts again, as on a desk.
+    OUT is a folder that `build` wrote, or a CMake build folder with its own image. An image for a board runs in the
+    emulator of the target. Its serial line is a pseudo-terminal whose path is printed; the image keeps running if
+    an agent leaves the line and returns. The exit status is that of the image (128 and more: a signal ended it), or
+    0 after Ctrl-C. If the board resets, because main() returned or after a fault, the run ends with 0; with
+    --no-agent the board starts again, as real hardware would.
 
     \b
     microros-gen run build/pure_sender

@@ -28,13 +28,13 @@ _COLUMNS = ("target", "what", "image", "needs")
     type=click.Choice(("table", "json", "cmake")),
     default="table",
     show_default=True,
-    help="Tables for people, JSON for programs, or the tool-chain file of NAME for CMake.",
+    help="Tables, JSON, or the CMake toolchain file of NAME.",
 )
 def command(name: str | None, kind: str) -> None:
-    """List the targets, or show target NAME (built-in, or the path of a target file).
+    """List the targets, or show target NAME (built-in or the path of a target file).
 
-    The list tells for each target what the example becomes (an image, or nothing: the library alone), and the
-    Debian packages that it needs and this machine lacks.
+    For each target, the list shows what `build` creates from the example (an image, or only the library), and the
+    Debian packages that are missing on this machine.
 
     \b
     microros-gen targets

@@ -90,8 +90,8 @@ def _refuse_rtos(target: TargetRef, diagnostics: Diagnostics) -> None:
         diagnostics.error(
             f"the RTOS {target.rtos!r} is not supported yet",
             target.rtos_span,
-            "Leave `rtos` out and define port_time_ms, port_sleep_ms and what else the library's port gives "
-            "over your RTOS: your functions win over the archive's (microros/port.h)",
+            "Remove `rtos` and implement port_time_ms, port_sleep_ms and the other functions of the port with your "
+            "RTOS: they replace those of the library (microros/port.h)",
             id="MG-8606",
         )
 

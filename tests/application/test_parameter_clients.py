@@ -56,7 +56,7 @@ ERRORS = {
     "an operation twice": ("[{node: /motor, operations: [get, get]}]", "operations"),
     "watch alone": (
         "[{node: /motor, operations: [watch]}]",
-        "the client of '/motor' calls nothing: an executor runs it for a call. Write operations: [get, watch]",
+        "the client of '/motor' only watches, and needs another operation. Write operations: [get, watch]",
     ),
     "no parameter": ("[{node: /motor, parameters: 0}]", "parameters"),
     "a string of less than nothing": ("[{node: /motor, string: -1}]", "string"),

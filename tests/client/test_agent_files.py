@@ -244,7 +244,7 @@ def test_preconfigured_needs_nodes(tmp_path: Path) -> None:
     )
     assert "microros.yaml:3:11: error: entities: preconfigured" in error_text
     assert "needs `nodes:`" in error_text
-    assert error_text.endswith("Declare the nodes and what they own, or write `entities: reference`")
+    assert error_text.endswith("Declare the nodes and their endpoints, or write `entities: reference`")
 
 
 @pytest.mark.parametrize("entities", ["binary", "xml", "reference"])

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""No page of the site is wider than the window, on a desk and on a phone: measured in Chromium."""
+"""The site in Chromium: no page is wider than the window, on a desk and on a phone; the search works from disk."""
 
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import subprocess
 import threading
@@ -16,9 +17,12 @@ from typing import Any
 
 import pytest
 
+from tests.support.patience import seconds
+
 pytestmark = pytest.mark.lint
 
 WIDTHS = (390, 1280)
+_CHROMIUM = ("chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage")
 _MEASURE = """<!doctype html><body><script>
 const pages = PAGES, widths = WIDTHS, found = [];
 function measured(page, width) {
@@ -76,8 +80,7 @@ class _Handler(SimpleHTTPRequestHandler):
 
 @contextmanager
 def _chromium(address: str, folder: Path) -> Iterator[None]:
-    command = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-               f"--user-data-dir={folder}", "--remote-debugging-port=0", address]  # fmt: skip
+    command = [*_CHROMIUM, f"--user-data-dir={folder}", "--remote-debugging-port=0", address]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
         yield
@@ -128,3 +131,18 @@ def test_a_wide_page_is_found(tmp_path: Path) -> None:
     assert narrow["wide"] == 900
     assert desk["wide"] <= 1280
     assert narrow["cut"] == desk["cut"] == 1
+
+
+def test_the_search_works_on_pages_opened_from_disk(site: Path, tmp_path: Path) -> None:
+    """`make docs` names a file; a browser starts no worker for its pages, and fetches nothing."""
+    address = f"{(site / 'index.html').as_uri()}?q=treemap"
+    command = [
+        *_CHROMIUM,
+        f"--user-data-dir={tmp_path}",
+        "--virtual-time-budget=20000",
+        "--dump-dom",
+        address,
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=seconds(120))
+    assert re.search(r"\b[1-9]\d* matching document", done.stdout)
+    assert 'href="howto/size.html' in done.stdout.partition("matching document")[2]

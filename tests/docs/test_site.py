@@ -117,10 +117,12 @@ def test_pictures_are_drawn_from_the_tools_own_output(site: Path) -> None:
     text = (site / "concepts.html").read_text(encoding="utf-8")
     pictures = re.findall(r'(?s)<div class="picture">(.*?)</svg>', text)
     assert "<!-- picture" not in text
-    flow, components, *treemap = pictures
+    flow, components, nodes, *treemap = pictures
     assert all(
         f">{step}</text>" in flow for step in ("read", "resolve", "plan", "render", "write", "compile")
     )
     assert {"publish", "session", "transport_udp"} <= set(re.findall(r">(\w+)</text>", components))
+    assert re.findall(r">(/\w+)(?:  [\w/]+)?</text>", nodes) == ["/ping_pong", "/ping", "/pong"]
+    assert nodes.count("<polygon") == 4, "published and subscribed"
     if shutil.which("arm-none-eabi-gcc"):
         assert len(re.findall(r"<title>\w+: \d+ bytes", treemap[0])) > 100

@@ -51,12 +51,12 @@ class _Transports(click.Group):
 def command(**common: Any) -> None:
     """Connect DDS-XRCE clients (this project's, micro-ROS's, any other) to ROS 2.
 
-    Name one transport or several; or none, with a --config that does. Every option below may follow a transport
-    as well, and holds for the whole agent. Needs ROS 2 Jazzy, sourced or in this Python: pip install
+    Name one or more transports, or none with a --config that names them. Every option below can also follow a
+    transport; it applies to the whole agent. Needs ROS 2 Jazzy, sourced or in this Python environment: pip install
     ros-jazzy-rclpy ros-jazzy-rmw-fastrtps-cpp ros-jazzy-common-interfaces.
 
-    The protocol has no authentication and no encryption: whoever reaches the port can publish. So the agent
-    listens on the loopback address unless --bind says otherwise; open it to trusted networks only.
+    The protocol has no authentication and no encryption: everyone who can reach the port can publish. The agent
+    therefore listens on the loopback address by default; use --bind only for trusted networks.
 
     \b
     microros-gen agent udp4 --port 8888
@@ -65,9 +65,9 @@ def command(**common: Any) -> None:
     microros-gen agent pty --link /tmp/board
     microros-gen agent --config agent.yaml -v
 
-    Prints 'agent ready: TRANSPORT ADDRESS' on stdout for each transport once its clients are served (with --log-format
-    json the event 'ready'); the log goes to stderr. SIGINT and SIGTERM end it with status 0, after all its nodes have
-    left the ROS graph. Status 2: wrong use or input, a port in use, or ROS 2 is missing.
+    Prints 'agent ready: TRANSPORT ADDRESS' on stdout for each transport that accepts clients (with --log-format json
+    the event 'ready'). The log goes to stderr. SIGINT and SIGTERM end it with status 0, after all of its nodes have
+    left the ROS graph. Status 2: invalid usage or input, a port in use, or no ROS 2.
     """
 
 
@@ -86,7 +86,7 @@ def _socket_command(protocol: Protocol) -> None:
             type=click.IntRange(1, 65535),
             default=TcpLimits.connections,
             show_default=True,
-            help="One more takes the place of a silent one, or is refused.",
+            help="Maximum number of connections; a further one replaces a silent one or is refused.",
         ),
     )
 
@@ -95,21 +95,21 @@ def _socket_command(protocol: Protocol) -> None:
         type=click.IntRange(0, 65535),
         default=SocketChoice.port,
         show_default=True,
-        help=f"{protocol.title} port; 0: a free one.",
+        help=f"{protocol.title} port; 0 selects a free one.",
     )
     @click.option(
         "--bind",
         default=protocol.loopback,
         show_default=True,
         metavar="ADDRESS",
-        help=f"Own {protocol.version} address to listen on; {protocol.everywhere} for all, so that boards in the"
-        " network are served.",
+        help=f"Local {protocol.version} address to listen on; {protocol.everywhere} for all, which serves boards in the"
+        " network.",
     )
     def run(port: int, bind: str, max_connections: int | None = None, **common: Any) -> _Part:
         chosen = (("connections", max_connections),) if max_connections is not None else ()
         return _Part((SocketChoice(protocol.name, port, bind, chosen),), common)
 
-    run.__doc__ = f"""Serve clients that speak {what}.
+    run.__doc__ = f"""Serve clients over {what}.
 
     \b
     microros-gen agent {protocol.name} --port 8888
@@ -118,7 +118,7 @@ def _socket_command(protocol: Protocol) -> None:
     decorated: Callable[..., Any] = common_options(run)
     for option in limits if protocol.stream else ():
         decorated = option(decorated)
-    command.command(protocol.name, short_help=f"Clients that speak {what}.")(decorated)
+    command.command(protocol.name, short_help=f"Serve clients over {what}.")(decorated)
 
 
 for _protocol in PROTOCOLS.values():
@@ -133,7 +133,7 @@ for _protocol in PROTOCOLS.values():
     multiple=True,
     required=True,
     metavar="PATH",
-    help="Serial device, as /dev/ttyUSB0, /dev/ttyACM0 or /dev/pts/3. May be repeated.",
+    help="Serial device, such as /dev/ttyUSB0, /dev/ttyACM0 or /dev/pts/3. Can be repeated.",
 )
 @click.option(
     "--baud",
@@ -141,17 +141,17 @@ for _protocol in PROTOCOLS.values():
     default=SerialChoice.baud,
     show_default=True,
     metavar="N",
-    help="Speed of all of them in bit/s; 8 data bits, no parity, 1 stop bit, no flow control."
+    help="Speed of these devices in bit/s; 8 data bits, no parity, 1 stop bit, no flow control."
     " A pseudo-terminal ignores it.",
 )
 @common_options
 def serial(devices: tuple[str, ...], baud: int, **common: Any) -> _Part:
     """Serve clients on serial lines: boards at a UART or USB, images in an emulator.
 
-    A device that is not there yet, or is unplugged, is waited for; its clients go on when it is back. Each device is
-    this process only. Several clients may share a line if each has its own source address in its
-    frames. What is between frames (the messages of a boot loader) is counted and ignored.
-    Status 2: a path is not a serial device, is in use, may not be opened, or has no such speed; or ROS 2 is missing.
+    The agent waits for a device that does not exist yet or was unplugged; its clients continue when it is back. No
+    other process can use an open device. Several clients can share a line if each has its own source address in its
+    frames. Bytes between frames (such as the output of a boot loader) are counted and ignored. Status 2: a path is
+    not a serial device, is in use, cannot be opened or does not support the speed; or no ROS 2.
 
     \b
     microros-gen agent serial --device /dev/ttyUSB0
@@ -166,13 +166,13 @@ def serial(devices: tuple[str, ...], baud: int, **common: Any) -> _Part:
     "--link",
     type=click.Path(),
     metavar="PATH",
-    help="Make a symbolic link to the pseudo-terminal, so that its name is known before; it goes with the agent.",
+    help="Create a symbolic link to the pseudo-terminal, so that its name is known in advance; removed at the end.",
 )
 @common_options
 def pty(link: str | None, **common: Any) -> _Part:
-    """Make a pseudo-terminal and serve the clients that open it as their serial device.
+    """Create a pseudo-terminal and serve the clients that open it as their serial device.
 
-    The path in the ready line is what the client opens. It stays the same, whichever clients come and go.
+    The client opens the path in the ready line. The path stays the same while clients come and go.
 
     \b
     microros-gen agent pty

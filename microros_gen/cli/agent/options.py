@@ -34,7 +34,7 @@ _VALUE = re.compile(r"[\w.+-]+")
 
 def _file_option(name: str, text: str, metavar: str = "FILE") -> Callable[..., Any]:
     return click.option(
-        name, multiple=True, type=click.Path(path_type=Path), metavar=metavar, help=f"{text} May be repeated."
+        name, multiple=True, type=click.Path(path_type=Path), metavar=metavar, help=f"{text} Can be repeated."
     )
 
 
@@ -44,100 +44,101 @@ _COMMON = (
         "--config",
         type=click.Path(path_type=Path),
         metavar="FILE",
-        help="Configuration file; the other options win over it, transports replace its own.",
+        help="Configuration file. Other options override it; transports replace those of the file.",
     ),
     click.option(
         "--domain",
         type=click.IntRange(0, MAXIMUM_DOMAIN),
-        help="Put every client into this ROS domain. Default: the one that the client asks for.",
+        help="Put every client into this ROS domain. Default: the one that the client requests.",
     ),
     click.option(
         "--discovery",
         is_flag=True,
-        help="Answer clients that look for agents in the multicast group 239.255.0.2.",
+        help="Answer clients that search for agents in the multicast group 239.255.0.2.",
     ),
     click.option(
         "--discovery-port",
         type=click.IntRange(1, 65535),
-        help=f"The port of --discovery, which it implies. Default: {DISCOVERY_PORT}.",
+        help=f"Port of --discovery, which this option implies. Default: {DISCOVERY_PORT}.",
     ),
     click.option(
         "--graph-server",
         is_flag=True,
-        help="Answer queries of the ROS graph, too, as `microros-gen graph-server` does; in the domain of --domain,"
-        " else ROS_DOMAIN_ID.",
+        help="Also answer queries of the ROS graph, like `microros-gen graph-server`; in the domain of --domain,"
+        " otherwise of ROS_DOMAIN_ID.",
     ),
     click.option(
         "--client-state",
         is_flag=True,
-        help="Publish the view of the clients (connected, silent, lost messages, reconnects) on"
-        " /microros_agent/client_states, and list them by service; in the domain of --domain, else ROS_DOMAIN_ID.",
+        help="Publish the state of the clients (connected, silent, lost messages, reconnects) on"
+        " /microros_agent/client_states, and list them by service; in the domain of --domain, otherwise of"
+        " ROS_DOMAIN_ID.",
     ),
     click.option(
         "--no-parameter-server",
         is_flag=True,
         help="Do not hold the parameters of clients whose application file says `parameters: {at: agent}`; another"
-        " node does, as `microros-gen parameter-server`.",
+        " node does, such as `microros-gen parameter-server`.",
     ),
     click.option(
         "--parameter-file",
         type=click.Path(path_type=Path, dir_okay=False),
         metavar="FILE",
-        help="Where the values of such parameters are kept. Default: parameters-DOMAIN.json in"
+        help="File of the values of such parameters. Default: parameters-DOMAIN.json in"
         " ~/.local/state/microros-gen (XDG_STATE_HOME).",
     ),
     click.option(
         "--client-timeout",
         type=click.FloatRange(min=0.1),
         metavar="SECONDS",
-        help="A client that is not heard for this long leaves the ROS graph; when it is heard again, its entities"
-        f" return. Before that it is asked for a sign of life. Default: {DEFAULTS.client_timeout_s:g}.",
+        help="A client that is silent for this long leaves the ROS graph, and returns with its next message. The agent"
+        f" probes it before that. Default: {DEFAULTS.client_timeout_s:g}.",
     ),
     click.option(
         "--max-clients",
         type=click.IntRange(1, 65535),
-        help=f"Further clients are refused. Default: {DEFAULTS.clients}.",
+        help=f"Maximum number of clients; further ones are refused. Default: {DEFAULTS.clients}.",
     ),
     click.option(
         "--limit",
         "limits",
         multiple=True,
         metavar="NAME=NUMBER",
-        help="Any other limit of the configuration file, as message_bytes=65536. May be repeated.",
+        help="Any limit of the configuration file, such as message_bytes=65536. Can be repeated.",
     ),
     _file_option(
         "--references",
-        "XML profiles that clients name instead of describing their entities, as the public agent takes them"
-        " with -r; `build` writes OUT/agent/references.xml.",
+        "XML profiles that clients refer to instead of describing their entities, in the format of the public agent"
+        " (-r); `build` writes OUT/agent/references.xml.",
     ),
     _file_option(
         "--entities",
-        "Entities (JSON) to make for clients that create none, when they open their session; `build` writes"
+        "Entities (JSON) to create for clients that create none, when they open a session; `build` writes"
         " OUT/agent/entities.json.",
     ),
     click.option(
         "--manifest",
         multiple=True,
         metavar="[KEY=]FILE",
-        help="OUT/manifest.json of a client (of the nodes in it, or of the client with this key, as 0xA1B2C3D4): ROS 2"
-        " receives its type hashes, and a difference is reported by name. May be repeated.",
+        help="OUT/manifest.json of a client: of its nodes, or of the client with this key (0xA1B2C3D4). The agent"
+        " announces its type hashes to ROS 2 and reports types that differ. Can be repeated.",
     ),
     _file_option(
         "--interface-path",
-        "Package, folder of packages or colcon workspace with interface files; searched before the ament index, pip"
-        " and the shipped set.",
+        "Package, folder of packages or colcon workspace with interface files, searched before the ament index, pip"
+        " and the included interfaces.",
         "DIR",
     ),
     click.option(
         "-v",
         "--verbose",
         count=True,
-        help="-v: a line for each message; -vv: each message decoded and in hexadecimal.",
+        help="-v: print a line for each message; -vv: print each message decoded and in hexadecimal.",
     ),
     click.option(
         "--log-format",
         type=click.Choice(["text", "json"]),
-        help="Log for people, or one JSON object a line. Default: text.",
+        help="Readable lines, or one JSON object per line. Default: text.",
     ),
 )
 

@@ -16,9 +16,7 @@ from microros_gen.image.report import check_budgets, measure_folder
 
 @click.command()
 @click.argument("out", type=click.Path(path_type=Path))
-@image_option(
-    "Measure this image of yours, which was linked with OUT's library. Default: the one that was built."
-)
+@image_option("Your own image to measure, linked with the library of OUT. Default: the image that was built.")
 @map_option
 @click.option(
     "--format",
@@ -26,21 +24,23 @@ from microros_gen.image.report import check_budgets, measure_folder
     type=click.Choice(("table", "json", "html")),
     default="table",
     show_default=True,
-    help="Tables for people, JSON for programs (keys: docs/howto/size.md), or one page to look at and print.",
+    help="Tables, JSON (keys: docs/howto/size.md), or one HTML page with treemaps.",
 )
-@click.option("--all", "every", is_flag=True, help="List every symbol too (table; JSON and HTML always do).")
+@click.option(
+    "--all", "every", is_flag=True, help="Also list every symbol (table only; JSON and HTML always do)."
+)
 @click.option(
     "-o",
     "--output",
     type=click.Path(path_type=Path, dir_okay=False),
     metavar="FILE",
-    help="Write to FILE instead of the standard output.",
+    help="Write to FILE instead of standard output.",
 )
 @click.option(
     "--budgets",
     "check",
     is_flag=True,
-    help="Check the budgets alone, as `build` does after linking, and print nothing where they hold.",
+    help="Only check the budgets, as `build` does after linking; print nothing if none is exceeded.",
 )
 def command(
     out: Path,
@@ -51,13 +51,13 @@ def command(
     output: Path | None,
     check: bool,
 ) -> None:
-    """Show what OUT takes: flash and RAM per component, entity and symbol, and the worst stack.
+    """Show flash and RAM of OUT per component, entity and symbol, and the worst-case stack.
 
-    OUT is what `build` wrote, or a CMake build folder (of microros_add_library and microros_image, `init` or colcon),
-    whose own image is measured. The figures are those of the linked image, and add up to what `size` of the tool
-    chain says. For a target without an image they are those of the library, before a linker drops what is not used.
-    Ends with 1 when a budget of the application file (memory.ram_budget, flash_budget, stack) is exceeded, and says
-    what would bring it down.
+    OUT is a folder that `build` wrote, or a CMake build folder (of microros_add_library and microros_image, `init` or
+    colcon) with its own image. The figures are those of the linked image; their sums equal those of the toolchain's
+    `size`. For a target without an image they are those of the library, before the linker drops unused parts. If a
+    budget of the application file (memory.ram_budget, flash_budget, stack) is exceeded, the exit status is 1 and
+    the error lists what would reduce it.
 
     \b
     microros-gen size build/pure_sender

@@ -181,9 +181,9 @@ def check_entities(application: Application, selection: Selection, diagnostics: 
     if selection.entities == "preconfigured" and not application.nodes:
         chosen = next(axis for axis in selection.axes if axis.axis == "entities")
         diagnostics.error(
-            f"entities: preconfigured ({chosen.reason}) needs `nodes:`: the agent makes what is declared there",
+            f"entities: preconfigured ({chosen.reason}) needs `nodes:`: the agent creates what is declared there",
             application.entities.span if application.entities else application.spans.get("interfaces"),
-            "Declare the nodes and what they own, or write `entities: reference`",
+            "Declare the nodes and their endpoints, or write `entities: reference`",
             id="MG-7001",
         )
     if selection.entities == "reference":

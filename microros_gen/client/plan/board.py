@@ -187,7 +187,7 @@ def _check_unique_id(
             "all boards with this image have the same client key and would take over each other's session: the "
             f"target {target.name} has no unique id",
             application.target.span,
-            "Write where it is into the target file: `unique_id: {address: 0x1FFF7A10, words: 3}`, or give each "
+            "Add its address to the target file: `unique_id: {address: 0x1FFF7A10, words: 3}`, or give each "
             f"board its own key: `session: {{key: 0x{runtime.session.client_key or 0:08X}}}`",
             id="MG-7003",
         )
@@ -195,7 +195,7 @@ def _check_unique_id(
         diagnostics.error(
             f"session.key: device needs a number that no other device has, and the target {target.name} has none",
             application.spans.get("session") or application.target.span,
-            "Write where it is into the target file: `unique_id: {address: 0x1FFF7A10, words: 3}`, or give each "
+            "Add its address to the target file: `unique_id: {address: 0x1FFF7A10, words: 3}`, or give each "
             "device its own `session: {key: N}`",
             id="MG-7004",
         )

@@ -69,8 +69,8 @@ def _report_missing(
         Diagnostic(
             f"the target {target.name} provides no {names} for {', '.join(askers)}",
             application.target.span,
-            "Define the functions below in your application, which a target file with "
-            f"`provides: [{names}]` says, or add a part that has them",
+            "Define the functions below in your application and write "
+            f"`provides: [{names}]` into the target file, or add a part that has them",
             Severity.WARNING,
             block,
             id="MG-7015",

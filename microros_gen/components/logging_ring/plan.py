@@ -43,7 +43,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> RingPlan:
             f"lines of the log writer 'ring' are lost at a reset: {context.target.name} has no linker script"
             " of the tool",
             writer.span,
-            "Link .bss.microros_log_kept to memory that the start of the program does not clear, or leave `ring` out",
+            "Link .bss.microros_log_kept to memory that start-up code does not clear, or remove `ring`",
             id="MG-7043",
         )
     return RingPlan(level=level_number(writer), size=size)
