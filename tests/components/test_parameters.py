@@ -115,6 +115,12 @@ def declaring(found: compiler.Planned) -> str:
     return compiler.render(found)["src/parameters/rclc_parameter_declared.c"].decode()
 
 
+def test_only_declared_parameters_bring_the_files_for_them(tmp_path: Path) -> None:
+    files = {"src/parameters/rclc_parameter_" + name for name in ("copy.c", "declare.c", "declared.c")}
+    assert compiler.render(planned(tmp_path, DECLARED)).keys() >= files
+    assert not compiler.render(planned(tmp_path, BARE)).keys() & files
+
+
 def test_the_example_declares_and_uses_the_parameters(tmp_path: Path) -> None:
     """Of each node that declares any, in the server of that node."""
     text = DECLARED.replace("  - name: arm\n", "  - name: none\n  - name: arm\n    namespace: /left\n")

@@ -96,6 +96,11 @@ class ParametersPlan:
         return tuple(server for server in self.servers if server.members)
 
     @property
+    def has_declared(self) -> bool:
+        """Whether some node declares parameters."""
+        return bool(self.declared)
+
+    @property
     def handles(self) -> int:
         """Handles of all servers: RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES each."""
         return (1 if self.held else 6) * len(self.servers)

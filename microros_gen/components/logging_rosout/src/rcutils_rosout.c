@@ -108,7 +108,7 @@ static void rosout_report_dropped(rcutils_time_point_value_t timestamp)
   rosout_line_t line;
   microros_format_t out;
 
-  /* Said once: there is room for a line after it. */
+  /* Reported once: there is room for a further line. */
   if (rosout_unreported == 0u || !xrce_rosout_has_room((uint32_t)sizeof(line.body))) {
     return;
   }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Each record is the body of an rcl_interfaces/srv/SetParameters_Request with one parameter, after its size: saved values
- * pass the checks that values from other nodes pass, and firmware with other parameters reads what it knows.
+ * pass the checks that values from other nodes pass, and firmware with other parameters reads those that it has.
  */
 #include "rclc_parameter/parameter_storage.h"
 
@@ -16,9 +16,9 @@
 
 enum { STORAGE_SLOTS = 2 };
 
-/* The slots of a server: the newest that counts, and what the other one is. */
+/* The two slots of a server: the newest valid one, and the state of the other one. */
 typedef struct storage_found_t {
-  uint32_t newest; /* slot; without a good one the first */
+  uint32_t newest; /* slot; the first one if none is valid */
   storage_state_t newest_state;
   storage_state_t other_state;
   storage_header_t header; /* of the newest */
@@ -37,7 +37,7 @@ static rcl_ret_t storage_check_call(const rclc_parameter_server_t * server)
   return server->on_callback ? RCLC_PARAMETER_DISABLED_ON_CALLBACK : RCL_RET_OK;
 }
 
-/* Both slots are good only after a save: the one with the later number counts, over its wrap as well. */
+/* If both slots are valid, the one with the later number counts, even after the number has wrapped. */
 static storage_found_t storage_find(rclc_parameter_server_t * server, uint32_t set)
 {
   const uint32_t first = set * (uint32_t)STORAGE_SLOTS;
@@ -61,7 +61,7 @@ static storage_found_t storage_find(rclc_parameter_server_t * server, uint32_t s
   return found;
 }
 
-/* Whether the request that the server has is one parameter. */
+/* Returns whether the stored request has exactly one parameter. */
 static bool storage_is_parameter(const rclc_parameter_server_t * server)
 {
   cdr_in_t in = rclc_parameter_request_begin(server);
@@ -74,7 +74,7 @@ static bool storage_is_parameter(const rclc_parameter_server_t * server)
   return count == 1u && !in.failed;
 }
 
-/* Sets what a record has. Returns whether the parameter took it. */
+/* Sets the value of a record. Returns whether it was accepted. */
 static bool storage_apply(rclc_parameter_server_t * server, uint32_t slot, uint32_t offset, uint32_t size)
 {
   const uint32_t whole = size - size % (uint32_t)STORAGE_UNIT;
@@ -104,7 +104,7 @@ static uint32_t storage_aligned(uint32_t size)
   return (size + (uint32_t)STORAGE_UNIT - 1u) / (uint32_t)STORAGE_UNIT * (uint32_t)STORAGE_UNIT;
 }
 
-/* Returns how many records no parameter took. Records that are no records end the slot. */
+/* Returns how many records were not accepted. A malformed record ends the slot. */
 static size_t storage_apply_all(rclc_parameter_server_t * server, const storage_found_t * found)
 {
   uint32_t done = 0;
@@ -199,9 +199,9 @@ rcl_ret_t rclc_parameter_storage_save(rclc_parameter_server_t * parameter_server
   if (
     is_good && !measured.failed && measured.size == found.header.size &&
     measured.checksum == found.header.records_checksum) {
-    return RCL_RET_OK; /* saves the memory a write */
+    return RCL_RET_OK; /* unchanged: spares the memory a write */
   }
-  /* Never the slot that counts. Without one either may be written. */
+  /* The newest valid slot is never overwritten. */
   written.slot = is_good ? (found.newest ^ 1u) : found.newest;
   if (measured.failed || !port_storage_erase(written.slot)) {
     return storage_refuse(MICROROS_ERROR_WORDS("the memory cannot be erased"));

@@ -106,7 +106,7 @@ rcl_ret_t rcl_graph_list_endpoints(
 rcl_ret_t rcl_graph_count_named(
   rcl_graph_kind_t kind, char * name, const rcl_waiting_t * limit, size_t * count);
 
-/* Counts the endpoints that match an own one, which is of the other kind. */
+/* Counts the endpoints that match one of this node, which is of the other kind. */
 rcl_ret_t rcl_graph_count_matched(rcl_graph_kind_t kind, const xrce_endpoint_t * own, size_t * count);
 
 #ifdef __cplusplus

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Queries of the ROS graph. A graph server (`microros-gen graph-server`, or one in the agent) answers them,
- * or with the component `graph_topic` the last sample of ros_to_microros_graph, which the agent then sends
- * once more. That has neither QoS, type hash and GID (unknown, zero) nor names of DDS (RCL_RET_UNSUPPORTED),
- * and matched counts are those of the own type.
+ * Queries of the ROS graph. They are answered by a graph server (`microros-gen graph-server`, or one in the agent), or
+ * with the component `graph_topic` from the last sample of ros_to_microros_graph, which the agent sends again for each
+ * query. The sample has no QoS, type hash and GID (unknown, zero) and no names of DDS (RCL_RET_UNSUPPORTED); matched
+ * counts are then those of endpoints of the same type.
  *
- * Every query waits: for each page of a list, or each piece of the sample, at most
- * MICROROS_CREATE_TIMEOUT_MS, without calling callbacks. One task at a time may query; a second one gets RCL_RET_ERROR. Lists are memory of the
- * given allocator, and the caller frees them; the default allocator has `memory: {arena: N}` bytes.
- * On an error nothing is allocated. Codes, each with a text:
+ * A query waits at most MICROROS_CREATE_TIMEOUT_MS for each page of a list, or each fragment of the sample, without
+ * calling callbacks. Only one task at a time may query; another one gets RCL_RET_ERROR. Lists use memory of the given
+ * allocator, and the caller frees them; the default allocator has `memory: {arena: N}` bytes. After an error nothing
+ * is allocated. Codes, each with a text:
  *
- * RCL_RET_TIMEOUT: no answer of a server, or no sample. RCL_RET_BAD_ALLOC: the list has no room. RCL_RET_ERROR: a name is
- * longer than `limits` of microros_graph_msgs (micro_ros_msgs), the session is lost, or the graph changes faster than it is
- * read. RCL_RET_INVALID_ARGUMENT: an argument is NULL, an output is not zero-initialized, or a name is not
- * a fully qualified one. RCL_RET_UNSUPPORTED: `no_mangle` is true.
+ * RCL_RET_TIMEOUT: no server answered, or no sample arrived. RCL_RET_BAD_ALLOC: the list has no room. RCL_RET_ERROR: a
+ * name exceeds `limits` of microros_graph_msgs (micro_ros_msgs), the session is lost, or the graph changes faster than
+ * it is read. RCL_RET_INVALID_ARGUMENT: an argument is NULL, an output is not zero-initialized, or a name is not fully
+ * qualified. RCL_RET_UNSUPPORTED: `no_mangle` is true.
  * RCL_RET_NODE_NAME_NON_EXISTENT: the graph has no such node. RCL_RET_NODE_INVALID_NAMESPACE, RCL_RET_NODE_INVALID_NAME:
  * no node can have this name.
  */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Queries that are answered from a sample of ros_to_microros_graph while it arrives. The agent sends the
- * last sample once more for each query; of it only what the query asks for is stored. Internal. */
+ * last sample once more for each query; only the requested part of it is stored. Internal. */
 #ifndef MICROROS_RCL_GRAPH_SCAN_H
 #define MICROROS_RCL_GRAPH_SCAN_H
 
@@ -26,7 +26,7 @@ typedef struct rcl_graph_scanner_t {
 } rcl_graph_scanner_t;
 
 /*
- * Scans a whole sample. Waits at most MICROROS_CREATE_TIMEOUT_MS from each piece of it to the next. On an error a
+ * Scans a whole sample. Waits at most MICROROS_CREATE_TIMEOUT_MS for each fragment. On an error a
  * text is set and the list was dropped. RCL_RET_TIMEOUT also when `limit` has expired; NULL: no limit. */
 rcl_ret_t rcl_graph_scan(const rcl_graph_scanner_t * scanner, void * list, const rcl_waiting_t * limit);
 

@@ -2,7 +2,7 @@
 /*
  * Log messages, their levels and where they go. A message has a level, the name of its logger, a time (nanoseconds
  * since 1970) and a text. It goes to the writers that `logging:` of the application file lists, each with a separate
- * level. Loggers form a tree: a name without a level has that of the name before its last dot, and at last the
+ * level. Loggers form a tree: a name without a level has that of the name before its last dot, and finally the
  * default level. Nothing here takes memory from a heap; a text longer than MICROROS_LOG_TEXT_SIZE ends with `...`.
  *
  * Formats: %d %i %u %x %X %o %c %s %p %%, with flags, width, precision and the lengths hh h l ll z j t; with the

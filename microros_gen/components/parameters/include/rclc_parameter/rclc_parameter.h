@@ -86,8 +86,8 @@ typedef bool (*rclc_parameter_callback_t)(
 
 /*
  * `notify_changed_over_dds`: changes are published on /parameter_events. `max_params`: at most `pools: {parameters: N}`
- * of the application file. `allow_undeclared_parameters`: a set request may create parameters, change the type of
- * these, and delete them. `low_mem_mode`: parameters have no descriptions.
+ * of the application file. `allow_undeclared_parameters`: a set request may create parameters, change their type,
+ * and delete them. `low_mem_mode`: parameters have no descriptions.
  */
 typedef struct rclc_parameter_options_t {
   bool notify_changed_over_dds;
@@ -197,7 +197,7 @@ typedef struct rclc_parameter_server_t {
   uint32_t request_cut;  /* entries of a request that was too large to be received; otherwise 0 */
   size_t max_params;
   size_t count;
-  uint32_t revision; /* goes up with each change */
+  uint32_t revision; /* increases with each change */
 #if MICROROS_PARAMETERS_HELD
   rclc_parameter_held_t held;
 #endif
@@ -216,7 +216,7 @@ typedef struct rclc_parameter_server_t {
   uint8_t request[MICROROS_PARAMETER_REQUEST_SIZE];
 } rclc_parameter_server_t;
 
-/* As the following function, with events and as many parameters as the plan has. */
+/* Like the following function, with events and room for all parameters of the plan. */
 RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_parameter_server_init_default(rclc_parameter_server_t * parameter_server, rcl_node_t * node);
 
@@ -257,8 +257,8 @@ RCLC_PARAMETER_PUBLIC
 rcl_ret_t rclc_delete_parameter(rclc_parameter_server_t * parameter_server, const char * parameter_name);
 
 /*
- * Set a value if the callback accepts it. Read-only and ranges are not checked here: they apply to requests of other
- * nodes. RCL_RET_ERROR: unknown parameter; RCLC_PARAMETER_TYPE_MISMATCH, RCLC_PARAMETER_MODIFICATION_REJECTED. An event
+ * Set a value if the callback accepts it. `read_only` and ranges are not checked here; they apply to requests of
+ * other nodes. RCL_RET_ERROR: unknown parameter; RCLC_PARAMETER_TYPE_MISMATCH, RCLC_PARAMETER_MODIFICATION_REJECTED. An event
  * without room in the stream waits until the executor can publish it, together with changes in between.
  */
 RCLC_PARAMETER_PUBLIC

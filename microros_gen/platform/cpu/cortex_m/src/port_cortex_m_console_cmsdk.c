@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* stdio: {to: uart, driver: cmsdk, irq: N}. A UART of Arm's Cortex-M System Design Kit (DDI 0479, "APB UART") for output
- * alone, by its transmit interrupt. */
+/* stdio: {to: uart, driver: cmsdk, irq: N}. A UART of Arm's Cortex-M System Design Kit (DDI 0479, "APB UART") that only
+ * sends, by its transmit interrupt. */
 #include "microros/port_board.h"
 #include "microros/port_console_uart.h"
 #include "microros/port_cortex_m.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The UART of Nordic's nRF51 (Reference Manual, "UART"). It holds six bytes of input, and requests an interrupt again
- * as long as there is one. */
+/* The UART of Nordic's nRF51 (Reference Manual, "UART"). It buffers six bytes of input, and requests interrupts
+ * until all of them are read. */
 #include "microros/port_board.h"
 #include "microros/port_cortex_m.h"
 #include "microros/port_uart.h"
@@ -22,7 +22,7 @@ static const uint32_t enabled = 4;
 static const uint32_t interrupts = 1u << 2 | 1u << 7; /* byte received, byte sent */
 static const uint32_t error_overrun = 1u << 0;
 
-static bool nrf51_sends; /* of the interrupt, and of port_uart_start: a byte is on its way out */
+static bool nrf51_sends; /* a byte is being sent; written by the interrupt and by port_uart_start */
 
 static void nrf51_send_next(void)
 {
@@ -74,7 +74,7 @@ void port_uart_stop(void)
   PORT_CORTEX_M_REGISTER(UART_ENABLE) = 0;
 }
 
-/* Nothing but the interrupt touches the transmitter. */
+/* Only the interrupt accesses the transmitter. */
 void port_uart_send(void)
 {
   port_cortex_m_interrupt_pend(PORT_BOARD_UART_IRQ);

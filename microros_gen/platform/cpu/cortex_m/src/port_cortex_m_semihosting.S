@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The instruction that stops for the debugger, with its number for semihosting. */
+/* The breakpoint instruction with the number that debuggers recognize as semihosting. */
   .syntax unified
   .thumb
 

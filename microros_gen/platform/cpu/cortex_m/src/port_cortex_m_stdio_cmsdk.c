@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* stdio: {to: uart, driver: cmsdk}. A UART for output alone, without interrupts: who prints waits for it. */
+/* stdio: {to: uart, driver: cmsdk}. A UART that only sends, without interrupts: printing waits for it. */
 #include "microros/port.h"
 #include "microros/port_board.h"
 #include "microros/port_cortex_m.h"
@@ -15,7 +15,7 @@ enum { BYTE_TIMEOUT_MS = 40 }; /* ten bits at 300 baud take 34 */
 static const uint32_t state_tx_full = 1u << 0;
 static const uint32_t control_transmitter = 1u << 0;
 
-/* A line that stands still loses the byte. */
+/* If the line is stalled, the byte is lost. */
 void port_stdio_put(uint8_t byte)
 {
   const uint32_t start = port_time_ms();

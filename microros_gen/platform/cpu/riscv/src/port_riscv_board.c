@@ -26,7 +26,7 @@ static uint64_t timer_now(void)
 void port_riscv_timer_next(void)
 {
   port_riscv_due += PORT_BOARD_TICKS_PER_MS;
-  PORT_RISCV_REGISTER(PORT_BOARD_MTIMECMP + 4u) = UINT32_MAX; /* no moment between the halves is due */
+  PORT_RISCV_REGISTER(PORT_BOARD_MTIMECMP + 4u) = UINT32_MAX; /* neither half alone can be due */
   PORT_RISCV_REGISTER(PORT_BOARD_MTIMECMP) = (uint32_t)port_riscv_due;
   PORT_RISCV_REGISTER(PORT_BOARD_MTIMECMP + 4u) = (uint32_t)(port_riscv_due >> 32);
 }

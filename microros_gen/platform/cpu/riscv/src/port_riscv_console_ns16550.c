@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* stdio: {to: uart, driver: ns16550, irq: N}. A UART 16550 (PC16550D data sheet) for output alone, by its interrupt. */
+/* stdio: {to: uart, driver: ns16550, irq: N}. A UART 16550 (PC16550D data sheet) that only sends, by its interrupt. */
 #include "microros/port_board.h"
 #include "microros/port_console_uart.h"
 #include "microros/port_riscv.h"
@@ -21,7 +21,7 @@ static const uint8_t console_no_interrupt = 0x00;
 static const uint8_t console_room_interrupt = 0x02;
 static const uint8_t console_state_room = 0x20; /* the FIFO is empty */
 
-/* Fills the empty FIFO. With an empty ring it asks for no more interrupts. */
+/* Fills the empty FIFO; disables the interrupt if the ring is empty. */
 void port_riscv_console_interrupt(void)
 {
   uint8_t byte;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The instruction that C has no word for. */
+/* An instruction that C cannot express. */
   .section .text.port_bare_wait, "ax", @progbits
   .global port_bare_wait
   .type port_bare_wait, @function

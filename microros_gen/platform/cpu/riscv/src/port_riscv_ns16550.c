@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The UART 16550 with registers of one byte side by side (PC16550D data sheet). It holds 16 bytes of input
- * and 16 of output, and asks for an interrupt as long as there is one of the first or, if it is let, room for all of the second. */
+/* The UART 16550 with registers of one byte side by side (PC16550D data sheet). It buffers 16 bytes
+ * of input and 16 of output. It requests interrupts while it has input, and, if enabled, while its output FIFO is empty. */
 #include "microros/port_board.h"
 #include "microros/port_riscv.h"
 #include "microros/port_uart.h"
@@ -19,12 +19,12 @@ static const uint8_t fifo_on = 0x07; /* cleared, an interrupt for each byte */
 enum { FIFO_SIZE = 16 };
 
 static const uint8_t interrupt_received = 0x01;
-static const uint8_t interrupt_both = 0x03; /* received, room */
+static const uint8_t interrupt_both = 0x03; /* received data, empty output FIFO */
 static const uint8_t state_ready = 0x01;
 static const uint8_t state_overrun = 0x02;
-static const uint8_t state_room = 0x20; /* nothing is left of what was to be sent */
+static const uint8_t state_room = 0x20; /* the output FIFO is empty */
 
-/* Fills the empty FIFO; with nothing to send the room is of no interest. */
+/* Fills the empty FIFO; disables its interrupt if there is nothing to send. */
 static void ns16550_send_next(void)
 {
   uint8_t byte;
@@ -70,7 +70,7 @@ void port_uart_stop(void)
   PORT_RISCV_REGISTER_8(UART_INTERRUPTS) = 0;
 }
 
-/* With room there, the interrupt comes at once. */
+/* If the FIFO is empty, the interrupt occurs at once. */
 void port_uart_send(void)
 {
   PORT_RISCV_REGISTER_8(UART_INTERRUPTS) = interrupt_both;

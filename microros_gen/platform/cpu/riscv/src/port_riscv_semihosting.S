@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The three instructions by which a debugger knows semihosting, uncompressed and side by side. */
+/* The three adjacent, uncompressed instructions that debuggers recognize as semihosting. */
   .section .text.port_bare_semihosting, "ax", @progbits
   .global port_bare_semihosting
   .type port_bare_semihosting, @function

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What comes before C, and around it: the first steps after a reset, and saving registers over a trap. Control and status
+/* The first instructions after a reset, and the code that saves registers around a trap. Control and status
  * registers: The RISC-V Instruction Set Manual, Volume II, "Machine-Level ISA". */
   .option arch, +zicsr
   .section .text.port_riscv_reset, "ax", @progbits

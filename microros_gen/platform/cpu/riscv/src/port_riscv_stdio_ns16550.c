@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* stdio: {to: uart, driver: ns16550}. A UART for output alone, without interrupts: who prints waits for it. */
+/* stdio: {to: uart, driver: ns16550}. A UART that only sends, without interrupts: printing waits for it. */
 #include "microros/port.h"
 #include "microros/port_board.h"
 #include "microros/port_riscv.h"
@@ -32,7 +32,7 @@ static void stdio_start(void)
   }
 }
 
-/* A line that stands still loses the byte. */
+/* If the line is stalled, the byte is lost. */
 void port_stdio_put(uint8_t byte)
 {
   const uint32_t start = port_time_ms();

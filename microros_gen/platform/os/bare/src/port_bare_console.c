@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Lines of log messages go where standard output goes (`stdio` of the target file). */
+/* Log lines are written to standard output (`stdio` of the target file). */
 #include "microros/port_console.h"
 
 #include "microros/port_stdio.h"
 
-/* Waits as long as the line of a UART takes for `size` bytes, and loses a byte on a line that sends nothing
- * (port_stdio_put). */
+/* Waits until the line has taken `size` bytes. On a stalled line a byte is lost after a time-out (port_stdio_put). */
 bool port_console_write(const char * line, size_t size)
 {
   for (size_t i = 0; i < size; ++i) {

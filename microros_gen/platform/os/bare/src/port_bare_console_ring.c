@@ -3,7 +3,7 @@
 #include "microros/port_console.h"
 #include "microros/port_console_uart.h"
 
-/* One byte is never used, so that a full ring differs from an empty one. The task alone writes `put`, the interrupt alone
+/* One byte is never used, so that a full ring differs from an empty one. Only the task writes `put`, only the interrupt
  * `sent`. */
 static struct {
   volatile uint32_t put;

@@ -4,7 +4,7 @@
 
 enum { BITS_PER_BYTE = 8, BYTES_PER_WORD = 4 };
 
-/* FNV-1a over the bytes of the device's number, least significant first. */
+/* FNV-1a over the bytes of the unique id, least significant first. */
 uint32_t port_unique_id(void)
 {
   const volatile uint32_t * const words = (const volatile uint32_t *)PORT_BOARD_ID;

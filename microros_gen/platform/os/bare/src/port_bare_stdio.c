@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Names of the C library's own that it wants: NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp) */
+/* Reserved names that the C library calls: NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp) */
 #define _XOPEN_SOURCE 700
 /*
- * What the C library needs for printf: `stdio` of the target file. Linked when the program prints, and not else. There is no
- * heap: newlib's malloc has one block, and returns NULL when that is used up. Its three streams need 436 bytes the first time,
- * the digits of a double (`floats`) up to 3,000 more. picolibc takes no memory at all.
+ * What the C library needs for printf: `stdio` of the target file. Linked only if the program prints. There is no heap:
+ * newlib's malloc has one block, and returns NULL when it is exhausted. Its three streams need 436 bytes at their first use,
+ * the digits of a double (`floats`) up to 3,000 more. picolibc needs no memory.
  */
 #include "microros/port_stdio.h"
 
@@ -35,7 +35,7 @@ FILE * const stderr = &stdio_file;
 
 #include "microros/port_bare.h"
 
-/* newlib's names for what it asks of a system (The Red Hat newlib C Library, "System Calls"). */
+/* newlib's system calls (The Red Hat newlib C Library, "System Calls"). */
 int _write(int file, const char * data, int size);
 int _read(int file, char * data, int size);
 int _close(int file);
@@ -47,15 +47,15 @@ void _exit(int status);
 int _kill(int process, int number);
 int _getpid(void);
 
-/* Only the streams of newlib: a buffer for each would take 1024 more, and without one each byte goes at once. */
+/* Only for newlib's streams. A buffer for each would take 1,024 bytes more; without one, each byte is output at once. */
 static union {
   uint64_t alignment;
   char bytes[PORT_BOARD_STDIO_MEMORY];
 } port_stdio_pool;
 
 #if PORT_BOARD_STDIO_FLOATS
-/* newlib-nano refers to its formatter of %f weakly, so it is missing unless something else refers to it: this does, in a program
- * that prints. The prototype is newlib's own affair; the function is not called from here. */
+/* newlib-nano only has a weak reference to its formatter of %f, which would not be linked: this is a strong one, in a program
+ * that prints. The prototype is internal to newlib; the function is not called from here. */
 int _printf_float(void);
 static int (*const volatile port_stdio_floats)(void) = _printf_float;
 #endif

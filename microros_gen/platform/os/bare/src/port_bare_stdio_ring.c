@@ -6,7 +6,7 @@
 
 enum { BYTE_TIMEOUT_MS = 40 }; /* ten bits at 300 baud take 34 */
 
-/* Waits while the ring is full. A byte is lost if the line sends nothing meanwhile. */
+/* Waits while the ring is full. If the line is stalled, the byte is lost. */
 void port_stdio_put(uint8_t byte)
 {
   const uint32_t start = port_time_ms();

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The millisecond timer, which makes the system's timers tick. */
+/* The millisecond timer, which drives the timers of the port. */
 #include "microros/port.h"
 #include "microros/port_bare.h"
 #include "microros_config.h"
 
-/* One word, which is read and written at once; only the interrupt writes. */
+/* One word, read and written atomically; only the interrupt writes it. */
 static volatile uint32_t port_bare_now_ms;
 
-/* `tick` is written last when a timer starts, and first when it stops. The interrupt alone writes `due_ms` between. */
+/* `tick` is written last when a timer starts, and first when it stops. In between, only the interrupt writes `due_ms`. */
 typedef struct port_bare_timer_t {
-  volatile port_timer_tick_t tick; /* NULL: it rests */
+  volatile port_timer_tick_t tick; /* NULL: stopped */
   volatile uint32_t period_ms;
   volatile uint32_t due_ms;
 } port_bare_timer_t;
@@ -52,7 +52,7 @@ bool port_timer_start(uint16_t timer, int64_t period_ns, port_timer_tick_t tick)
   if (period_ms <= 0 || period_ms > (int64_t)INT32_MAX) {
     return false;
   }
-  place->tick = NULL; /* one that runs already must not tick halfway */
+  place->tick = NULL; /* a running timer must not tick halfway */
   place->due_ms = port_time_ms() + (uint32_t)period_ms;
   place->period_ms = (uint32_t)period_ms;
   place->tick = tick;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The transport is the application's: what arrives there comes with an interrupt, and each of them ends the wait. */
+/* The transport belongs to the application: what it receives raises an interrupt, and every interrupt ends the wait. */
 #include "microros/port.h"
 #include "microros/port_bare.h"
 #include "microros/port_board.h"

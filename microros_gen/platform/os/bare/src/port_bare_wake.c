@@ -2,7 +2,7 @@
 #include "microros/port.h"
 #include "microros/port_bare_wait.h"
 
-static volatile bool wake_pending; /* one byte: read and written at once */
+static volatile bool wake_pending; /* one byte: read and written atomically */
 
 void port_wake(void)
 {

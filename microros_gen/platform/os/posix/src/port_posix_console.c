@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Lines of log messages go to the standard error output, as in ROS 2. */
+/* Log lines are written to standard error, as in ROS 2. */
 #define _POSIX_C_SOURCE 200809L
 #include "microros/port_console.h"
 

@@ -10,8 +10,7 @@ static void lock_make(void)
 {
   pthread_mutexattr_t kind;
 
-  (void)pthread_mutexattr_init(
-    &kind); /* this and what follows needs no memory, and the kind is one of POSIX */
+  (void)pthread_mutexattr_init(&kind); /* these calls need no memory, and POSIX defines this kind */
   (void)pthread_mutexattr_settype(&kind, PTHREAD_MUTEX_RECURSIVE);
   (void)pthread_mutex_init(&lock, &kind);
   (void)pthread_mutexattr_destroy(&kind);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Slots are files microros_storage.0, microros_storage.1, … of the folder that the environment variable MICROROS_STORAGE
- * names, without it of the current one.
+ * Slots are files microros_storage.0, microros_storage.1, … in the folder that the environment variable MICROROS_STORAGE
+ * names, or in the current folder.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "microros/port_storage.h"
@@ -14,7 +14,7 @@
 
 enum { STORAGE_PATH_SIZE = 1024, STORAGE_DIGITS = 10 };
 
-/* Writes folder, name and number of a slot, at most STORAGE_DIGITS digits; returns false if they have no room. */
+/* Writes folder, name and number of a slot, at most STORAGE_DIGITS digits; returns false if they do not fit. */
 static bool storage_path(char path[STORAGE_PATH_SIZE], const char * folder, uint32_t slot)
 {
   static const char name[] = "/microros_storage.";

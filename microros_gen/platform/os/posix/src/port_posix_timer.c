@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Timers of the system: a thread each, which sleeps until the next tick. No signal is used, so none interrupts what the
- * application does; ticks that a busy machine makes late do not move those that follow.
+ * Timers of the system: one thread each, which sleeps until the next tick. No signal is used, so no call of the application
+ * is interrupted. A late tick on a busy machine does not delay the following ones.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "microros/port.h"
@@ -33,7 +33,7 @@ static void timer_advance(posix_timer_t * timer)
   timer->next.tv_nsec = (long)(ns % NS_PER_S);
 }
 
-/* Ends by pthread_cancel, in its sleep alone. */
+/* Ended by pthread_cancel, only while it sleeps. */
 static void * timer_run(void * argument)
 {
   posix_timer_t * timer = argument;
@@ -41,7 +41,7 @@ static void * timer_run(void * argument)
 
   for (;;) {
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &timer->next, NULL) == EINTR) {
-      /* a signal of the application: sleep on */
+      /* interrupted by a signal of the application: continue to sleep */
     }
     (void)pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &state);
     timer->tick(timer->timer);

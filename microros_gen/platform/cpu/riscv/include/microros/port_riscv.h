@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The parts of the RISC-V port that know each other. Applications have use for the registers and the interrupts alone. */
+/* Shared by the files of the RISC-V port. Applications need only the registers and the interrupts. */
 #ifndef MICROROS_PORT_RISCV_H
 #define MICROROS_PORT_RISCV_H
 
@@ -9,26 +9,26 @@
 extern "C" {
 #endif
 
-/* A register of 32 bit, and one of 8 bit, at an address. */
+/* The 32-bit register and the 8-bit register at an address. */
 #define PORT_RISCV_REGISTER(address) (*(volatile uint32_t *)(address))
 #define PORT_RISCV_REGISTER_8(address) (*(volatile uint8_t *)(address))
 
-/* The first code after a reset: sets the stack up and goes on to port_bare_start(). */
+/* The first code after a reset: sets up the stack, then runs port_bare_start(). */
 void port_riscv_reset(void);
 
-/* Lets interrupts of the timer and of the interrupt controller through. */
+/* Enables interrupts of the timer and of the interrupt controller. */
 void port_riscv_interrupts_on(void);
 
-/* Every interrupt and exception: `cause` is mcause, `pc` mepc, `value` mtval. */
+/* Handles every interrupt and exception: `cause` is mcause, `pc` mepc, `value` mtval. */
 void port_riscv_trap(uint32_t cause, uint32_t pc, uint32_t value);
 
-/* Asks for the next interrupt of the timer, a millisecond after the last. */
+/* Requests the next timer interrupt, one millisecond after the last one. */
 void port_riscv_timer_next(void);
 
 /* Calls the handler of interrupt `number` of the controller. */
 void port_riscv_interrupt(uint32_t number);
 
-/* Lets interrupt `number` of the controller through. */
+/* Enables interrupt `number` of the controller. */
 void port_riscv_interrupt_enable(uint32_t number);
 
 /* The serial line's interrupt. */
