@@ -30,10 +30,10 @@ class FileInUseError(UserError):
 
 
 class ParameterFile:
-    """A file that one server at a time has; `close` releases it."""
+    """The file of one server at a time; `close` releases it."""
 
     def __init__(self, path: Path) -> None:
-        """Raises UserError: the folder cannot be written; FileInUseError: another server has the file."""
+        """Lock it. Raises UserError: the folder cannot be written; FileInUseError: another server has the file."""
         self.path = path
         try:
             path.parent.mkdir(parents=True, exist_ok=True)

@@ -25,16 +25,16 @@ _UNCLAIMED_S = 3.0
 
 
 class Observer(Protocol):
-    """Gets what happens to turns."""
+    """Receives the changes of who serves."""
 
     def waits(self, other: str) -> None:
-        """Another server serves; `other` says which."""
+        """Handle that another server, `other`, serves."""
 
     def ready(self, node: str) -> None:
-        """It serves from now on."""
+        """Handle that this server serves from now on."""
 
     def log(self, line: str) -> None:
-        """Take a line for the log."""
+        """Handle a line for the log."""
 
 
 class ServerInTurn:

@@ -149,7 +149,7 @@ def test_help_of_all_names_every_command(run: Runner) -> None:
         outcome = run(*arguments)
         assert outcome.status == 0
         assert all(re.search(rf"^  {name} +\w", outcome.out, re.MULTILINE) for name in _COMMANDS)
-        assert "Exit status: 0 done; 2 wrong use or input; 1" in outcome.out
+        assert "Exit status: 0 success; 1 a check differs, a build" in outcome.out
 
 
 def test_without_a_command_the_help_is_shown(run: Runner) -> None:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import microros_gen
-from tests.support.paths import TESTS
+from tests.support.paths import ROOT, TESTS
 
 PACKAGE = Path(microros_gen.__file__).parent
 OWN = {
@@ -89,7 +89,8 @@ def test_nothing_but_this_repository_is_put_into_the_path() -> None:
 
 def test_no_folder_is_left_out_by_tools() -> None:
     """Linters, pytest and code browsers leave out folders of this name."""
-    named = [path for folder in (PACKAGE, TESTS) for path in folder.rglob("build") if path.is_dir()]
+    folders = (PACKAGE, TESTS, *(ROOT / name for name in ("cmake", "docs", "examples", "profiles")))
+    named = [path for folder in folders for path in folder.rglob("build") if path.is_dir()]
     assert named == []
 
 

@@ -27,7 +27,7 @@ class ParametersOnDemand:
     """Starts when a client has an endpoint of a type that only clients with such parameters have."""
 
     def __init__(self, allowed: bool, file: Path | None, domain: int | None, log: EventLog) -> None:
-        """`allowed`: it may start. `domain` None: ROS_DOMAIN_ID; `file` None: the usual one of the domain."""
+        """Prepare it. `allowed`: it may start; `domain` None: ROS_DOMAIN_ID; `file` None: the default of the domain."""
         self._allowed = allowed
         self._file = file or usual_file(domain)
         self._log = log
