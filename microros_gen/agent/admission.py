@@ -186,7 +186,7 @@ class Admission:
     def send_away(self, client: Client) -> None:
         """Remove an adopted client that turned out to be a different one; it is not adopted again."""
         self._never_adopted.add(client.session.link.key)
-        self.dismiss(client, "sent away: it is not what its samples were taken for; it is not adopted again")
+        self.dismiss(client, "disconnected: it is not the client that its samples suggested; it is not adopted again")
 
     def put_to_sleep(self, client: Client) -> None:
         """Remove the entities of a silent client from the ROS graph; its session stays."""
@@ -194,10 +194,10 @@ class Admission:
         self.keeping.before_sleep(client)
         self._turns.begin(client, Job(client.objects.suspending(), adds=False))
         for _ in range(client.session.rest()):
-            text = "client {client} fell silent within a message in fragments, which is lost"
+            text = "client {client} stopped within a fragmented message, which is lost"
             self._log.count("unfinished", text, client=client.name)
         self._deliveries.refresh(client, client.last_received)
-        text = "client {client} was not heard for {seconds} s: its entities left the ROS graph"
+        text = "client {client} was silent for {seconds} s: its entities left the ROS graph"
         self._report(client, "client_silent", text, seconds=client.timeout_s)
 
     def wake(self, client: Client) -> bool:
@@ -208,9 +208,9 @@ class Admission:
     def _waking(self, client: Client) -> Steps[None]:
         failed = yield from client.objects.resuming()
         self._deliveries.refresh(client, self._turns.clock())
-        self._report(client, "client_back", "client {client} is heard again: its entities are back")
+        self._report(client, "client_back", "client {client} sent a message again: its entities are back")
         for entity, reason in failed:
-            text = "client {client}: object {object} could not be made again: {reason}"
+            text = "client {client}: object {object} could not be created again: {reason}"
             self._report(client, "client_back_without", text, object=f"{entity.id:#06x}", reason=reason)
 
     def _enter(
@@ -348,7 +348,7 @@ class Admission:
         client.adopted = True
         if isinstance(submessage, Heartbeat):
             client.session.begin(submessage.stream, submessage.first)
-        text = "client {client} adopted at {peer}: it goes on with a session that it opened before"
+        text = "client {client} adopted at {peer}: it continues an earlier session"
         self._report(client, "client_adopted", text, peer=client.place)
         self._give(client)
         return client

@@ -47,7 +47,7 @@ def check_application(
     ids = part_ids(application, description)
     present = [object_id for object_id in ids if object_id in taken]
     if present and not replace:
-        reason = f"object {present[0]:#06x} exists, which is to be a part of it"
+        reason = f"object {present[0]:#06x} exists, although it is a part of it"
         raise RefusedError(Status.ALREADY_EXISTS, reason)
     if len(set(ids)) < len(ids):
         raise RefusedError(Status.RESOURCES, "it has more parts of a kind than there are numbers")

@@ -183,7 +183,7 @@ class Agent:
         self._turns.start(self._clock())
         if client.asleep:
             if silent > self._limits.sleep_timeout_s:
-                self._admission.dismiss(client, "forgotten: it was not heard any more")
+                self._admission.dismiss(client, "forgotten: it remained silent")
             elif client.kept and silent > self._limits.keep_s:
                 client.kept = False
                 self._admission.keeping.forget_old(client, now)

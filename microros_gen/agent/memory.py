@@ -124,6 +124,6 @@ class Relief:
         client = heaviest(self._clients)
         if client is None:
             return
-        text = "client {client} takes most of the agent's memory, {bytes} bytes and more: it is sent away"
+        text = "client {client} uses most of the agent's memory, at least {bytes} bytes: it is disconnected"
         self._log.emit(Level.WARNING, "memory_relieved", text, client=client.name, bytes=weight_of(client))
-        self._dismiss(client, "sent away: the agent's memory is taken")
+        self._dismiss(client, "disconnected: the agent's memory is exhausted")

@@ -232,7 +232,7 @@ class ObjectTree:
         present = self._objects.get(object_id)
         if wanted.within and present and not wanted.replace:
             raise RefusedError(
-                Status.ALREADY_EXISTS, f"object {object_id:#06x} exists, which is to be a part of it"
+                Status.ALREADY_EXISTS, f"object {object_id:#06x} exists, although it is a part of it"
             )
         check_object(wanted.description)
         entity = Entity(object_id, wanted.description, self._sources(wanted))

@@ -178,7 +178,7 @@ class Operations:
 
     def waits(self, client: Client, kind: str, error: BusyError) -> None:
         """Count that a reliable stream of `client` was stopped for now."""
-        text = "client {client}: {reason}; this and what follows on its stream wait, unacknowledged"
+        text = "client {client}: {reason}; this request and the following ones on its stream wait, unacknowledged"
         self._log.count(kind, text, client=client.name, reason=str(error))
 
     def acknowledged(self, client: Client, stream: int, first: int, missing: int, now: float) -> None:

@@ -60,7 +60,7 @@ class Calls:
         else:
             self._log.count(
                 "late_reply",
-                "client {client}: a reply from {label} came for a request that nobody waits for; it was dropped",
+                "client {client}: a reply from {label} answers a request that is not outstanding; it was dropped",
                 client=self._name,
                 label=requester.label,
             )
@@ -73,7 +73,7 @@ class Calls:
         if entity.outstanding.pop(identity, None) is None:
             self._log.count(
                 "unknown_request",
-                "client {client}: a reply through {label} to a request that does not wait for one; it was dropped",
+                "client {client}: a reply through {label} answers a request that is not outstanding; it was dropped",
                 client=self._name,
                 label=entity.label,
             )

@@ -172,7 +172,7 @@ class Reassembly:
             raise MalformedError("fragments_too_large", f"more than {self._limit} bytes")
         if not self._holder.take(len(fragment)):
             self._refuse(last)
-            raise MalformedError("input_full", "no room for fragments: those of all clients take too much")
+            raise MalformedError("input_full", "no room for fragments: all clients together use too much")
         self._received += fragment
         if not last:
             return None

@@ -238,7 +238,7 @@ class Exchange:
             self._ended.popleft()
         if len(self._ended) >= _SESSIONS_AT_ONCE:
             self._ended.clear()
-            self._owner.log("another parameter server asks this node, too: stop one of them")
+            self._owner.log("another parameter server also queries this node: stop one of them")
             self._lose()
             return
         self._begin(self.board)

@@ -45,7 +45,7 @@ class ParameterFile:
             fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError as error:
             os.close(self._lock)
-            message, hint = f"another parameter server has '{path}'", "Stop it, or name another file"
+            message, hint = f"another parameter server uses '{path}'", "Stop it, or name another file"
             raise FileInUseError([Diagnostic(message, hint=hint, id="MG-9726")]) from error
 
     def close(self) -> None:

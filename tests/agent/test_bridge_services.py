@@ -168,7 +168,7 @@ def test_a_service_that_is_deleted_and_created_again(bridged: Bridged, bridge_ob
     requester.request(names_body(["its client leaves"]))
     node.destroy()
     label = f"/absent [{GET_TYPES}]"
-    reasons = ["nobody served it for 0.05 s"] * 2 + ["nobody served it, and then its client left"]
+    reasons = ["no server within 0.05 s"] * 2 + ["no server until its client left"]
     assert lost(bridged, "/patient") == [NoServer("/patient", label, reason, 1) for reason in reasons]
     assert bridged.reports.count(ServerFound("/patient", label, 1)) == 2
 
@@ -178,16 +178,16 @@ def test_losses_are_reported_once_and_counted() -> None:
     log = EventLog(text)
     report = graph_reporter(log)
     for lost in (1, 2, 3):
-        report(NoServer("/n", "/s [T]", "nobody served it for 5 s", lost))
+        report(NoServer("/n", "/s [T]", "no server within 5 s", lost))
         report(NoClient("/n", "/r [T]", lost))
     report(ServerFound("/n", "/s [T]", 3))
-    report(NoServer("/n", "/s [T]", "nobody served it for 5 s", 1))
+    report(NoServer("/n", "/s [T]", "no server within 5 s", 1))
     assert text.getvalue().splitlines() == [
-        "warning: client /s [T] of /n: a request was dropped: nobody served it for 5 s"
+        "warning: client /s [T] of /n: a request was dropped: no server within 5 s"
         " (further ones are only counted, until somebody does)",
         "service /r [T] of /n: a reply was dropped: the client that asked is gone (further ones are only counted)",
         "client /s [T] of /n: it is served now; 3 requests were dropped before",
-        "warning: client /s [T] of /n: a request was dropped: nobody served it for 5 s"
+        "warning: client /s [T] of /n: a request was dropped: no server within 5 s"
         " (further ones are only counted, until somebody does)",
     ]
     assert log.counters == {"no_server": 4, "no_client": 3}

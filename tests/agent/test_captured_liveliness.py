@@ -34,7 +34,7 @@ def test_its_answer_is_a_sign_of_life_and_no_fault() -> None:
     for _ in range(6):
         assert any(" 02 01 08 00 " in answer for answer in bench.wait(1.1)), "the agent asks"
         assert bench.say(ANSWER) == []
-    assert "not heard" not in bench.text.getvalue()
+    assert "was silent" not in bench.text.getvalue()
     assert "malformed" not in bench.text.getvalue()
     bench.wait(2.5)
-    assert "client 00A1C10F was not heard for 2.0 s" in bench.text.getvalue()
+    assert "client 00A1C10F was silent for 2.0 s" in bench.text.getvalue()

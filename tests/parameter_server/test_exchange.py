@@ -284,7 +284,7 @@ def test_another_server_is_noticed(world: World) -> None:
         rival.step()
         world.board.set("count", 15)
         world.run(1)
-    assert "another parameter server asks this node, too: stop one of them" in world.logged
+    assert "another parameter server also queries this node: stop one of them" in world.logged
 
 
 @pytest.mark.parametrize("seed", range(12))

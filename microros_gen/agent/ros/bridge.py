@@ -121,7 +121,7 @@ class OtherDomain:
 
     def __str__(self) -> str:
         return (
-            f"node {self.node} is in ROS domain {self.domain}, as its client asks, and ROS_DOMAIN_ID is {self.own}"
+            f"node {self.node} is in ROS domain {self.domain}, as its client requests, and ROS_DOMAIN_ID is {self.own}"
             f" here: programs of domain {self.own} do not see it. Start the agent with --domain {self.own} to have all"
             f" clients there, or say `domain_id: {self.own}` at the node in the application file of the client"
         )

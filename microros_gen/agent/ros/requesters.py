@@ -92,13 +92,13 @@ class RawRequester(RawService):
         now = time.monotonic()
         while self._found is None and self._held.over(now):
             self._held.pop()
-            self._lose(f"nobody served it for {self._wait_s:g} s")
+            self._lose(f"no server within {self._wait_s:g} s")
         return bool(self._held) or now < self._look_until
 
     def _leave(self) -> None:
         while self._held:
             self._held.pop()
-            self._lose("nobody served it, and then its client left")
+            self._lose("no server until its client left")
         super()._leave()
 
     def _send_held(self, number: int, serialized: bytes) -> None:

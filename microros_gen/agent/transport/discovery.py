@@ -164,7 +164,7 @@ class Discovery:
         if not isinstance(question, GetInfo) or not outside:
             raise MalformedError("discovery_input", "no GET_INFO outside of a session")
         if self._answers >= ANSWERS_PER_SECOND:
-            text = "discovery is asked too often, last by {peer}"
+            text = "too many discovery requests, the last one from {peer}"
             self._log.count("discovery_flood", text, peer=place_name(asker))
             return
         self._answers += 1

@@ -100,7 +100,7 @@ class Line:
         frame = encode_frame(data, address[1])
         waited = bool(self._outbox)
         if not self._outbox.put(frame, is_sample(data)):
-            text = "serial {device} takes no more: messages to it are lost"
+            text = "serial {device} accepts no output: messages to it are lost"
             self._log.count("line_full", text, device=self._name)
         elif not waited:
             self._write()
@@ -151,7 +151,7 @@ class Line:
                 self.wait()
             return
         self._reported = ""
-        text = "serial {device} is back" if known else "serial {device} is there now"
+        text = "serial {device} is back" if known else "serial {device} is available again"
         self._report("device_back", text)
 
     def _lose(self, why: str) -> None:
