@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The application file and the options of a command → what the user asks for; options win over the file."""
+"""The application file and the options of a command → what the user asks for; options override the file."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class Request:
 
 
 def read_request(options: Options, diagnostics: Diagnostics) -> Request:
-    """Read the application file where there is one and let the options win over it."""
+    """Read the application file, if there is one, and let the options override it."""
     source = read_application(options.config, Path.cwd(), diagnostics)
     diagnostics.check()
     near = options.config.parent if options.config else Path()

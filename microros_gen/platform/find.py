@@ -119,7 +119,7 @@ class _Reader:
         return extension.target(name)
 
     def _with_board(self, node: MappingNode) -> MappingNode:
-        """Lay a target file over the facts of the board that it names: both win over what it extends."""
+        """Lay a target file over the facts of the board that it names: both override what it extends."""
         board = node.get("board")
         if board is None:
             return node

@@ -37,7 +37,7 @@ class Serving(ABC):
         self._attempt(lambda: self._peer.spin_once(max(0.0, wait_s)))
 
     def _attempt(self, work: Callable[[], object]) -> None:
-        """Work on one request or message; if that fails, report it and go on with the others."""
+        """Work on one request or message; if that fails, report it and continue with the others."""
         try:
             work()
         except (CodecError, RosError) as error:

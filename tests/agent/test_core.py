@@ -139,7 +139,7 @@ def test_from_another_port_the_session_moves() -> None:
     assert bench.bridge.graph == GRAPH
     assert bench.say("81 01 00 00" + WRITE, "b") == []
     assert bench.say("81 01 01 00" + WRITE, "a") == []
-    assert len(bench.bridge.published) == 1, "the old port is not heard any more"
+    assert len(bench.bridge.published) == 1, "the old port is ignored"
     assert "moved from a to b" in bench.text.getvalue()
 
 

@@ -73,7 +73,7 @@ def test_a_client_that_asks_for_less_than_its_share_is_always_first() -> None:
     work = Work()
     floods, light = [Paid(f"flood {n}", 0.0) for n in range(35)], Paid("light", 0.0)
     for turn in range(3_000):
-        work.first(floods[turn % 35])  # as one that goes on with work that it had begun
+        work.first(floods[turn % 35])  # as one that continues work that it had begun
         due = turn % 10 == 0  # 0.2 ms of each 20: a third of its share
         if due and turn > 100:
             assert work.first(*floods, light) is light

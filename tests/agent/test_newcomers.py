@@ -120,7 +120,7 @@ def test_who_is_silent_gives_its_place(silent: str) -> None:
         bench.say(PING.replace("80", "81", 1), address)
         if silent != "empty":
             create(bench, address)
-    assert connect(bench, 3, "c") == RESOURCES, "both were heard just now"
+    assert connect(bench, 3, "c") == RESOURCES, "both have just sent something"
     bench.wait({"empty": 1.2, "silent": 8, "asleep": 12}[silent])
     create(bench, "b")
     assert connect(bench, 3, "c") == OK

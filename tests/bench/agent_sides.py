@@ -2,7 +2,7 @@
 """What stands on the sides of the agent in its bench: an XRCE client whose load is C, a ROS 2 peer in C, and the agent.
 
 The client opens its session and creates its entities in Python (tests/support/agent/client.py); then agent_load.c
-goes on with its socket and sequence numbers. The peer is rcl and rmw_fastrtps_cpp alone (agent_peer.c).
+continues with its socket and sequence numbers. The peer is rcl and rmw_fastrtps_cpp alone (agent_peer.c).
 """
 
 from __future__ import annotations

@@ -299,7 +299,7 @@ def test_a_server_without_a_claim_takes_over(domain: int, tmp_path: Path) -> Non
 
 @pytest.mark.ros
 def test_two_agents_with_one_file(domain: int, tmp_path: Path) -> None:
-    """On one machine both have the usual file: the second one goes on with what the first one held."""
+    """On one machine both have the usual file: the second one continues with the values of the first one."""
     board, file = Board(time.monotonic), str(tmp_path / "p.json")
     with ExitStack() as stack:
         module = "tests.support.parameter_server.of_agent"

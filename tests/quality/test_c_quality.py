@@ -60,7 +60,7 @@ CLANG = (
     "-Weverything",
     "-Wno-unknown-warning-option",  # newer versions know more of these
     "-Wno-covered-switch-default",  # a default stands in each switch, as MISRA 16.4 wants
-    "-Wno-missing-noreturn",  # C99 has no word for it
+    "-Wno-missing-noreturn",  # C99 cannot express it
     "-Wno-unreachable-code",  # CDR_IS_RUN: a constant of the target picks one copy or single fields
     "-Wno-padded",  # structs are ROS 2's, or ordered for reading; sizes are asserted
     "-Wno-declaration-after-statement",  # C99: a variable is declared where its value is known

@@ -62,7 +62,7 @@ def test_calls_without_a_time_out(read_polls: bool, framing: str, tmp_path: Path
         done = subprocess.run(command, capture_output=True, text=True, timeout=seconds(60), check=True)
     reads, longest_ms, acknowledged = map(int, done.stdout.split())
     assert acknowledged == 1
-    assert longest_ms == (0 if read_polls else 1), "1: functions for micro-ROS may wait for ever with 0"
+    assert longest_ms == (0 if read_polls else 1), "1: functions for micro-ROS may wait forever with 0"
     assert reads > 0
 
 

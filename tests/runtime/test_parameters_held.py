@@ -226,7 +226,7 @@ def test_a_change_that_is_overruled(device: Device) -> None:
 
 
 def test_a_server_that_is_away(device: Device) -> None:
-    """The device goes on with what it has, says so, and publishes notices over the wrap of its clock."""
+    """The device continues with its values, reports that, and publishes notices over the wrap of its clock."""
     device.agent.written.clear()
     device.client.ok("write a 3")
     device.spin(500)

@@ -318,7 +318,7 @@ static void own_deallocate(void * pointer, void * state)
   free(pointer);
 }
 
-/* An allocator of the application's wins over the pools; what is of a pool goes back there. */
+/* An allocator of the application overrides the pools; what is of a pool goes back there. */
 static void own_allocator(void)
 {
   rcutils_allocator_t own = {own_allocate, own_deallocate, own_reallocate, own_zero_allocate, NULL};

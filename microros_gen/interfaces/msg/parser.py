@@ -107,7 +107,7 @@ def _read_lines(
         if mark:
             comment = comment.lstrip("#")
             if text and not text.strip():
-                # An indented comment goes on with that of the declaration above it.
+                # An indented comment continues that of the declaration above it.
                 if part.entries:
                     part.entries[-1].comment.append(comment)
                 continue

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* An ordinary application of rclc: a timer publishes on `count`, and the executor spins for ever. With TICKER_LISTENS it
+/* An ordinary application of rclc: a timer publishes on `count`, and the executor spins forever. With TICKER_LISTENS it
  * goes on from the number that came last on `numbers`. */
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Put before a decoder by the preprocessor (-include): after each member the analyzer goes on with one state for each
+ * Put before a decoder by the preprocessor (-include): after each member the analyzer continues with one state for each
  * position in the body, since "position + left = size" is a relation, which intervals do not keep. What is called is
  * the primitive itself; nothing is assumed.
  */
