@@ -16,7 +16,7 @@ from microros_gen.documents.yaml_tree import parse_yaml
 from microros_gen.selection.component import Catalogue, Component
 from microros_gen.selection.component_sources import component_files
 from microros_gen.selection.contribution import Contributions, ErrorCode, Handler, Hook, Replacement, State
-from microros_gen.selection.find_components import components_folder, load_catalogue
+from microros_gen.selection.find_components import load_catalogue
 
 SCHEMA = Path(microros_gen.selection.__file__).with_name("component.schema.json")
 HEAD = """\
@@ -145,9 +145,13 @@ def test_what_is_called_is_declared(real_catalogue: Catalogue) -> None:
 
 
 def _header_text(component: Component, header: str) -> str:
-    path = components_folder() / component.name / "include" / header
-    path = path if path.exists() else path.with_name(f"{path.name}.j2")
-    return path.read_text(encoding="utf-8") if path.exists() else ""
+    """Return the text of a header; of one with variants, that of the shortest, which declares the fewest functions."""
+    path = component.folder / "include" / header
+    variants = [
+        component.folder / "variants" / v.file for v in component.contributes.variants if v.header == header
+    ]
+    found = [p for p in (path, path.with_name(f"{path.name}.j2"), *variants) if p.exists()]
+    return min((p.read_text(encoding="utf-8") for p in found), key=len, default="")
 
 
 def _always_there() -> set[str]:
