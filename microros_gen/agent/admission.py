@@ -186,7 +186,9 @@ class Admission:
     def send_away(self, client: Client) -> None:
         """Remove an adopted client that turned out to be a different one; it is not adopted again."""
         self._never_adopted.add(client.session.link.key)
-        self.dismiss(client, "disconnected: it is not the client that its samples suggested; it is not adopted again")
+        self.dismiss(
+            client, "disconnected: it is not the client that its samples suggested; it is not adopted again"
+        )
 
     def put_to_sleep(self, client: Client) -> None:
         """Remove the entities of a silent client from the ROS graph; its session stays."""

@@ -134,7 +134,7 @@ def test_unplugged_and_plugged_in_again(tmp_path: Path) -> None:
             assert len(served.ready) == min(turn, 1)
             cable = Cable()
             device.symlink_to(cable.device)
-            served.wait_for("is back" if turn else "is available again", max(turn, 1))
+            served.wait_for("is back" if turn else "is available", max(turn, 1))
             publish(XrceClient(SerialLink(cable.end)), served, range(20))
             device.unlink()
             cable.pull()

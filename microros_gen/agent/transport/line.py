@@ -151,7 +151,7 @@ class Line:
                 self.wait()
             return
         self._reported = ""
-        text = "serial {device} is back" if known else "serial {device} is available again"
+        text = "serial {device} is back" if known else "serial {device} is available"
         self._report("device_back", text)
 
     def _lose(self, why: str) -> None:
