@@ -83,7 +83,7 @@ def test_beyond_it_who_takes_most_has_to_go() -> None:
     process.used = 90
     bench.agent.care(bench.now)
     assert [client.address for client in bench.agent.clients] == ["client 1", "client 3"]
-    assert "client 00000002 takes most of the agent's memory" in bench.text.getvalue()
+    assert "client 00000002 uses most of the agent's memory" in bench.text.getvalue()
     bench.now += 1.0
     bench.agent.care(bench.now)
     assert len(bench.agent.clients) == 2, "its entities are destroyed in turns: no other has to go meanwhile"

@@ -100,7 +100,7 @@ def test_a_later_version_is_left_alone(file: ParameterFile) -> None:
 
 
 def test_one_server_has_a_file(file: ParameterFile) -> None:
-    with pytest.raises(UserError, match="another parameter server has"):
+    with pytest.raises(UserError, match="another parameter server uses"):
         ParameterFile(file.path)
     file.close()
     ParameterFile(file.path).close()

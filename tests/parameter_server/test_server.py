@@ -144,4 +144,4 @@ def test_a_file_that_another_server_has(domain: int, tmp_path: Path) -> None:
             check=False,
         )
     assert second.returncode == 2
-    assert "another parameter server has" in second.stderr
+    assert "another parameter server uses" in second.stderr
