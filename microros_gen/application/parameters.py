@@ -130,8 +130,8 @@ def _check_default(parameter: ParameterDecl, node: YamlNode, diagnostics: Diagno
         hint = f"Write a list of values of type {kind}" if parameter.is_array else hint
         diagnostics.error(message, node.span, hint, id="MG-3005")
         return
-    if not all(math.isfinite(element) for element in elements if isinstance(element, float)):
-        message = f"the default of the parameter '{parameter.name}' is no finite number"
+    if not all(map(_is_finite, elements)):
+        message = f"the default of the parameter '{parameter.name}' is not a finite number"
         diagnostics.error(message, node.span, "Set it in the program", id="MG-3063")
         return
     diagnostics.extend(_refusals(parameter, node.span))
@@ -174,9 +174,16 @@ def _check_range(parameter: ParameterDecl, span: Span | None, diagnostics: Diagn
     elif low is not None and high is not None and low > high:
         message = f"the range of the parameter '{parameter.name}' is empty: min is above max"
         diagnostics.error(message, span, "Swap them", id="MG-3009")
+    elif not all(map(_is_finite, (low, high, step))):
+        message = f"the range of the parameter '{parameter.name}' has a number that is not finite"
+        diagnostics.error(message, span, "Write finite numbers", id="MG-3063")
     elif parameter.type == "integer" and not all(_is_int64(v) for v in (low, high, step)):
         message = f"the range of the parameter '{parameter.name}' has a number that is no integer of 64 bits"
         diagnostics.error(message, span, "Write whole numbers, or type: double", id="MG-3057")
+
+
+def _is_finite(value: _Scalar | None) -> bool:
+    return not isinstance(value, float) or math.isfinite(value)
 
 
 def _is_int64(value: int | float | None) -> bool:
@@ -202,6 +209,11 @@ def _check_choices(parameter: ParameterDecl, choice: YamlNode, diagnostics: Diag
         if value is None or not _fits(value, parameter.type):
             message = f"a value of `one_of` is not of type {parameter.type}"
             diagnostics.error(message, node.span, "Change it, or the type", id="MG-3060")
+        elif not _is_finite(value):
+            message = f"a value of the parameter '{parameter.name}' is not a finite number"
+            diagnostics.error(
+                message, node.span, "Remove it, or check the value in the callback", id="MG-3063"
+            )
         elif isinstance(value, str) and parameter.size is not None and len(value.encode()) > parameter.size:
             message = f"'{value}' is longer than the size of the parameter '{parameter.name}'"
             diagnostics.error(message, node.span, f"Set size: {len(value.encode())}", id="MG-3061")

@@ -253,7 +253,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "infinite default": (
         f"{NODE}    parameters: [{{name: p, type: double, default: .inf}}]\n",
-        "f:3:51: error: the default of the parameter 'p' is no finite number. Set it in the program",
+        "f:3:51: error: the default of the parameter 'p' is not a finite number. Set it in the program",
     ),
     "empty list of values": (
         f"{NODE}    parameters: [{{name: p, type: integer, one_of: []}}]\n",
@@ -267,7 +267,20 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "default that is no number": (
         f"{NODE}    parameters: [{{name: p, type: double, default: .nan}}]\n",
-        "f:3:51: error: the default of the parameter 'p' is no finite number. Set it in the program",
+        "f:3:51: error: the default of the parameter 'p' is not a finite number. Set it in the program",
+    ),
+    "infinite range": (
+        f"{NODE}    parameters: [{{name: p, type: double, range: {{min: -.inf, max: 1}}}}]\n",
+        "f:3:49: error: the range of the parameter 'p' has a number that is not finite. Write finite numbers",
+    ),
+    "infinite step": (
+        f"{NODE}    parameters: [{{name: p, type: double, range: {{min: 0, max: 1, step: .inf}}}}]\n",
+        "f:3:49: error: the range of the parameter 'p' has a number that is not finite. Write finite numbers",
+    ),
+    "infinite value of a list": (
+        f"{NODE}    parameters: [{{name: p, type: double, one_of: [0, .inf]}}]\n",
+        "f:3:54: error: a value of the parameter 'p' is not a finite number. "
+        "Remove it, or check the value in the callback",
     ),
     "default between steps": (
         f"{NODE}    parameters: [{{name: p, type: double, default: 0.35, range: {{min: 0, max: 1, step: 0.1}}}}]\n",

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import json
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -192,7 +194,7 @@ def test_arrays_and_lists_of_values_take_what_is_declared(tmp_path: Path) -> Non
         "static const uint8_t arm_start_2[] = {1u, 255u};",
         '.name = "bytes", .array_most = 5u}, .type = RCLC_PARAMETER_BYTE_ARRAY, .has_value = true, '
         ".start = arm_start_2, .start_bytes = (uint32_t)sizeof(arm_start_2), .start_count = 2u}",
-        'static const char arm_start_3[] = "a\\0" "ö";',
+        'static const char arm_start_3[] = "a\\0" "\\303\\266";',
         '{.about = {.name = "none", .array_most = 2u}, .type = RCLC_PARAMETER_DOUBLE_ARRAY},',
     ):
         assert line in declarations
@@ -262,6 +264,37 @@ def test_strings_take_what_is_declared(tmp_path: Path) -> None:
     more = planned(tmp_path, LABELED + own)
     assert slice_of(more).string_size == 100 + 1
     assert largest(more, "srv/SetParameters_Request") > first + 2 * 48
+
+
+def test_texts_reach_the_image_as_they_are_written(tmp_path: Path) -> None:
+    """The C compiler reads them back: trigraphs, controls, a digit after an escape, and other than ASCII."""
+    text = "what??! ??/ \x01" + '2 \x7f "é" \\n \t'
+    declared = f"{{name: label, type: string, default: {json.dumps(text)}}}"
+    servers = slice_of(planned(tmp_path, BARE.replace("left", f"left, parameters: [{declared}]"))).servers
+    (table,) = servers[0].tables
+    source, program = tmp_path / "texts.c", tmp_path / "texts"
+    source.write_text(
+        f"#include <stdio.h>\n{table}\nint main(void) {{ return puts(left_arm_start_0) < 0; }}\n"
+    )
+    subprocess.run(["gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", source, "-o", program], check=True)
+    assert subprocess.run([program], check=True, capture_output=True).stdout.decode() == f"{text}\n"
+
+
+def test_free_places_take_what_is_declared_and_what_rclc_takes(tmp_path: Path) -> None:
+    """A declared name and text above those of rclc still fit in the messages, as without free places."""
+    parameter = f"{{name: {'n' * 60}, type: bool, description: {'d' * 70}}}"
+    declared = BARE.replace("left", f"left, parameters: [{parameter}]")
+    for places in (1, 2):
+        found = planned(tmp_path, f"{declared}pools: {{parameters: {places}}}\n")
+        assert (slice_of(found).name_size, slice_of(found).text_size) == (61, 71)
+        descriptor = text_size(60) + 4 + 2 * text_size(70)
+        assert largest(found, "srv/DescribeParameters_Response") > places * descriptor
+    short = planned(tmp_path, BARE.replace("left", "left, parameters: [{name: a, type: bool}]"))
+    free = planned(
+        tmp_path,
+        BARE.replace("left", "left, parameters: [{name: a, type: bool}]") + "pools: {parameters: 2}\n",
+    )
+    assert [slice_of(found).name_size for found in (short, free)] == [2, 50]
 
 
 def test_a_file_that_says_nothing_of_entities_has_one_node(tmp_path: Path) -> None:

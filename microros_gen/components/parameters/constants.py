@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 
 from microros_gen.application.model import ParameterDecl
+from microros_gen.typesupport.views.text import string
 
 LONGEST_TEXT = 49
 """Bytes of a name or description without its NUL, as in rclc."""
@@ -85,7 +85,7 @@ def _has_table(parameter: ParameterDecl) -> bool:
 
 
 def _about(parameter: ParameterDecl, symbol: str, index: int) -> Iterator[str]:
-    yield f".name = {_text(parameter.name)}"
+    yield f".name = {string(parameter.name)}"
     description, constraints = texts_of(parameter)
     if description or constraints:
         yield f".texts = {_texts(description, constraints)}"
@@ -103,7 +103,7 @@ def _start(parameter: ParameterDecl, name: str) -> str:
     """Return the declaration of the value at the start; strings of an array follow each other, each with its NUL."""
     value, kind = parameter.default, parameter.type.removesuffix("[]")
     if not isinstance(value, tuple):
-        return f"char {name}[] = {_text(str(value))}"
+        return f"char {name}[] = {string(str(value))}"
     if kind == "string":
         return f"char {name}[] = {_texts(*map(str, value))}"
     return f"{C_TYPES[kind]}{name}[] = {{{', '.join(_literal(element, kind) for element in value)}}}"
@@ -121,17 +121,13 @@ def _value(parameter: ParameterDecl, start: str) -> str:
 
 def _texts(*texts: str) -> str:
     """Return one literal of several texts, each with its NUL: in parts, as no digit may follow that escape."""
-    *before, last = map(_text, texts)
+    *before, last = map(string, texts)
     return " ".join((*(rf'{text[:-1]}\0"' for text in before), last))
-
-
-def _text(text: str) -> str:
-    return json.dumps(text, ensure_ascii=False)
 
 
 def _literal(value: bool | int | float | str, kind: str) -> str:
     if isinstance(value, str):
-        return _text(value)
+        return string(value)
     if kind == "bool":
         return "true" if value else "false"
     if kind == "byte":

@@ -284,12 +284,11 @@ def _count(application: Application) -> int:
 
 
 def _longest(application: Application, part: str) -> int:
-    """Return the bytes of the longest name or description, where nothing else than what is declared has a place."""
-    if application.pools.get("parameters", 0) > _declared(application) or not _declared(application):
-        return LONGEST_TEXT
+    """Return the bytes of the longest name or description; with free places not below those of rclc."""
     declared = [p for node in application.nodes for p in node.parameters]
     texts = [p.name for p in declared] if part == "name" else [t for p in declared for t in texts_of(p)]
-    return max(len(text.encode()) for text in texts)
+    is_free = application.pools.get("parameters", 0) > _declared(application) or not declared
+    return max([LONGEST_TEXT if is_free else 0, *(len(text.encode()) for text in texts)])
 
 
 def _string_size(application: Application) -> int:
