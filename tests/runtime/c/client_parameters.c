@@ -47,9 +47,12 @@ static rcl_ret_t start(void)
   return result;
 }
 
-static rcl_ret_t open_server(void)
+static rcl_ret_t open_server(bool allows_undeclared)
 {
-  rcl_ret_t result = rclc_parameter_server_init_default(&server, &node);
+  const rclc_parameter_options_t options = {true, MICROROS_PARAMETERS_MAX, true, false};
+  rcl_ret_t result = allows_undeclared
+                       ? rclc_parameter_server_init_with_option(&server, &node, &options)
+                       : rclc_parameter_server_init_default(&server, &node);
 
   if (result == RCL_RET_OK) {
     result =
@@ -142,7 +145,6 @@ static rcl_ret_t text(char * name)
 }
 #endif
 
-#if MICROROS_PARAMETERS_HELD
 /* write NAME VALUE */
 static rcl_ret_t write(const char * arguments)
 {
@@ -152,10 +154,20 @@ static rcl_ret_t write(const char * arguments)
   return sscanf(arguments, "%63s %d", name, &value) == 2 ? rclc_parameter_set_int(&server, name, value) : -1;
 }
 
+#if MICROROS_PARAMETERS_HELD
 static rcl_ret_t check_held(void)
 {
   printf("overruled %" PRIu32 "\n", rclc_parameter_count_overruled(&server));
   return rclc_parameter_check_held(&server);
+}
+#endif
+
+#if MICROROS_PARAMETER_ONE_OF
+static rcl_ret_t enumerate(const char * name)
+{
+  static const int64_t values[] = {0, 5};
+
+  return rclc_add_parameter_constraint_one_of_int(&server, name, values, 2);
 }
 #endif
 
@@ -204,9 +216,15 @@ static rcl_ret_t call(const char * line)
       return text(copy);
     }
 #endif
-#if MICROROS_PARAMETERS_HELD
     case 'w': /* write NAME VALUE */
       return write(name);
+    case 'b': /* bound NAME */
+      return rclc_add_parameter_constraint_integer(&server, name, 0, 5, 0);
+#if MICROROS_PARAMETER_ONE_OF
+    case 'e': /* enumerate NAME */
+      return enumerate(name);
+#endif
+#if MICROROS_PARAMETERS_HELD
     case 'h': /* held */
       return check_held();
 #endif
@@ -229,7 +247,9 @@ static rcl_ret_t call(const char * line)
     case 'i': /* init */
       return start();
     case 'o': /* open */
-      return open_server();
+      return open_server(false);
+    case 'f': /* free: open for parameters that are not declared */
+      return open_server(true);
     case 'a': /* add NAME */
       return rclc_add_parameter(&server, name, RCLC_PARAMETER_INT);
     case 'd': /* delete NAME */

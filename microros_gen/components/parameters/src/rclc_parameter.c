@@ -223,7 +223,7 @@ rcl_ret_t rclc_add_parameter_constraint_string(
   if (size >= MICROROS_PARAMETER_STRING_SIZE) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "size");
   }
-  place = rclc_parameter_look(parameter_server, parameter_name, &result);
+  place = rclc_parameter_look_to_change(parameter_server, parameter_name, &result);
   if (!rclc_parameter_is(place, parameter_name, RCLC_PARAMETER_STRING, &result, RCL_RET_ERROR)) {
     return result;
   }

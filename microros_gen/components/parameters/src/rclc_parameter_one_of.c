@@ -46,7 +46,7 @@ bool rclc_parameter_one_of(const rclc_parameter_place_t * place, const parameter
   const void * values = place->about->one_of;
   const size_t count = place->about->one_of_count;
 
-  if (values == NULL || requested->type != place->type) {
+  if (values == NULL) {
     return true;
   }
   switch (place->type) {

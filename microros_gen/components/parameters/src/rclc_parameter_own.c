@@ -66,6 +66,20 @@ rclc_parameter_about_t * rclc_parameter_own(
   return about;
 }
 
+void rclc_parameter_unconstrain(rclc_parameter_about_t * about)
+{
+  about->range = NULL;
+#if MICROROS_PARAMETER_ONE_OF
+  about->one_of = NULL;
+#endif
+#if MICROROS_PARAMETER_STRING_SIZE > 0u
+  about->string_most = MICROROS_PARAMETER_STRING_SIZE - 1u;
+#endif
+#if MICROROS_PARAMETER_ARRAY_SIZE > 0u
+  about->array_most = UINT32_MAX;
+#endif
+}
+
 rclc_parameter_place_t * rclc_parameter_create(
   rclc_parameter_server_t * server, const parameter_text_t * name, uint8_t type)
 {
@@ -78,13 +92,8 @@ rclc_parameter_place_t * rclc_parameter_create(
   }
   (void)memcpy(names[number], name->data, name->size);
   names[number][name->size] = '\0';
-  (void)memset(about, 0, sizeof(*about));
   about->name = names[number];
-#if MICROROS_PARAMETER_STRING_SIZE > 0u
-  about->string_most = MICROROS_PARAMETER_STRING_SIZE - 1u;
-#endif
-#if MICROROS_PARAMETER_ARRAY_SIZE > 0u
-  about->array_most = UINT32_MAX;
-#endif
+  about->texts = NULL;
+  rclc_parameter_unconstrain(about);
   return rclc_parameter_place(server, about, type);
 }

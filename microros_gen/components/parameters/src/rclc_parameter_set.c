@@ -22,13 +22,14 @@ static bool integer_holds(const rclc_parameter_range_t * range, int64_t value)
   return rest == 0u;
 }
 
+/* For a value of the type that the parameter has: its range is of that type. */
 static parameter_outcome_t set_check_range(
   const rclc_parameter_server_t * server, const rclc_parameter_place_t * place,
   const parameter_requested_t * requested)
 {
   const rclc_parameter_range_t * range = place->about->range;
 
-  if (range == NULL || requested->type != place->type) {
+  if (range == NULL) {
     return PARAMETER_SET;
   }
   if (requested->type == (uint8_t)RCLC_PARAMETER_INT) {
@@ -39,7 +40,7 @@ static parameter_outcome_t set_check_range(
            : PARAMETER_OUTSIDE_FLOATING_POINT;
 }
 
-/* For one of `created` parameters that do not exist yet. */
+/* For one of `created` parameters that do not exist yet; 0: for one that gets another type. */
 static parameter_outcome_t set_check_new(
   const rclc_parameter_server_t * server, const parameter_requested_t * requested, size_t created)
 {
@@ -66,11 +67,8 @@ static parameter_outcome_t set_check_parameter(
   if (requested->type == (uint8_t)RCLC_PARAMETER_NOT_SET) {
     return place->dynamic_typing ? PARAMETER_SET : PARAMETER_STATIC;
   }
-  if (requested->type != place->type && !place->dynamic_typing) {
-    return PARAMETER_OTHER_TYPE;
-  }
-  if (!rclc_parameter_holds(requested->type)) {
-    return PARAMETER_UNSUPPORTED;
+  if (requested->type != place->type) {
+    return place->dynamic_typing ? set_check_new(server, requested, 0) : PARAMETER_OTHER_TYPE;
   }
   if (!rclc_parameter_string_fits(place, requested)) {
     return PARAMETER_STRING_LONG;
@@ -124,13 +122,13 @@ static void set_make(
     rclc_parameter_note(server, place, PARAMETER_EVENT_DELETED);
     return;
   }
-  place->type = requested->type;
+  if (place->type != requested->type) {
+    server->undeclared->retype(server, place, requested->type);
+  }
   place->value = requested->value;
   rclc_parameter_string_set(place, requested);
   rclc_parameter_array_set(place, requested);
-  rclc_parameter_note(
-    server, place,
-    place->event == (uint8_t)PARAMETER_EVENT_NEW ? PARAMETER_EVENT_NEW : PARAMETER_EVENT_CHANGED);
+  rclc_parameter_note(server, place, PARAMETER_EVENT_CHANGED);
 }
 
 void rclc_parameter_set_each(rclc_parameter_server_t * server)

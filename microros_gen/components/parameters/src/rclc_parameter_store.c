@@ -71,7 +71,9 @@ void rclc_parameter_note(rclc_parameter_server_t * server, rclc_parameter_place_
 #if MICROROS_PARAMETERS_HELD
   rclc_parameter_held_note(server, place, event);
 #else
-  place->event = (uint8_t)event;
+  if (event != (uint32_t)PARAMETER_EVENT_CHANGED || place->event != (uint8_t)PARAMETER_EVENT_NEW) {
+    place->event = (uint8_t)event;
+  }
 #endif
 }
 

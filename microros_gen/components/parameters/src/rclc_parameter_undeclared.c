@@ -48,6 +48,18 @@ static void undeclared_add(rclc_parameter_server_t * server, const parameter_req
   }
 }
 
+static void undeclared_retype(rclc_parameter_server_t * server, rclc_parameter_place_t * place, uint8_t type)
+{
+  uint32_t number = 0;
+  rcl_ret_t result = RCL_RET_OK;
+  rclc_parameter_about_t * about = rclc_parameter_own(server, place, &number, &result);
+
+  if (about != NULL) {
+    rclc_parameter_unconstrain(about);
+    place->type = type;
+  }
+}
+
 const rclc_parameter_undeclared_t rclc_parameter_undeclared = {
-  undeclared_check, undeclared_accepts, undeclared_add, "parameter name '%n' is too long",
+  undeclared_check, undeclared_accepts, undeclared_add, undeclared_retype, "parameter name '%n' is too long",
   "no place for parameter '%n'"};

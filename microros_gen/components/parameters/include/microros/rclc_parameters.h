@@ -117,7 +117,7 @@ typedef struct parameter_state_t {
 
 /* Parameters that set requests create: rclc_parameter_undeclared.c. */
 typedef struct rclc_parameter_undeclared_t {
-  /* For one of `created` parameters that the request creates. */
+  /* For one of `created` parameters that the request creates; 0: for one that gets another type. */
   parameter_outcome_t (*check)(
     const rclc_parameter_server_t * server, const parameter_requested_t * requested, size_t created);
   /* Whether the callback accepts one with that name, which new_state gets. */
@@ -125,6 +125,8 @@ typedef struct rclc_parameter_undeclared_t {
     rclc_parameter_server_t * server, const parameter_text_t * name, parameter_state_t * new_state);
   /* Adds it, without its value. */
   void (*add)(rclc_parameter_server_t * server, const parameter_requested_t * requested);
+  /* Changes the type of such a parameter; its constraints, which are of the type before, end. */
+  void (*retype)(rclc_parameter_server_t * server, rclc_parameter_place_t * place, uint8_t type);
   const char * name_long; /* words of PARAMETER_NAME_LONG */
   const char * full;      /* of PARAMETER_FULL */
 } rclc_parameter_undeclared_t;
@@ -178,7 +180,7 @@ void rclc_parameter_disown(const rclc_parameter_server_t * server, const rclc_pa
 /* Returns a place as it is passed to the callback. */
 parameter_state_t rclc_parameter_state(rclc_parameter_place_t * place);
 
-/* Notes in which part of the next event a changed place is listed. */
+/* Notes in which part of the next event a changed place is listed. A new one that changes before that event is new. */
 void rclc_parameter_note(rclc_parameter_server_t * server, rclc_parameter_place_t * place, uint32_t event);
 
 /* Removes the place, and moves those after it. */
@@ -198,6 +200,9 @@ rclc_parameter_place_t * rclc_parameter_create(
  * error. */
 rclc_parameter_about_t * rclc_parameter_own(
   rclc_parameter_server_t * server, rclc_parameter_place_t * place, uint32_t * number, rcl_ret_t * result);
+
+/* Sets the constraints of a description to none. */
+void rclc_parameter_unconstrain(rclc_parameter_about_t * about);
 
 /* One for each parameter of all servers. */
 enum { PARAMETERS_OWN = MICROROS_NODES_MAX * MICROROS_PARAMETERS_MAX };
