@@ -172,7 +172,8 @@ class ParameterDecl:
 
     `size` bounds a string, bytes without its terminator, or the elements of an array. `one_of` has the values that
     are accepted, where not all are. `unit` is shown behind the description. `minimum`, `maximum` and `step` are
-    the range of rcl_interfaces/msg/ParameterDescriptor; None: no range.
+    the range of rcl_interfaces/msg/ParameterDescriptor; None: no range. `constraints` says in words what nothing else
+    says; nobody checks it.
     """
 
     name: str
@@ -187,6 +188,7 @@ class ParameterDecl:
     size: int | None = None
     one_of: tuple[int | float | str, ...] = ()
     unit: str = ""
+    constraints: str = ""
 
     @property
     def is_array(self) -> bool:

@@ -14,7 +14,7 @@ from dataclasses import replace
 
 from microros_gen.application.model import ParameterDecl
 from microros_gen.application.parameters import Places, check_declaration, scalar_of, value_of
-from microros_gen.diagnostics import Diagnostics, Source, reads
+from microros_gen.diagnostics import Diagnostics, Source, Span, reads
 from microros_gen.documents.tree_values import bool_of, child, entries, items, number_of, span_of, text_of
 from microros_gen.documents.yaml_tree import Entry, MappingNode, YamlNode, parse_yaml
 
@@ -46,7 +46,7 @@ def parse_parameter_file(source: Source, diagnostics: Diagnostics) -> tuple[Para
     if not found.has_errors() and (len(roots) != 1 or not isinstance(roots[0].value, MappingNode)):
         found.error(
             "a file of generate_parameter_library has one key, with the parameters below it",
-            span_of(tree),
+            span_of(tree) or Span(source, 1, 1),
             "Write `motor:` above them, and indent them",
             id="MG-3064",
         )
@@ -101,6 +101,7 @@ def _leaf(entry: Entry, name: str, diagnostics: Diagnostics) -> Iterator[Paramet
         read_only=bool_of(child(node, "read_only")) or False,
         span=entry.key_span,
         size=int(fixed.group(2)) if fixed else None,
+        constraints=text_of(child(node, "additional_constraints")) or "",
     )
     validation = child(node, "validation")
     for rule in entries(validation):
@@ -118,11 +119,12 @@ def _leaf(entry: Entry, name: str, diagnostics: Diagnostics) -> Iterator[Paramet
 
 def _check_keys(node: YamlNode, diagnostics: Diagnostics) -> None:
     for entry in entries(node):
-        if entry.key not in _KEYS or (entry.key == "additional_constraints"):
-            hint = f"Remove it; available: {', '.join(_KEYS[:-1])}"
+        if entry.key not in _KEYS:
+            hint = f"Remove it; available: {', '.join(_KEYS)}"
             message = f"'{entry.key}' of a parameter is not supported"
             diagnostics.error(message, entry.key_span, hint, id="MG-3070")
-    _check_kind(child(node, "description"), text_of, "a text", diagnostics)
+    for key in ("description", "additional_constraints"):
+        _check_kind(child(node, key), text_of, "a text", diagnostics)
     _check_kind(child(node, "read_only"), bool_of, "true or false", diagnostics)
     validation = child(node, "validation")
     if validation is not None and not isinstance(validation, MappingNode):

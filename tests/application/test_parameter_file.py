@@ -68,7 +68,31 @@ def test_everything_that_a_device_has() -> None:
     assert found[0].description == "Part: p"
 
 
+def test_constraints_in_words_are_shown_with_those_that_are_checked(tmp_path: Path) -> None:
+    """As the library passes them on: in the descriptor, where nobody checks them."""
+    rule = "validation: {one_of<>: [[1, 2]]}"
+    (tmp_path / "config").mkdir()
+    (tmp_path / "config/motor.yaml").write_text(
+        "a:\n"
+        "  x: {type: int, default_value: 1, additional_constraints: not while it turns}\n"
+        f"  y: {{type: int, default_value: 1, {rule}, additional_constraints: odd}}\n"
+        f"  z: {{type: int, default_value: 1, {rule}}}\n"
+    )
+    declared = compiler.render(planned(tmp_path))["src/parameters/rclc_parameter_declared.c"].decode()
+    texts = re.findall(r'"(x|y|z)", \.texts = "\\0" "([^"]*)"', declared)
+    assert texts == [("x", "not while it turns"), ("y", "one of: 1, 2; odd"), ("z", "one of: 1, 2")]
+
+
 FAULTS = {
+    "nothing": ("", "p.yaml:1:1: error: a file of generate_parameter_library has one key"),
+    "infinite bounds": (
+        "a:\n  x: {type: double, default_value: 1.0, validation: {bounds<>: [-.inf, 2]}}\n",
+        "p.yaml:2:53: error: the range of the parameter 'x' has a number that is not finite. Write finite numbers",
+    ),
+    "constraints that are no text": (
+        "a:\n  x: {type: int, default_value: 1, additional_constraints: [odd]}\n",
+        "p.yaml:2:60: error: this value must be a text. Write a text",
+    ),
     "a list": ("- 1\n", "p.yaml:1:1: error: a file of generate_parameter_library has one key"),
     "two roots": ("a: {}\nb: {}\n", "p.yaml:1:1: error: a file of generate_parameter_library has one key"),
     "mapped": (

@@ -40,7 +40,8 @@ def string_limit(parameter: ParameterDecl) -> int:
 def texts_of(parameter: ParameterDecl) -> tuple[str, str]:
     """Return the description and the constraints that other nodes read; a range is not among them."""
     values = ", ".join(str(value) for value in parameter.one_of)
-    return parameter.shown, f"one of: {values}" if values else ""
+    constraints = (f"one of: {values}" if values else "", parameter.constraints)
+    return parameter.shown, "; ".join(text for text in constraints if text)
 
 
 def tables(parameters: tuple[ParameterDecl, ...], symbol: str) -> Iterator[str]:
