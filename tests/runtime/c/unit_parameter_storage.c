@@ -268,6 +268,8 @@ static void write_header(uint32_t slot, uint32_t sequence, uint32_t version)
 
 static void wrap_and_version(void)
 {
+  static uint8_t later[SLOT_SIZE];
+
   erase_all();
   expect(!save_until_cut(1, -1), "first", 0);
   write_header(0, UINT32_MAX, STORAGE_VERSION);
@@ -283,6 +285,11 @@ static void wrap_and_version(void)
   expect(strstr(rcl_get_error_string().str, "version") != NULL, "text of the version", 1);
   rcl_reset_error();
   expect(number_of(1) == 0, "values of the start", 1);
+  memcpy(later, flash[0], SLOT_SIZE);
+  set(2);
+  ok(rclc_parameter_storage_save(&server, 0), "save beside the other version");
+  expect(loaded(1) == 2, "own version", 1);
+  expect(memcmp(later, flash[0], SLOT_SIZE) == 0, "the later firmware still has its values", 1);
 }
 
 /* The same values are not written again; a memory that refuses or forgets is told, and the old set stays. */

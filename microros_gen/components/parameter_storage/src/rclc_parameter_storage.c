@@ -201,8 +201,8 @@ rcl_ret_t rclc_parameter_storage_save(rclc_parameter_server_t * parameter_server
     measured.checksum == found.header.records_checksum) {
     return RCL_RET_OK; /* unchanged: spares the memory a write */
   }
-  /* The newest valid slot is never overwritten. */
-  written.slot = is_good ? (found.newest ^ 1u) : found.newest;
+  /* Never the slot that counts. Without one, the first slot, unless it has values of other firmware. */
+  written.slot = found.newest_state >= STORAGE_OTHER_VERSION ? (found.newest ^ 1u) : found.newest;
   if (measured.failed || !port_storage_erase(written.slot)) {
     return storage_refuse(MICROROS_ERROR_WORDS("the memory cannot be erased"));
   }

@@ -22,16 +22,18 @@ extern "C" {
  * the slots 2 * set and 2 * set + 1.
  *
  * RCL_RET_OK also if nothing was ever saved. RCL_RET_ERROR with a text: the saved values are damaged or of another
- * version of the format; all parameters keep their values. Where a parameter server elsewhere holds
- * the values (parameters: {at: agent}) they are loaded before rclc_executor_add_parameter_server, as declared ones: those
- * that the server holds win. Later this is RCL_RET_ERROR.
+ * version of the format; all parameters keep their values.
+ *
+ * If a parameter server elsewhere holds the values (parameters: {at: agent}), call this before
+ * rclc_executor_add_parameter_server; later it returns RCL_RET_ERROR. The loaded values count as declared ones: values
+ * that the server holds replace them.
  */
 rcl_ret_t rclc_parameter_storage_load(
   rclc_parameter_server_t * parameter_server, uint32_t set, size_t * skipped);
 
 /*
  * Saves the values of all parameters that are not read-only. Writes nothing if they equal the saved values. Waits
- * until the memory has erased and written a slot.
+ * until the memory has erased and written a slot. Values of another version of the format survive the first save.
  *
  * RCL_RET_ERROR with a text: the memory refused, or its content differs from the written bytes. The previous values
  * are still saved.
