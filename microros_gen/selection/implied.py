@@ -7,7 +7,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from microros_gen.application.kinds import KIND
-from microros_gen.application.model import Application, EndpointChange, EndpointDecl, LimitRule, NodeDecl
+from microros_gen.application.model import (
+    Application,
+    EndpointChange,
+    EndpointDecl,
+    LimitRule,
+    NodeDecl,
+    ParameterDecl,
+)
 from microros_gen.diagnostics import Diagnostics, nearest
 from microros_gen.selection.component import Implied
 from microros_gen.selection.model import Selection
@@ -15,6 +22,21 @@ from microros_gen.selection.model import Selection
 _OF_ENTITIES = frozenset({"nodes", "interfaces", "pools"})
 """Keys of an application file that say which entities there are."""
 _NODE = NodeDecl(name="device", endpoints=(EndpointDecl("publisher", "count", "std_msgs/msg/Int32"),))
+_DIAGNOSTICS = EndpointDecl(
+    "publisher",
+    "/diagnostics",
+    "diagnostic_msgs/msg/DiagnosticArray",
+    limits=(LimitRule(("*",), string=32, sequence=1),),
+)
+_GAIN = ParameterDecl(
+    "gain", "double", default=1.0, description="Factor of a signal", minimum=0.0, maximum=10.0
+)
+_NODES = {
+    "configurable_sender_with_diagnostics": NodeDecl(
+        name="device", endpoints=(_DIAGNOSTICS,), parameters=(_GAIN,)
+    )
+}
+"""Profile → the node that shows its components; others have the one above."""
 
 
 def with_implied(application: Application, selection: Selection, diagnostics: Diagnostics) -> Application:
@@ -29,7 +51,8 @@ def with_implied(application: Application, selection: Selection, diagnostics: Di
     each = _endpoints(selection, changes, every_node=True)
     _check_changes(application, (*once, *each), diagnostics)
     if each and not application.nodes and not _OF_ENTITIES & application.spans.keys():
-        application = replace(application, nodes=(_NODE,))
+        shown = next((_NODES[name] for name in selection.profiles if name in _NODES), _NODE)
+        application = replace(application, nodes=(shown,))
     if application.nodes:
         first, *others = application.nodes
         nodes = (_with(first, (*once, *each)), *(_with(node, each) for node in others))

@@ -200,7 +200,7 @@ def test_the_profile_with_log_messages_has_a_node_without_an_application_file() 
     found = compiler.plan(compiler.resolve(compiler.read_source(None, Path(), options)))
     assert [n.name for n in found.project.runtime.entities.nodes.declared] == ["device"]
     assert {p.topic for p in found.project.runtime.entities.publishers.declared} == {
-        "/count",
+        "/diagnostics",
         "/parameter_events",
     }
 

@@ -22,6 +22,31 @@ def compile_example(out: Path) -> None:
     assert done.returncode == 0, done.stderr
 
 
+def with_nothing_else(tmp_path: Path, *lines: str) -> str:
+    """Return the example of the profile where nothing says which entities there are."""
+    config = tmp_path / "microros.yaml"
+    config.write_text(
+        "\n".join(("version: 1", "profiles: [configurable_sender_with_diagnostics]", *lines, ""))
+    )
+    options = compiler.Options(config=config, interface_paths=(shipped_folder(),))
+    out = compiler.generate(options, tmp_path / "out").out
+    compile_example(out)
+    return next((out / "examples").rglob("main.c")).read_text()
+
+
+@pytest.mark.parametrize("entities", ENTITIES)
+def test_the_profile_alone_has_all_three(tmp_path: Path, entities: str) -> None:
+    example = with_nothing_else(tmp_path, f"entities: {entities}")
+    assert "device_parameters_declare(&node_parameters)" in example
+    assert "rcutils_logging_set_output_handler(on_log);" in example
+    assert "diagnostic_array_1.status.size = 1;" in example
+    assert '!put_text(&diagnostic_array_1.status.data[0].name, "device"))' in example
+
+
+def test_another_writer_needs_no_function_of_the_example(tmp_path: Path) -> None:
+    assert "on_log" not in with_nothing_else(tmp_path, "logging: console")
+
+
 @pytest.mark.parametrize("entities", ENTITIES)
 def test_the_example_has_parameters_log_messages_and_diagnostics(tmp_path: Path, entities: str) -> None:
     config = tmp_path / "microros.yaml"

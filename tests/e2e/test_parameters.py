@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from tests.support.agent.observer import Observer
 from tests.support.agent.process import AgentProcess, running_agent
 from tests.support.e2e.images import C_FILES, SANITIZE, Images, ends_well, started
 from tests.support.e2e.parameter_calls import (
@@ -222,3 +223,27 @@ def test_after_a_restart_of_the_agent(images: Images, relay: Relay, domain: int,
             (event,) = events_of(peer, DEVICE, 1)
             assert event["changed_parameters"] == [{"name": "motor.steps", "value": [2, 120]}]
             ends_well(process, 60)
+
+
+def test_the_example_of_the_profile_with_diagnostics(
+    images: Images, image_port: Relay, agent: AgentProcess, domain: int, observer: Observer
+) -> None:
+    """The profile alone: a parameter that ROS sets, log messages, and reports on /diagnostics."""
+    text = "version: 1\nprofiles: [configurable_sender_with_diagnostics]\n"
+    example = images.build(image_port.port, text).program
+    observer.subscribe("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", reliable=True)
+    with parameter_peer(domain) as peer, started(example) as process:
+        await_line(process, "[INFO] [example]: all entities are open")
+        peer.wait("/device")
+        assert peer.call("/device", "get_parameters", ["gain"])["values"] == [[3, 1.0]]
+        results = peer.call("/device", "set_parameters", [("gain", 2.5), ("gain", 11.0)])["results"]
+        refused = "Parameter {gain} doesn't comply with floating point range."
+        assert [result["reason"] for result in results] == ["", refused]
+        await_line(process, "parameter gain changes")
+        end = deadline(30)
+        while not (found := [m for topic, m in observer.ask(do="samples") if topic == "/diagnostics"]):
+            assert time.monotonic() < end
+            time.sleep(0.1)
+    (status,) = found[0]["status"]
+    assert (status["name"], status["hardware_id"], found[0]["header"]["frame_id"]) == ("device",) * 3
+    assert status["level"] in ([0], "\0", 0)

@@ -5,7 +5,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from microros_gen.interfaces.types import Field, Message, NamedType, Primitive, StringType, TypeName
+from microros_gen.interfaces.types import (
+    Field,
+    Message,
+    NamedType,
+    Primitive,
+    SequenceType,
+    StringType,
+    TypeName,
+)
 from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.names import snake_case
 from microros_gen.typesupport.plan.size import TypeLimits
@@ -25,11 +33,16 @@ class MemberValue:
 
 @dataclass(frozen=True)
 class Filling:
-    """What the example writes into one message: time stamps, numbers from its counter, texts."""
+    """What the example writes into one message: time stamps, numbers from its counter, texts.
+
+    `elements` are the sequences that get one element, whose texts are in `element_texts`.
+    """
 
     stamps: tuple[str, ...]
     values: tuple[MemberValue, ...]
     texts: tuple[MemberValue, ...]
+    elements: tuple[str, ...] = ()
+    element_texts: tuple[MemberValue, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -57,22 +70,33 @@ def example_topics(roots: Sequence[TypeName]) -> tuple[tuple[TypeName, str], ...
 def plan_filling(
     message: Message, messages: Mapping[TypeName, Message], text: str, limits: TypeLimits | None
 ) -> Filling:
-    """Fill every plain member of `message` without its own default; arrays and sequences stay.
+    """Fill every plain member of `message` without its own default; arrays and sequences of plain ones stay.
 
-    A string gets as much of `text` as its limit has room for; one whose type has a lower bound stays empty.
+    Of a sequence of messages the first element gets its texts, where it has room for one. A string gets as much of
+    `text` as its limit has room for; one whose type has a lower bound stays empty.
     """
     members = tuple(_plain_members(message, messages, ""))
     stamps = tuple(path for path, field in members if field.type == NamedType(_TIME))
     numbers = [(path, f.type) for path, f in members if isinstance(f.type, Primitive)]
     values = tuple(MemberValue(path, _expression(kind)) for path, kind in numbers[:_MOST_VALUES])
-    texts = tuple(
-        MemberValue(path, text[: _string_limit(message, messages, limits, path)])
-        for path, f in members
-        if isinstance(f.type, StringType)
-        and not f.type.wide
-        and (f.type.bound is None or f.type.bound >= len(text))
-    )
-    return Filling(stamps, values, texts)
+    texts = tuple(_texts(message, messages, text, limits))
+    elements, element_texts = list[str](), list[MemberValue]()
+    for field, own in zip(message.fields, limits.fields if limits else (), strict=False):
+        kind = field.type.element if isinstance(field.type, SequenceType) else None
+        if isinstance(kind, NamedType) and own is not None and own.sequence and own.nested:
+            found = tuple(_texts(messages[kind.name], messages, text, own.nested))
+            elements += [field.name] if found else []
+            element_texts += [MemberValue(f"{field.name}.data[0].{t.member}", t.value) for t in found]
+    return Filling(stamps, values, texts, tuple(elements), tuple(element_texts))
+
+
+def _texts(
+    message: Message, messages: Mapping[TypeName, Message], text: str, limits: TypeLimits | None
+) -> Iterator[MemberValue]:
+    for path, field in _plain_members(message, messages, ""):
+        kind = field.type
+        if isinstance(kind, StringType) and not kind.wide and (kind.bound is None or kind.bound >= len(text)):
+            yield MemberValue(path, text[: _string_limit(message, messages, limits, path)])
 
 
 def _string_limit(

@@ -58,6 +58,7 @@ class PublisherView(EndpointView):
     values: tuple[MemberValue, ...]
     texts: tuple[MemberValue, ...]
     uses_count: bool
+    elements: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -333,7 +334,8 @@ def _publisher(
         storage=storage if plan.storage else "",
         stamps=filling.stamps,
         values=filling.values,
-        texts=filling.texts if plan.storage else (),
+        texts=(*filling.texts, *filling.element_texts) if plan.storage else (),
+        elements=filling.elements if plan.storage else (),
         uses_count=any("count" in v.value for v in filling.values),
     )
     return _Publisher(plan.name, view)
