@@ -6,6 +6,7 @@ from __future__ import annotations
 import fcntl
 import json
 import os
+import re
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ from microros_gen.parameter_server.node import Held, HeldNode
 from microros_gen.parameter_server.values import TYPE_NAMES, type_name, value_from_json
 
 FORMAT, VERSION = "microros-gen parameters", 1
+_NODE = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
 _TYPES = {
     "description": str,
     "constraints": str,
@@ -55,7 +57,8 @@ class ParameterFile:
     def load(self, make: Callable[[str], HeldNode]) -> tuple[tuple[HeldNode, ...], str]:
         """Return the nodes of the file, and what is wrong with it; what cannot be read is kept under another name.
 
-        Raises UserError for a file of a later version: nothing is read or written.
+        Raises UserError for a file of a later version, and for a damaged one that cannot be renamed: nothing is read
+        or written.
         """
         try:
             data = self.path.read_bytes()
@@ -73,7 +76,7 @@ class ParameterFile:
             if (tree["format"], tree["version"]) != (FORMAT, VERSION):
                 raise ValueError("another format")
             return tuple(_node(name, entry, make(name)) for name, entry in tree["nodes"].items()), ""
-        except (ValueError, KeyError, TypeError, AttributeError) as error:
+        except (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError) as error:
             kept = self._keep_damaged()
             return (
                 (),
@@ -95,7 +98,11 @@ class ParameterFile:
         number = 1
         while (kept := self.path.with_name(f"{self.path.name}.damaged-{number}")).exists():
             number += 1
-        self.path.replace(kept)
+        try:
+            self.path.replace(kept)
+        except OSError as error:
+            message = f"'{self.path}' is damaged and cannot be renamed: {error.strerror}"
+            raise UserError([Diagnostic(message, hint="Name another file", id="MG-9729")]) from error
         return kept
 
 
@@ -127,12 +134,12 @@ def _held_entry(held: Held) -> Mapping[str, Any]:
 
 
 def _node(name: str, entry: Mapping[str, Any], node: HeldNode) -> HeldNode:
-    if not name.startswith("/"):
+    if not _NODE.fullmatch(name):
         raise ValueError(f"'{name}' is no node")
     for parameter, values in entry["parameters"].items():
-        node.parameters[parameter] = _held(parameter, values)
+        node.parameters[_text(parameter)] = _held(parameter, values)
     for parameter, values in entry.get("aside", {}).items():
-        node.aside[parameter] = [value_from_json(value["type"], value["value"]) for value in values]
+        node.aside[_text(parameter)] = [value_from_json(value["type"], value["value"]) for value in values]
     return node
 
 
@@ -142,16 +149,25 @@ def _held(name: str, entry: Mapping[str, Any]) -> Held:
     for key, member in members.items():
         if type(member) is not _TYPES[key]:
             raise ValueError(f"{key} of '{name}'")
+        _text(str(member))
+    kind = entry["declared"]
     bounds = entry.get("range")
-    if bounds is not None and (len(bounds) != 3 or not all(isinstance(b, (int, float)) for b in bounds)):
+    ends = None if bounds is None else [value_from_json(kind, bound).value for bound in bounds]
+    if ends is not None and len(ends) != 3:
         raise ValueError(f"range of '{name}'")
     declared = Declared(
         name,
-        TYPE_NAMES.index(entry["declared"]),
-        range=None if bounds is None else (bounds[0], bounds[1], bounds[2]),
-        one_of=tuple(entry.get("one_of", ())),
+        TYPE_NAMES.index(kind),
+        range=None if ends is None else (ends[0], ends[1], ends[2]),
+        one_of=tuple(value_from_json(kind, value).value for value in entry.get("one_of", ())),
         **members,
     )
     if not isinstance(entry["pending"], bool) or not isinstance(entry["written"], (int, float)):
         raise ValueError(f"times of '{name}'")
-    return Held(declared, value, entry["written"], entry["pending"])
+    return Held(declared, value, float(entry["written"]), entry["pending"])
+
+
+def _text(text: str) -> str:
+    """Return a text that UTF-8 can encode, as messages and the file do. Raises UnicodeEncodeError, a ValueError."""
+    text.encode()
+    return text

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Mapping
 from typing import Any
 
@@ -96,11 +97,11 @@ def _is(kind: int, value: Any) -> bool:
     if kind in (BOOL, BOOL_ARRAY):
         return isinstance(value, bool)
     if kind in (STRING, STRING_ARRAY):
-        return isinstance(value, str)
+        return isinstance(value, str) and not any("\ud800" <= letter <= "\udfff" for letter in value)
     if isinstance(value, bool):
         return False
     if kind in (DOUBLE, DOUBLE_ARRAY):
-        return isinstance(value, (int, float))
+        return isinstance(value, float) or (isinstance(value, int) and abs(value) <= sys.float_info.max)
     low, high = (0, 255) if kind == BYTE_ARRAY else (-(2**63), 2**63 - 1)
     return isinstance(value, int) and low <= value <= high
 

@@ -230,7 +230,7 @@ def test_the_example_of_the_profile_with_diagnostics(
 ) -> None:
     """The profile alone: a parameter that ROS sets, log messages, and reports on /diagnostics."""
     text = "version: 1\nprofiles: [configurable_sender_with_diagnostics]\n"
-    example = images.build(image_port.port, text).program
+    (example,) = (images.build(image_port.port, text).out / "bin").iterdir()
     observer.subscribe("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", reliable=True)
     with parameter_peer(domain) as peer, started(example) as process:
         await_line(process, "[INFO] [example]: all entities are open")

@@ -73,6 +73,12 @@ CHANGES: dict[str, Callable[[dict[str, object]], object]] = {
     "pending": lambda p: p.update(pending=1),
     "range": lambda p: p.update(range=[1, 2]),
     "text": lambda p: p.update(description=5),
+    "half a character": lambda p: p.update(description="\ud800"),
+    "half a character of a value": lambda p: p.update(type="string", value="\ud800"),
+    "above a double": lambda p: p.update(type="double", value=10**400),
+    "endless integers": lambda p: p.update(declared="integer", range=[float("-inf"), 1, 0]),
+    "values of another type": lambda p: p.update(one_of=["text"]),
+    "a time above a double": lambda p: p.update(written=10**400),
 }
 
 
@@ -85,6 +91,30 @@ def test_a_wrong_member_is_damage(file: ParameterFile, change: str) -> None:
     nodes, damage = file.load(node)
     assert nodes == ()
     assert "is damaged" in damage
+
+
+@pytest.mark.parametrize("name", ["arm", "/", "/a b", "/a//b", "/1", "/a/"])
+def test_a_wrong_name_of_a_node_is_damage(file: ParameterFile, name: str) -> None:
+    """The other nodes would have no server: it cannot offer services with that name."""
+    file.save([full(), node(name)])
+    assert "is no node" in file.load(node)[1]
+
+
+def test_lists_without_an_end_are_damage(file: ParameterFile) -> None:
+    file.path.write_text("[" * 100_000, encoding="utf-8")
+    assert "is damaged" in file.load(node)[1]
+
+
+def test_a_damaged_file_that_cannot_be_renamed(file: ParameterFile, monkeypatch: pytest.MonkeyPatch) -> None:
+    file.path.write_text("{", encoding="utf-8")
+
+    def fail(path: Path, target: Path) -> None:
+        raise OSError(30, "Read-only file system")
+
+    monkeypatch.setattr(Path, "replace", fail)
+    with pytest.raises(UserError, match="is damaged and cannot be renamed: Read-only file system"):
+        file.load(node)
+    assert file.path.read_text(encoding="utf-8") == "{"
 
 
 def test_a_later_version_is_left_alone(file: ParameterFile) -> None:
