@@ -100,7 +100,7 @@ def _joined(options: InitOptions, meta: Draft, adopted: Adopted) -> Draft:
         components=tuple(sorted({*meta.components, *code.components})),
         settings=meta.settings,
         groups=groups,
-        limits=_limits(options, adopted),
+        limits={**_limits(options, adopted), **code.limits},
         remarks=(*code.remarks, *meta.remarks),
     )
 

@@ -14,6 +14,7 @@ from microros_gen.migrate.capacities import Fact, find_capacities
 from microros_gen.migrate.draft import Draft, DraftNode, DraftValue, Remark, place
 from microros_gen.migrate.missing import find_missing, selected_by
 from microros_gen.migrate.parameter_clients import find_clients, owner, watches
+from microros_gen.migrate.parameter_servers import SERVERS, server_limits, server_pools
 from microros_gen.migrate.rclc_calls import (
     ENDPOINT_CALLS,
     NODE_CALLS,
@@ -45,7 +46,6 @@ _TASKS = frozenset(
 _THREADS = frozenset(("std", "thread"))
 _AXES = ("transport_", "entities_", "port_", "liveliness_", "clock_ros", "ping", "stream_")
 _GIVEN = (("publish", "pure_sender"), ("subscribe", "pure_reader"))
-_SERVERS = ("rclc_parameter_server_init_default", "rclc_parameter_server_init_with_option")
 _HELD = ("rclc_parameter_check_held", "rclc_parameter_count_overruled")
 _PROFILES = (("pure_sender", "publisher"), ("pure_reader", "subscription"))
 
@@ -85,7 +85,8 @@ def rclc_draft(
     remarks += find_missing(called, selected, catalogue)
     remarks += _macros(files)
     settings, more = find_settings(calls, values)
-    pools = {**settings.get("pools", {}), **_executors(calls)}
+    pools = {**settings.get("pools", {}), **_executors(calls), **server_pools(calls, values)}
+    limits, guesses = server_limits(calls, values)
     groups = {**settings, **({"pools": pools} if pools else {})}
     draft = Draft(
         profiles=profiles,
@@ -97,7 +98,8 @@ def rclc_draft(
         interfaces=_types_without_entity(nodes),
         nodes=nodes,
         groups=groups,
-        remarks=(*remarks, *more),
+        limits=limits,
+        remarks=(*remarks, *more, *guesses),
     )
     if not nodes and not called:
         diagnostics.error(
@@ -158,7 +160,7 @@ def _nodes(
             )
         owned[index or 0].append(endpoint)
     clients = find_clients(files, calls, values)
-    servers = [handle_of(call.arguments[1]) for call in calls if call.name in _SERVERS and call.arguments[1:]]
+    servers = [handle_of(call.arguments[1]) for call in calls if call.name in SERVERS and call.arguments[1:]]
     is_held = any(call.name in _HELD for call in calls)
     nodes: list[DraftNode] = []
     for index, node in enumerate(found):

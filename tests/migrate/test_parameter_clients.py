@@ -122,3 +122,61 @@ def test_parameters_that_a_server_holds(calls: str, line: str, init: Init, tmp_p
     text = (tmp_path / "app/microros.yaml").read_text()
     assert text.count("parameters: {at: agent}") == 1
     assert line in text
+
+
+SERVER = "#include <rclc_parameter/rclc_parameter.h>\n"
+
+
+def proposal(init: Init, folder: Path, body: str, before: str = "") -> str:
+    """Return the application file of a program with a parameter server."""
+    assert proposed(init, folder, body, before, header=SERVER) == ()
+    return (folder / "app/microros.yaml").read_text()
+
+
+def with_options(value: str, after: str = "") -> str:
+    options = f"  rclc_parameter_options_t options = {value};\n{after}"
+    return f"{options}  rclc_parameter_server_init_with_option(&server, &node, &options);\n"
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        with_options("{.notify_changed_over_dds = true, .max_params = 2 * STEPS}"),
+        with_options("{true, 12, false, false}"),
+        with_options("{true, 2, false, false}", "  options.max_params = 12;\n"),
+        "  for (int i = 0; i < 12; ++i) {\n    rclc_add_parameter(&server, names[i], RCLC_PARAMETER_INT);\n  }\n",
+        '  rclc_add_parameter(&server, "a", RCLC_PARAMETER_INT);\n' * 12,
+    ],
+)
+def test_a_server_with_more_parameters_than_usual(body: str, init: Init, tmp_path: Path) -> None:
+    text = proposal(init, tmp_path, body, "#define STEPS 6\n")
+    assert re.search(r"^  parameters: 12 # rclc_\w+ \(\S*main\.c:\d+\)$", text, re.MULTILINE), text
+
+
+@pytest.mark.parametrize("body", [with_options("{true, 4, false, false}"), with_options("defaults()"), ""])
+def test_a_server_with_the_usual_parameters(body: str, init: Init, tmp_path: Path) -> None:
+    opened = "  rclc_parameter_server_init_default(&server, &node);\n"
+    added = '  rclc_add_parameter(&server, "a", RCLC_PARAMETER_INT);\n'
+    text = proposal(init, tmp_path, body + opened + added)
+    assert "pools:" not in text
+    assert "limits:" not in text
+
+
+def test_strings_and_arrays_of_a_server_get_room(init: Init, tmp_path: Path) -> None:
+    body = "".join(
+        f'  rclc_add_parameter(&server, "{name}", RCLC_PARAMETER_{kind});\n'
+        for name, kind in (
+            ("label", "STRING"),
+            ("side", "STRING"),
+            ("ports", "INT_ARRAY"),
+            ("names", "STRING_ARRAY"),
+        )
+    ) + (
+        '  rclc_add_parameter_constraint_string(&server, "label", 80);\n'
+        '  rclc_add_parameter_constraint_array(&server, "ports", 3);\n'
+    )
+    text = proposal(init, tmp_path, body)
+    values = "string_value: 80, integer_array_value: 3, string_array_value: {sequence: 8, string: 49}"
+    assert f"  rcl_interfaces/msg/ParameterValue: {{{values}}} # rclc_add_parameter (" in text
+    assert len(undecided_in(tmp_path / "app/microros.yaml")) == 1
+    assert 'how many elements "names" has at most: 8 is a guess' in words(tmp_path)
