@@ -22,6 +22,16 @@ def compile_example(out: Path) -> None:
     assert done.returncode == 0, done.stderr
 
 
+def compile_library(out: Path) -> None:
+    """Nothing that is selected has a buffer of no bytes."""
+    for header in ("xrce_client.h", "xrce_streams.h"):
+        command = ["gcc", "-std=c99", *WARNINGS, "-Werror", f"-I{out / 'include'}", "-fsyntax-only", "-xc"]
+        source = out / "include" / "microros" / header
+        if source.is_file():
+            done = subprocess.run([*command, str(source)], capture_output=True, text=True, check=False)
+            assert done.returncode == 0, done.stderr
+
+
 def with_nothing_else(tmp_path: Path, *lines: str) -> str:
     """Return the example of the profile where nothing says which entities there are."""
     config = tmp_path / "microros.yaml"
@@ -31,6 +41,7 @@ def with_nothing_else(tmp_path: Path, *lines: str) -> str:
     options = compiler.Options(config=config, interface_paths=(shipped_folder(),))
     out = compiler.generate(options, tmp_path / "out").out
     compile_example(out)
+    compile_library(out)
     return next((out / "examples").rglob("main.c")).read_text()
 
 

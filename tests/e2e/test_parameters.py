@@ -234,6 +234,7 @@ def test_the_example_of_the_profile_with_diagnostics(
     observer.subscribe("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", reliable=True)
     with parameter_peer(domain) as peer, started(example) as process:
         await_line(process, "[INFO] [example]: all entities are open")
+        await_line(process, "parameters of /device are up to date")
         peer.wait("/device")
         assert peer.call("/device", "get_parameters", ["gain"])["values"] == [[3, 1.0]]
         for value, reason in (

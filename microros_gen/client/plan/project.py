@@ -35,7 +35,7 @@ from microros_gen.interfaces.types import Message, TypeName
 from microros_gen.platform.provide import Provisions
 from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
-from microros_gen.selection.declared import STREAM_RELIABLE, STREAM_RELIABLE_INPUT
+from microros_gen.selection.declared import STREAM_BEST_EFFORT, STREAM_RELIABLE, STREAM_RELIABLE_INPUT
 from microros_gen.selection.model import Selection
 from microros_gen.typesupport.plan.own_limits import LimitSet
 from microros_gen.typesupport.plan.types import TypePlan
@@ -151,6 +151,7 @@ def plan_project(
         and all(queue.requested_bytes is None for queue in queues),
         keeps_output=own_driver,
         reliable_output=selection.has(STREAM_RELIABLE),
+        best_effort_output=selection.has(STREAM_BEST_EFFORT),
     )
     receivers = receiving.subscriptions_max + serving.services_max + serving.clients_max
     receivers -= without_handle(application, "subscription", "service", "client")

@@ -157,6 +157,7 @@ def plan_streams(
     lends_input: bool = False,
     keeps_output: bool = False,
     reliable_output: bool = False,
+    best_effort_output: bool = False,
 ) -> StreamSizes:
     """Size the streams; a message that cannot fit its stream is an error with the number that would do.
 
@@ -166,9 +167,8 @@ def plan_streams(
     reliable message above the MTU goes in fragments, a best-effort one and a CREATE cannot. `reliable_input`:
     the agent's reliable stream is selected; a reliable DATA above the input buffer comes in fragments,
     since the client announces the size of that buffer to the agent. `lends_input`: a best-effort sample may wait in the
-    input buffer. `keeps_output`: the line can take a message from its stream. `reliable_output`: the reliable stream is
-    selected, even where nothing is written to it.
-    `pools.slot_size` makes each buffer at least so large.
+    input buffer. `keeps_output`: the line can take a message from its stream. `reliable_output`, `best_effort_output`:
+    this stream is selected, even where nothing is written to it. `pools.slot_size` makes each buffer at least so large.
     """
     messages, samples = tuple(written), tuple(received)
     ceiling = application.transport.mtu or _default_mtu(transport, create)
@@ -196,7 +196,7 @@ def plan_streams(
         best_effort = max(best_effort, create)
     if (creation or reliable_output) and not reliable:
         slots, reliable = 1, WRITE_DATA_OVERHEAD
-    best_effort = max(best_effort, least) if best_effort else 0
+    best_effort = max(best_effort, least, WRITE_DATA_OVERHEAD) if best_effort or best_effort_output else 0
     input_size = max(
         WRITE_SIDE_INPUT,
         least,
