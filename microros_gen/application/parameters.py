@@ -176,7 +176,7 @@ def _check_range(parameter: ParameterDecl, span: Span | None, diagnostics: Diagn
         diagnostics.error(message, span, "Swap them", id="MG-3009")
     elif not all(map(_is_finite, (low, high, step))):
         message = f"the range of the parameter '{parameter.name}' has a number that is not finite"
-        diagnostics.error(message, span, "Write finite numbers", id="MG-3063")
+        diagnostics.error(message, span, "Write finite numbers", id="MG-3099")
     elif parameter.type == "integer" and not all(_is_int64(v) for v in (low, high, step)):
         message = f"the range of the parameter '{parameter.name}' has a number that is no integer of 64 bits"
         diagnostics.error(message, span, "Write whole numbers, or type: double", id="MG-3057")
@@ -212,7 +212,7 @@ def _check_choices(parameter: ParameterDecl, choice: YamlNode, diagnostics: Diag
         elif not _is_finite(value):
             message = f"a value of the parameter '{parameter.name}' is not a finite number"
             diagnostics.error(
-                message, node.span, "Remove it, or check the value in the callback", id="MG-3063"
+                message, node.span, "Remove it, or check the value in the callback", id="MG-3100"
             )
         elif isinstance(value, str) and parameter.size is not None and len(value.encode()) > parameter.size:
             message = f"'{value}' is longer than the size of the parameter '{parameter.name}'"

@@ -102,7 +102,7 @@ class ParameterFile:
             self.path.replace(kept)
         except OSError as error:
             message = f"'{self.path}' is damaged and cannot be renamed: {error.strerror}"
-            raise UserError([Diagnostic(message, hint="Name another file", id="MG-9729")]) from error
+            raise UserError([Diagnostic(message, hint="Name another file", id="MG-9731")]) from error
         return kept
 
 

@@ -59,11 +59,12 @@ _OTHER_FILES = {
     "documents/schema_words.py",
     "migrate/c_program.py",
     "migrate/parameter_clients.py",
+    "migrate/parameter_servers.py",
     "parameter_server/exchange.py",
     "parameter_server/file.py",
     "parameter_server/served.py",
 }
-"""Have a key `parameters` of clients, parameters of C functions, or those in messages and in a file."""
+"""Have a key `parameters` of clients or a proposal, parameters of C functions, or those in messages and in a file."""
 MENTIONS = {
     "cdr": 1,
     "cdr_decode": 1,

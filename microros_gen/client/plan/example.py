@@ -72,8 +72,9 @@ def plan_filling(
 ) -> Filling:
     """Fill every plain member of `message` without its own default; arrays and sequences of plain ones stay.
 
-    Of a sequence of messages the first element gets its texts, where it has room for one. A string gets as much of
-    `text` as its limit has room for; one whose type has a lower bound stays empty.
+    A message that would be empty, but for a header, gets an element with texts in each sequence of messages that has
+    room for one. A string gets as much of `text` as its limit has room for; one whose type has a lower bound stays
+    empty.
     """
     members = tuple(_plain_members(message, messages, ""))
     stamps = tuple(path for path, field in members if field.type == NamedType(_TIME))
@@ -81,7 +82,8 @@ def plan_filling(
     values = tuple(MemberValue(path, _expression(kind)) for path, kind in numbers[:_MOST_VALUES])
     texts = tuple(_texts(message, messages, text, limits))
     elements, element_texts = list[str](), list[MemberValue]()
-    for field, own in zip(message.fields, limits.fields if limits else (), strict=False):
+    is_empty = not values and all("." in text.member for text in texts)
+    for field, own in zip(message.fields, limits.fields if limits and is_empty else (), strict=False):
         kind = field.type.element if isinstance(field.type, SequenceType) else None
         if isinstance(kind, NamedType) and own is not None and own.sequence and own.nested:
             found = tuple(_texts(messages[kind.name], messages, text, own.nested))

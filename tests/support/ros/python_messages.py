@@ -81,10 +81,10 @@ def _compile(folder: Path, module: Path, libraries: tuple[str, ...]) -> None:
     included = [f"-I{place}" for place in places]
     objects = []
     for source in sorted((*folder.rglob("*.c"), *folder.rglob("*.cpp"))):
-        made = source.with_name(f"{source.name}.o")
+        output = source.with_name(f"{source.name}.o")
         compiler = ["g++", "-std=c++17"] if source.suffix == ".cpp" else ["gcc"]
-        command = [*compiler, "-O0", "-fPIC", "-w", *included, "-c", str(source), "-o", str(made)]
+        command = [*compiler, "-O0", "-fPIC", "-w", *included, "-c", str(source), "-o", str(output)]
         subprocess.run(command, check=True, capture_output=True)
-        objects.append(str(made))
+        objects.append(str(output))
     found = [f"-L{PREFIX / 'lib'}", f"-Wl,-rpath,{PREFIX / 'lib'}", *(f"-l{name}" for name in libraries)]
     subprocess.run(["g++", "-shared", *objects, "-o", str(module), *found], check=True, capture_output=True)
