@@ -89,8 +89,34 @@ def test_macros_levels_and_the_console(verbose: Path) -> None:
     run(program_of(verbose, "unit_logging.c"))
 
 
-MACROS = """\
+_LEVELS = ("debug", "info", "warn", "error", "fatal")
+_VARIANTS = {
+    "": "",
+    "_NAMED": "name, ",
+    "_ONCE": "",
+    "_ONCE_NAMED": "name, ",
+    "_EXPRESSION": "limit > 2, ",
+    "_EXPRESSION_NAMED": "++limit > 2, name, ",
+    "_FUNCTION": "filter, ",
+    "_FUNCTION_NAMED": "&filter, name, ",
+    "_SKIPFIRST": "",
+    "_SKIPFIRST_NAMED": "name, ",
+    "_THROTTLE": "now, 100, ",
+    "_SKIPFIRST_THROTTLE": "now, 100, ",
+    "_THROTTLE_NAMED": "RCUTILS_STEADY_TIME, 100, name, ",
+    "_SKIPFIRST_THROTTLE_NAMED": "now, PERIOD, name, ",
+}
+"""The arguments before the format; what they use is used nowhere else."""
+_STATEMENT = """\
+  if (number == 1)
+    RCUTILS_LOG_{level}{variant}({before}"text of {text}");
+  else
+    RCUTILS_LOG_{level}{variant}({before}"text of {text} %d", number);
+"""
+_BEGIN = """\
 #include <rcutils/logging_macros.h>
+
+enum { PERIOD = 100 };
 
 static rcutils_ret_t now(rcutils_time_point_value_t * time)
 {
@@ -98,18 +124,26 @@ static rcutils_ret_t now(rcutils_time_point_value_t * time)
   return RCUTILS_RET_OK;
 }
 
+static bool filter(void)
+{
+  return true;
+}
+
 void application(int number, const char * name);
 void application(int number, const char * name)
 {
-  (void)now;
-  RCUTILS_LOG_DEBUG("text of debug %d", number);
-  RCUTILS_LOG_DEBUG_THROTTLE_NAMED(now, 100, name, "text of debug, named %d", number);
-  RCUTILS_LOG_INFO_NAMED(name, "text of info %d", number);
-  RCUTILS_LOG_WARN_EXPRESSION(number > 2, "text of warn %d", number);
-  RCUTILS_LOG_ERROR_ONCE("text of error %s", name);
-  RCUTILS_LOG_FATAL_SKIPFIRST("text of fatal");
-}
+  int limit = number * 3;
+
 """
+MACROS = (
+    _BEGIN
+    + "".join(
+        _STATEMENT.format(level=level.upper(), variant=variant, before=before, text=level)
+        for level in _LEVELS
+        for variant, before in _VARIANTS.items()
+    )
+    + "}\n"
+)
 
 
 def texts(out: Path, *flags: str) -> set[str]:

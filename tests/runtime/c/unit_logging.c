@@ -131,6 +131,43 @@ static void throttled_from_zero(void)
   CHECK(logged() == 10);
 }
 
+/* A clock that is set back, as the time of day can be: messages go on at the usual distance from there. */
+static void throttled_over_a_step_back(void)
+{
+  static const int64_t starts[] = {INT64_C(4294967296), INT64_C(2147483648), 0, -500};
+
+  for (size_t i = 0; i < sizeof(starts) / sizeof(starts[0]); ++i) {
+    for (now_ms = starts[i]; now_ms < starts[i] + 1000; now_ms += 10) {
+      RCUTILS_LOG_INFO_THROTTLE(clock_now, 100, "x");
+    }
+    CHECK(logged() == 10);
+  }
+}
+
+/* From before until after a count of milliseconds has 31 and 32 bits; a forward step is one message. */
+static void throttled_over_large_times(void)
+{
+  static const int64_t ends[] = {INT64_C(1) << 31, INT64_C(1) << 32, INT64_C(1700000000000)};
+
+  for (size_t i = 0; i < sizeof(ends) / sizeof(ends[0]); ++i) {
+    for (now_ms = ends[i] - 500; now_ms < ends[i] + 500; now_ms += 10) {
+      RCUTILS_LOG_INFO_THROTTLE(clock_now, 100, "x");
+    }
+    CHECK(logged() == 10);
+  }
+  now_ms = 2 * INT64_C(1700000000000);
+  for (int i = 0; i < 3; ++i) {
+    RCUTILS_LOG_INFO_THROTTLE(clock_now, INT64_C(4294967297), "once in 49.7 days");
+    now_ms += INT64_C(4294967296);
+  }
+  CHECK(logged() == 2);
+  for (int i = 0; i < 3; ++i) {
+    RCUTILS_LOG_INFO_THROTTLE(clock_now, 0, "always");
+    RCUTILS_LOG_INFO_THROTTLE(clock_now, -1, "always");
+  }
+  CHECK(logged() == 6);
+}
+
 static int64_t read_clock(clockid_t clock)
 {
   struct timespec now;
@@ -169,6 +206,27 @@ static int evaluate(void)
 {
   ++evaluated;
   return evaluated;
+}
+
+/* Each macro is one statement, and evaluates what it is given at most once. */
+static void nested(void)
+{
+  for (int i = 0; i < 4; ++i) {
+    if (i % 2 == 0)
+      if (i == 2)
+        RCUTILS_LOG_INFO_EXPRESSION(evaluate() > 0, "%d", evaluate());
+      else
+        RCUTILS_LOG_INFO_THROTTLE_NAMED(clock_now, 0, "n", "%d", evaluate());
+    else
+      RCUTILS_LOG_INFO_SKIPFIRST("%d", evaluate());
+  }
+  CHECK(logged() == 3 && evaluated == 4);
+  rcutils_logging_set_default_logger_level(RCUTILS_LOG_SEVERITY_FATAL);
+  RCUTILS_LOG_ERROR_EXPRESSION(evaluate() > 0, "%d", evaluate());
+  RCUTILS_LOG_ERROR_ONCE("%d", evaluate());
+  CHECK(logged() == 0 && evaluated == 4);
+  rcutils_logging_set_default_logger_level(RCUTILS_LOG_SEVERITY_UNSET);
+  evaluated = 0;
 }
 
 static void levels(void)
@@ -315,7 +373,10 @@ int main(void)
   conditions();
   throttled();
   throttled_from_zero();
+  throttled_over_a_step_back();
+  throttled_over_large_times();
   throttled_by_the_steady_clock();
+  nested();
   levels();
   names();
   messages_without_memory();
