@@ -197,7 +197,7 @@ def test_the_ring_outlasts_a_reset_in_the_middle_of_the_output(
                 found += [s["msg"] for topic, s in samples if topic == "/rosout" and s["name"] == "board"]
                 assert time.monotonic() < end, found
                 time.sleep(0.02)
-            printed = line.lines("lines from before the reset follow")
+            printed = line.lines("session open")
     assert found == ["after the fault 3", *(f"before the fault {number}" for number in range(3))]
     assert ("WARN", "board", "after the fault 3") in printed
     assert ("", "", "?") not in printed[1:], "only the first line can be what was left of a reset"

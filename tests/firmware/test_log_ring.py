@@ -49,5 +49,6 @@ def test_rclpy_receives_what_the_board_logged_before_a_fault(
             time.sleep(0.02)
     assert found == [
         (30, "board", "after the fault 3"),
+        (20, "microros", "lines from before the reset follow"),
         *((10, "board", f"before the fault {number}") for number in range(3)),
     ]

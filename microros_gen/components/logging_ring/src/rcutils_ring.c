@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rcutils_ring.h"
 
+#include "microros/port.h"
 #include "microros/rcutils_ring_hooks.h"
+#include "microros/rcutils_rosout.h"
 #include "microros/xrce_rosout.h"
 #include "microros_config.h"
 #include "rcl_interfaces/msg/log.h"
-#include "rcutils/logging_macros.h"
 
 #include <stddef.h>
 
@@ -165,7 +166,10 @@ void microros_ring_step(const xrce_client_t * client)
   while (ring_before != 0u && xrce_rosout_is_open(client) && xrce_rosout_has_room((uint32_t)RING_LINE_MAX)) {
     if (!ring_is_announced) {
       ring_is_announced = true;
-      RCUTILS_LOG_INFO_NAMED("microros", "lines from before the reset follow");
+      /* Whatever the level of /rosout: their times alone do not tell. Not into the ring, where it would replace a line. */
+      (void)microros_rosout_say(
+        RCUTILS_LOG_SEVERITY_INFO, "microros", port_time_epoch_ns(), 0u,
+        "lines from before the reset follow");
     } else {
       ring_publish_oldest();
     }
