@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Texts that are complete, and what was lost of others. */
+#include "microros/lock.h"
 #include "microros/rcutils_format.h"
 #include "rcutils/logging.h"
 
@@ -9,12 +10,19 @@ static rcutils_logging_counts_t format_counts;
 
 rcutils_logging_counts_t rcutils_logging_get_counts(void)
 {
-  return format_counts;
+  rcutils_logging_counts_t counts;
+
+  microros_lock();
+  counts = format_counts;
+  microros_unlock();
+  return counts;
 }
 
 void microros_format_dropped(void)
 {
+  microros_lock();
   ++format_counts.dropped;
+  microros_unlock();
 }
 
 void microros_format_end(microros_format_t * out)
@@ -24,7 +32,9 @@ void microros_format_end(microros_format_t * out)
   if (!out->truncated) {
     return;
   }
+  microros_lock();
   ++format_counts.truncated;
+  microros_unlock();
   /* Not in the middle of a character of UTF-8, which ROS would refuse to read. */
   while (out->used > marks && ((uint8_t)out->text[out->used - marks] & 0xc0u) == 0x80u) {
     --out->used;

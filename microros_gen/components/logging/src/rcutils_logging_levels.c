@@ -3,6 +3,7 @@
 #include "rcutils/logging.h"
 
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros_config.h"
 
 #include <string.h>
@@ -12,13 +13,16 @@ typedef struct logger_t {
   uint8_t level;
 } logger_t;
 
+/* In the lock alone: a task or a logger service can set levels while others log. */
 static logger_t loggers[MICROROS_LOGGERS_MAX];
 static uint8_t logger_default = MICROROS_LOG_LEVEL;
 
 rcutils_ret_t rcutils_logging_shutdown(void)
 {
+  microros_lock();
   (void)memset(loggers, 0, sizeof(loggers));
   logger_default = MICROROS_LOG_LEVEL;
+  microros_unlock();
   rcutils_logging_set_output_handler(NULL);
   g_rcutils_logging_initialized = false;
   return RCUTILS_RET_OK;
@@ -54,28 +58,42 @@ static bool level_is_valid(int level)
 
 int rcutils_logging_get_default_logger_level(void)
 {
-  return (int)logger_default;
+  uint8_t level;
+
+  microros_lock();
+  level = logger_default;
+  microros_unlock();
+  return (int)level;
 }
 
 void rcutils_logging_set_default_logger_level(int level)
 {
   if (level_is_valid(level)) {
+    microros_lock();
     logger_default = level == RCUTILS_LOG_SEVERITY_UNSET ? MICROROS_LOG_LEVEL : (uint8_t)level;
+    microros_unlock();
   }
+}
+
+/* Returns the level that was set for a logger, UNSET without one. */
+static int logger_level(const char * name, size_t size)
+{
+  const logger_t * found;
+  int level;
+
+  microros_lock();
+  found = logger_find(name, size);
+  level = found == NULL ? RCUTILS_LOG_SEVERITY_UNSET : (int)found->level;
+  microros_unlock();
+  return level;
 }
 
 int rcutils_logging_get_logger_leveln(const char * name, size_t name_length)
 {
-  const logger_t * found = NULL;
-
   if (name == NULL) {
     return -1;
   }
-  if (name_length == 0u) {
-    return (int)logger_default;
-  }
-  found = logger_find(name, name_length);
-  return found == NULL ? RCUTILS_LOG_SEVERITY_UNSET : (int)found->level;
+  return name_length == 0u ? rcutils_logging_get_default_logger_level() : logger_level(name, name_length);
 }
 
 int rcutils_logging_get_logger_level(const char * name)
@@ -101,21 +119,14 @@ static rcutils_ret_t logger_add(const char * name, size_t size, uint8_t level)
   return RCUTILS_RET_OK;
 }
 
-rcutils_ret_t rcutils_logging_set_logger_level(const char * name, int level)
+/* Sets or removes a level. */
+static rcutils_ret_t logger_set(const char * name, int level)
 {
-  logger_t * found = NULL;
+  const size_t size = strlen(name);
+  logger_t * const found = logger_find(name, size);
 
-  if (name == NULL || !level_is_valid(level)) {
-    return microros_error_refuse(RCUTILS_RET_INVALID_ARGUMENT, "name or level");
-  }
-  if (name[0] == '\0') {
-    rcutils_logging_set_default_logger_level(level);
-    return RCUTILS_RET_OK;
-  }
-  found = logger_find(name, strlen(name));
   if (found == NULL) {
-    return level == RCUTILS_LOG_SEVERITY_UNSET ? RCUTILS_RET_OK
-                                               : logger_add(name, strlen(name), (uint8_t)level);
+    return level == RCUTILS_LOG_SEVERITY_UNSET ? RCUTILS_RET_OK : logger_add(name, size, (uint8_t)level);
   }
   found->level = (uint8_t)level;
   if (level == RCUTILS_LOG_SEVERITY_UNSET) {
@@ -124,26 +135,41 @@ rcutils_ret_t rcutils_logging_set_logger_level(const char * name, int level)
   return RCUTILS_RET_OK;
 }
 
+rcutils_ret_t rcutils_logging_set_logger_level(const char * name, int level)
+{
+  rcutils_ret_t result = RCUTILS_RET_OK;
+
+  if (name == NULL || !level_is_valid(level)) {
+    return microros_error_refuse(RCUTILS_RET_INVALID_ARGUMENT, "name or level");
+  }
+  if (name[0] == '\0') {
+    rcutils_logging_set_default_logger_level(level);
+    return RCUTILS_RET_OK;
+  }
+  microros_lock();
+  result = logger_set(name, level);
+  microros_unlock();
+  return result;
+}
+
 int rcutils_logging_get_logger_effective_level(const char * name)
 {
-  const logger_t * found = NULL;
-  size_t size = 0;
-
   if (name == NULL) {
     return -1;
   }
-  for (size = strlen(name); size != 0u; --size) {
+  for (size_t size = strlen(name); size != 0u; --size) {
     const bool ends = name[size] == '\0' || name[size] == RCUTILS_LOGGING_SEPARATOR_CHAR;
+    const int level = ends ? logger_level(name, size) : RCUTILS_LOG_SEVERITY_UNSET;
 
-    found = ends ? logger_find(name, size) : NULL;
-    if (found != NULL) {
-      return (int)found->level;
+    if (level != RCUTILS_LOG_SEVERITY_UNSET) {
+      return level;
     }
   }
-  return (int)logger_default;
+  return rcutils_logging_get_default_logger_level();
 }
 
 bool rcutils_logging_logger_is_enabled_for(const char * name, int severity)
 {
-  return severity >= (name == NULL ? (int)logger_default : rcutils_logging_get_logger_effective_level(name));
+  return severity >= (name == NULL ? rcutils_logging_get_default_logger_level()
+                                   : rcutils_logging_get_logger_effective_level(name));
 }

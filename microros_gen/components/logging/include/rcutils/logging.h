@@ -8,7 +8,8 @@
  * Formats: %d %i %u %x %X %o %c %s %p %%, with flags, width, precision and the lengths hh h l ll z j t; with the
  * component `logging_float` also %f %F %e %E %g %G. Other floating-point conversions are printed unchanged.
  *
- * Levels and the output handler are set before other tasks log. Not for interrupts.
+ * With the component `multithread` every task may call these functions; the output handler is set before other tasks
+ * log, and several tasks may be in it at once. Not for interrupts: set a flag there, and log in a task.
  */
 #ifndef MICROROS_RCUTILS_LOGGING_H
 #define MICROROS_RCUTILS_LOGGING_H
