@@ -11,9 +11,8 @@ from typing import Any
 
 import pytest
 
-from microros_gen.ros.graph import GraphEndpoint
 from tests.support.runtime.driver import Client, Result
-from tests.support.runtime.graph_agent import GraphAgent, MadeGraph
+from tests.support.runtime.graph_agent import GraphAgent, MadeGraph, endpoint
 from tests.support.runtime.harness import build
 from tests.support.runtime.surface import write_application
 
@@ -39,25 +38,6 @@ TOPICS = tuple((f"/topic_{number}", (INT32,)) for number in range(5))
 NODE = (("/arm/count", (INT32,)),)
 DDS_TOPICS = (("rq/setRequest", ("std_srvs::srv::dds_::SetBool_Request_",)), ("rt/a", ("a::msg::dds_::A_",)))
 FOREVER = 9223372036854775807
-
-
-def endpoint(node: str, number: int = 1, **changed: Any) -> GraphEndpoint:
-    values: dict[str, Any] = {
-        "node": node,
-        "type": INT32,
-        "hash_version": 1,
-        "hash": bytes(range(32)),
-        "gid": bytes([number] * 16),
-        "reliability": 1,
-        "durability": 2,
-        "history": 3,
-        "liveliness": 1,
-        "depth": 7,
-        "deadline": 2_500_000_000,
-        "lifespan": 9223372036854775807,
-        "lease": 0,
-    }
-    return GraphEndpoint(**(values | changed))
 
 
 @pytest.fixture(scope="module")

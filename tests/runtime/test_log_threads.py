@@ -38,7 +38,9 @@ def test_tasks_log_while_levels_change(tmp_path: Path) -> None:
     assert (done.returncode, done.stdout) == (0, "dropped 0\n"), [
         report.read_text() for report in tmp_path.glob("races*")
     ]
-    texts = [line.rpartition("]: ")[2] for line in printed.read_text().splitlines() if line.startswith("[WARN]")]
+    texts = [
+        line.rpartition("]: ")[2] for line in printed.read_text().splitlines() if line.startswith("[WARN]")
+    ]
     for task in TASKS:
         of_task = [text for text in texts if text.startswith(f"task {task} ")]
         assert of_task == [f"task {task} line {number} end" for number in range(TURNS)]

@@ -123,6 +123,26 @@ class GraphAgent(ServingAgent):
         self.history.setdefault(payload[2:4], []).append(payload[:2] + payload[2:4] + self.damage(body))
 
 
+def endpoint(node: str, number: int = 1, **changed: Any) -> GraphEndpoint:
+    """Return a publisher or subscription of a topic of Int32; `number` is in its GID."""
+    values: dict[str, Any] = {
+        "node": node,
+        "type": "std_msgs/msg/Int32",
+        "hash_version": 1,
+        "hash": bytes(range(32)),
+        "gid": bytes([number] * 16),
+        "reliability": 1,
+        "durability": 2,
+        "history": 3,
+        "liveliness": 1,
+        "depth": 7,
+        "deadline": 2_500_000_000,
+        "lifespan": 9223372036854775807,
+        "lease": 0,
+    }
+    return GraphEndpoint(**(values | changed))
+
+
 def graph_codec() -> Codec:
     """Return a codec of both services of the graph server."""
     names = tuple(Named(f"microros_graph_msgs/srv/{name}", None) for name, _ in LISTS.values())

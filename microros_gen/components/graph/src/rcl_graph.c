@@ -38,7 +38,9 @@ rcl_ret_t rcl_graph_begin(void)
 
 void rcl_graph_end(void)
 {
+  microros_lock();
   graph_is_busy = false;
+  microros_unlock();
 }
 
 rcl_ret_t rcl_graph_write_name(const rmw_name_t * name, char full[MICROROS_GRAPH_NAME_SIZE])

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The source of the graph belongs to the first node; guard conditions are triggered by its changes. */
+/* The source of the graph belongs to the first node; guard conditions are triggered by its changes. Whichever task
+ * receives follows them, in the lock. */
+#include "microros/lock.h"
 #include "microros/rcl_graph.h"
 #include "microros/rcl_graph_hooks.h"
 #include "microros/rcl_guard_condition.h"
@@ -37,11 +39,8 @@ void rcl_graph_close(rcl_node_t * node)
   graph_node = NULL;
 }
 
-void rcl_graph_follow(void)
+static void graph_announce(void)
 {
-  if (!rcl_graph_source_has_changed()) {
-    return;
-  }
   ++graph_changes;
   for (size_t i = 0; i < MICROROS_NODES_MAX; ++i) {
     if (graph_triggers[i].taken) {
@@ -50,9 +49,23 @@ void rcl_graph_follow(void)
   }
 }
 
+void rcl_graph_follow(void)
+{
+  microros_lock();
+  if (rcl_graph_source_has_changed()) {
+    graph_announce();
+  }
+  microros_unlock();
+}
+
 uint32_t rcl_graph_changes(void)
 {
-  return graph_changes;
+  uint32_t changes;
+
+  microros_lock();
+  changes = graph_changes;
+  microros_unlock();
+  return changes;
 }
 
 const rcl_guard_condition_t * rcl_node_get_graph_guard_condition(const rcl_node_t * node)

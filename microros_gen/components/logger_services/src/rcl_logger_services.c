@@ -2,6 +2,7 @@
 /* Levels are set and read as rclpy's nodes do it. Requests and replies of all nodes share their memory. */
 #include "microros/rcl_logger_services.h"
 
+#include "microros/lock.h"
 #include "microros/rcl_service_open.h"
 #include "microros/rmw_node.h"
 #include "microros/rmw_service.h"
@@ -26,6 +27,7 @@ static logger_services_t logger_services[MICROROS_NODES_MAX];
 static rcl_interfaces__msg__LoggerLevel logger_levels[MICROROS_LOGGER_REQUEST_MAX];
 static char logger_names[MICROROS_LOGGER_REQUEST_MAX][MICROROS_LOGGER_NAME_SIZE];
 static char logger_reasons[MICROROS_LOGGER_REQUEST_MAX][MICROROS_LOGGER_REASON_SIZE];
+static bool logger_services_busy;
 
 static rcl_ret_t services_open(
   rcl_service_t * service, const rcl_node_t * node, const rosidl_service_type_support_t * type,
@@ -169,8 +171,36 @@ static void services_answer_set(const rcl_service_t * service)
   (void)rcl_send_response(service, &header, &response);
 }
 
+/* Returns whether this task answers. With several tasks that receive, one at a time does, because all requests share
+ * their memory; the others go on, and it answers theirs. A lock would not do: a reply can wait for room in the stream. */
+static bool services_begin(void)
+{
+  bool is_free;
+
+  if (MICROROS_TASKS_SHARE == 0u) {
+    return true;
+  }
+  microros_lock();
+  is_free = !logger_services_busy;
+  logger_services_busy = true;
+  microros_unlock();
+  return is_free;
+}
+
+static void services_end(void)
+{
+  if (MICROROS_TASKS_SHARE != 0u) {
+    microros_lock();
+    logger_services_busy = false;
+    microros_unlock();
+  }
+}
+
 void rcl_logger_services_answer(void)
 {
+  if (!services_begin()) {
+    return;
+  }
   for (size_t i = 0; i < MICROROS_NODES_MAX; ++i) {
     if (services_has_request(&logger_services[i].get)) {
       services_answer_get(&logger_services[i].get);
@@ -179,4 +209,5 @@ void rcl_logger_services_answer(void)
       services_answer_set(&logger_services[i].set);
     }
   }
+  services_end();
 }

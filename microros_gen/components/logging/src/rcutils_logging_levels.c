@@ -30,7 +30,7 @@ rcutils_ret_t rcutils_logging_shutdown(void)
 
 static logger_t * logger_find(const char * name, size_t size)
 {
-  if (size == 0u || size >= MICROROS_LOGGER_NAME_SIZE) {
+  if (size >= MICROROS_LOGGER_NAME_SIZE) {
     return NULL;
   }
   for (size_t i = 0; i < MICROROS_LOGGERS_MAX; ++i) {
