@@ -24,13 +24,17 @@ _TRANSIENT_LOCAL, _VOLATILE = 1, 2
 """Values of rmw/types.h."""
 _NAME = re.compile("(?:/[A-Za-z_][A-Za-z0-9_]*)+", re.ASCII)
 _Item = TypeVar("_Item")
+Version = Callable[[object, object], int]
+"""Returns the version of the graph (0 to 2^32 - 1) in which a question, the first argument, has this answer."""
+_NOTHING = ((), ())
+"""A question without an answer."""
 
 
-def list_names(graph: Graph, request: Value, version: int) -> Value:
-    """Return the response of ListNames; `version` (0 to 2^32 - 1) is that of the graph."""
+def list_names(graph: Graph, request: Value, version: Version) -> Value:
+    """Return the response of ListNames."""
     found = _names(graph, request["what"], request["node"])
     if isinstance(found, int):
-        return {"status": found, "version": version}
+        return {"status": found, "version": version(*_NOTHING)}
     chosen = [entry for entry in found if _passes(entry[0], request["filter"])]
     size, types_max = request["name_size"], request["types_max"]
 
@@ -40,36 +44,38 @@ def list_names(graph: Graph, request: Value, version: int) -> Value:
         complete = not types_max or len(fitting) == len(types)
         return ({"name": name, "types": fitting} if _fits(name, size) else None), complete
 
-    return _page(chosen, request["first"], request["names_max"], item, "names", version)
+    of = version((request["what"], request["node"]), found)
+    return _page(chosen, request["first"], request["names_max"], item, "names", of)
 
 
-def list_endpoints(graph: Graph, request: Value, version: int) -> Value:
-    """Return the response of ListEndpoints; `version` (0 to 2^32 - 1) is that of the graph."""
+def list_endpoints(graph: Graph, request: Value, version: Version) -> Value:
+    """Return the response of ListEndpoints."""
     what, name, node = request["what"], request["name"], request["matched_by"]
     if not _NAME.fullmatch(name):
-        return {"status": INVALID, "version": version}
+        return {"status": INVALID, "version": version(*_NOTHING)}
     try:
         if what in (SERVERS, CLIENTS):
             total = graph.count_servers(name) if what == SERVERS else graph.count_clients(name)
-            return {"status": OK, "version": version, "total": total, "next": total}
+            return {"status": OK, "version": version(*_NOTHING), "total": total, "next": total}
         if what not in (PUBLISHERS, SUBSCRIPTIONS):
-            return {"status": INVALID, "version": version}
+            return {"status": INVALID, "version": version(*_NOTHING)}
         found: Sequence[GraphEndpoint] | None
         found = graph.publishers(name) if what == PUBLISHERS else graph.subscriptions(name)
         if node:
             others = graph.subscriptions(name) if what == PUBLISHERS else graph.publishers(name)
             found = _matched(what, found, _meant([other for other in others if other.node == node], request))
     except RosError:  # a name too long
-        return {"status": INVALID, "version": version}
+        return {"status": INVALID, "version": version(*_NOTHING)}
     if found is None:
-        return {"status": UNKNOWN_NODE, "version": version}
+        return {"status": UNKNOWN_NODE, "version": version(*_NOTHING)}
     size = request["name_size"]
 
     def item(endpoint: GraphEndpoint) -> tuple[Value | None, bool]:
         fits = _fits(endpoint.node, size) and _fits(endpoint.type, size)
         return (_endpoint(endpoint) if fits else None), True
 
-    return _page(found, request["first"], request["endpoints_max"], item, "endpoints", version)
+    of = version((what, name, node, *_qos(request)), tuple(found))
+    return _page(found, request["first"], request["endpoints_max"], item, "endpoints", of)
 
 
 def match(publisher: GraphEndpoint, subscription: GraphEndpoint) -> bool:
@@ -106,8 +112,12 @@ def _names(graph: Graph, what: int, node: str) -> Names | int:
 
 def _meant(own: Sequence[GraphEndpoint], request: Value) -> Sequence[GraphEndpoint]:
     """Return the endpoints of a node that have the QoS of the request; all, if none has or it names none."""
-    wanted = request["reliability"], request["durability"], request["deadline"]
+    wanted = _qos(request)
     return [end for end in own if (end.reliability, end.durability, end.deadline) == wanted] or own
+
+
+def _qos(request: Value) -> tuple[int, int, int]:
+    return request["reliability"], request["durability"], request["deadline"]
 
 
 def _matched(

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import random
 import time
 from collections.abc import Callable
 
@@ -19,6 +20,8 @@ CHANGE_QOS = Qos(transient_local=True, depth=1)
 BETWEEN_CHANGES_S = 0.2
 """Shortest time between two notices: a system that starts changes a hundred times a second."""
 _VERSIONS = 1 << 32
+_QUESTIONS = 256
+"""Questions of one version whose answers are remembered."""
 _WAIT_S = 0.5
 
 
@@ -35,21 +38,22 @@ class GraphServer(Serving):
         super().__init__(peer, report)
         self._clock = clock
         self._graph = peer.graph()
-        self._version = 0
-        self._announced = 0
+        # The versions of a server that restarts are not those that its clients have seen.
+        self._version = self._announced = random.randrange(_VERSIONS // 2)
+        self._answered: dict[object, int] = {}
         self._next_s = clock()
+        peer.on_graph_change(self._changed)  # before the requests that are ready at the same time
         peer.serve(
             NAMES_SERVICE,
             "microros_graph_msgs/srv/ListNames",
-            lambda r: list_names(self._graph, r, self._version),
+            lambda r: list_names(self._graph, r, self.version),
         )
         peer.serve(
             ENDPOINTS_SERVICE,
             "microros_graph_msgs/srv/ListEndpoints",
-            lambda r: list_endpoints(self._graph, r, self._version),
+            lambda r: list_endpoints(self._graph, r, self.version),
         )
         self._changes = peer.publisher(CHANGE_TOPIC, "microros_graph_msgs/msg/Change", CHANGE_QOS)
-        peer.on_graph_change(self._changed)
 
     def turn(self, wait_s: float = _WAIT_S) -> None:
         """Wait for requests and changes, at most `wait_s` seconds, and serve them."""
@@ -61,5 +65,20 @@ class GraphServer(Serving):
             self._next_s = self._clock() + BETWEEN_CHANGES_S
             self._changes.publish({"version": self._version})
 
+    def version(self, question: object, answer: object) -> int:
+        """Return the version of the graph: a new one if the question was answered otherwise in this one.
+
+        DDS changes what the node knows before it tells the node so. Pages in between would belong to two graphs, and
+        have one version.
+        """
+        known = hash(answer)
+        if self._answered.setdefault(question, known) != known:
+            self._changed()
+            self._answered[question] = known
+        elif len(self._answered) > _QUESTIONS:
+            self._answered.pop(next(iter(self._answered)))
+        return self._version
+
     def _changed(self) -> None:
         self._version = (self._version + 1) % _VERSIONS
+        self._answered.clear()

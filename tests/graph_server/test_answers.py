@@ -55,7 +55,7 @@ def names(graph: Graph, **request: Any) -> dict[str, Any]:
         "name_size": 0,
         "types_max": 9,
     }
-    return list_names(graph, {**whole, **request}, 7)
+    return list_names(graph, {**whole, **request}, lambda _question, _answer: 7)
 
 
 def endpoints(graph: Graph, **request: Any) -> dict[str, Any]:
@@ -70,7 +70,7 @@ def endpoints(graph: Graph, **request: Any) -> dict[str, Any]:
         "endpoints_max": 9,
         "name_size": 0,
     }
-    return list_endpoints(graph, {**whole, **request}, 7)
+    return list_endpoints(graph, {**whole, **request}, lambda _question, _answer: 7)
 
 
 @pytest.mark.parametrize("page", [1, 3, 499, 500, 501])

@@ -26,6 +26,7 @@ from microros_gen.ros.qos import Qos
 from tests.support.agent.process import environment, own_domain
 from tests.support.e2e.graph_server import graph_server
 from tests.support.patience import seconds
+from tests.support.runtime.graph_agent import MadeGraph
 
 pytestmark = pytest.mark.ros
 IDLE_S = 15.0
@@ -281,6 +282,21 @@ def test_a_change_is_announced_and_makes_another_version(peer: Peer) -> None:
     assert peer.spin(settled, seconds(IDLE_S))
     assert versions[-1] > with_it
     assert versions == sorted(set(versions)), "each notice has a new version"
+
+
+def test_pages_of_one_version_are_of_one_graph(peer: Peer) -> None:
+    """The graph of the node changes before the node is told so."""
+    serving = GraphServer(peer, print)
+    ask = {"what": answers.NODES, "node": "", "filter": "", "name_size": 0, "types_max": 0, "names_max": 1}
+    graph: Any = MadeGraph(node_names=("/a", "/b"))
+    pages = [answers.list_names(graph, {**ask, "first": first}, serving.version) for first in (0, 1)]
+    assert [page["names"][0]["name"] for page in pages] == ["/a", "/b"]
+    assert pages[0]["version"] == pages[1]["version"]
+    graph.node_names = ("/a", "/c")
+    third = answers.list_names(graph, {**ask, "first": 1}, serving.version)
+    assert third["version"] != pages[0]["version"]
+    assert answers.list_names(graph, {**ask, "first": 0}, serving.version)["version"] == third["version"]
+    assert GraphServer(peer, print).version((), ()) != third["version"], "a server that starts again"
 
 
 def test_many_changes_are_few_notices_and_the_last_is_announced(server: object) -> None:

@@ -118,7 +118,7 @@ class GraphAgent(ServingAgent):
         kind = f"microros_graph_msgs/srv/{name}"
         request = self.codec.decode(f"{kind}_Request", LITTLE + payload[4:])
         self.requests.append((name, request))
-        response = self.change(answer(self.graph, request, self.version))  # type: ignore[arg-type]
+        response = self.change(answer(self.graph, request, lambda _question, _answer: self.version))  # type: ignore[arg-type]
         body = self.codec.encode(f"{kind}_Response", response)[ENCAPSULATION_BYTES:]
         self.history.setdefault(payload[2:4], []).append(payload[:2] + payload[2:4] + self.damage(body))
 
