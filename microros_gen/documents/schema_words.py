@@ -33,6 +33,8 @@ _QOS_PROFILES = {
     "system_default": "{depth: 10}",
 }
 """What people write for `qos:` (names of rmw_qos_profile_…, policies) → the same as a mapping."""
+_WORDS = re.compile(r"\^\(([a-z_|]+)\)\$")
+"""A pattern of words, one of which may stand in place of a list."""
 _OLD_NUMBER = re.compile(r"[-+]?([0-9][0-9_]*(:[0-5]?[0-9])+|[0-9]+(_[0-9]+)+|0b[01]+)")
 
 
@@ -102,7 +104,7 @@ def _hint(node: YamlNode, schema: dict[str, Any]) -> str | None:
         return _scalar_hint(node, kinds, schema)
     if isinstance(node, SequenceNode) and not node.items and "array" in kinds:
         return "Add an item, or remove the key"
-    if isinstance(node, MappingNode) and kinds == ["array"]:
+    if isinstance(node, MappingNode) and "array" in kinds and "object" not in kinds:
         return "Begin each item with '- ', or write [ … ]"
     return None
 
@@ -111,6 +113,8 @@ def _scalar_hint(node: ScalarNode, kinds: list[str], schema: dict[str, Any]) -> 
     text = node.text
     if "enum" in schema:
         return nearest(text, [str(value) for value in schema["enum"]])
+    if "array" in kinds and (words := _WORDS.fullmatch(schema.get("pattern", ""))):
+        return nearest(text, words[1].split("|"))
     if "array" in kinds and node.value is not None:
         return f"Write it as a list: [{text}]"
     if "boolean" in kinds and text.lower() in _OLD_BOOLEANS:

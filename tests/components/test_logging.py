@@ -251,6 +251,23 @@ def test_a_writer_is_named_once(tmp_path: Path) -> None:
     assert "4:20: error: duplicate writer 'console' in 'logging'" in without_id(reported.headline())
 
 
+@pytest.mark.parametrize(
+    ("text", "ending"),
+    [
+        ("rsout", "it is the text 'rsout'. Did you mean 'rosout'?"),
+        ("none", "it is the text 'none'"),
+        ("true", "it is true"),
+        ("{to: console}", "it is a mapping. Begin each item with '- ', or write [ … ]"),
+    ],
+)
+def test_a_word_that_is_no_writer_gets_a_hint_that_helps(tmp_path: Path, text: str, ending: str) -> None:
+    with pytest.raises(UserError) as caught:
+        planned(tmp_path, BARE + f"logging: {text}\n")
+    (reported,) = caught.value.diagnostics
+    expected = "'logging' must be console, callback, rosout or ring, or a list of such writers; "
+    assert without_id(reported.headline()).endswith(f"4:10: error: {expected}{ending}")
+
+
 def test_a_console_that_goes_nowhere_is_reported(tmp_path: Path) -> None:
     board = tmp_path / "silent.yaml"
     board.write_text("target: silent\nextends: qemu-mps2-an386\nstdio: {to: none}\n")
@@ -275,6 +292,7 @@ USELESS = "'size' of the log writer 'console' has no effect: mine keeps no lines
         ("stdio: {to: application}\n", ", size: 512", [USELESS, WAITS]),
         ("provides: [console_send]\n", ", size: 192", []),
         ("provides: [console_send]\n", ", size: 191", [FEW]),
+        ("provides: [console_send]\n", ", size: 0", [FEW.replace("191", "0")]),
     ],
 )
 def test_a_console_that_waits_is_reported(
@@ -304,6 +322,11 @@ NODE = "version: 1\nprofiles: [pure_sender]\nnodes: [{name: device}]\n"
             "logging: [{to: rosout, size: 100}]\n",
             "4:11",
             "the log writer 'rosout' has room for 100 bytes, and a line takes up to 290",
+        ),
+        (
+            "logging: [{to: rosout, size: 0}]\n",
+            "4:11",
+            "the log writer 'rosout' has room for 0 bytes, and a line takes up to 290",
         ),
         (
             "logging: rosout\nendpoints: {/rosout: {limits: {msg: 9}}}\n",

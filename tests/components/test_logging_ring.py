@@ -47,7 +47,7 @@ def test_a_ring_brings_rosout_with_it(tmp_path: Path) -> None:
     assert rosout.level == 20
 
 
-@pytest.mark.parametrize("size", [64, 40_000])
+@pytest.mark.parametrize("size", [0, 64, 40_000])
 def test_a_ring_that_is_too_small_or_too_large(tmp_path: Path, size: int) -> None:
     with pytest.raises(UserError) as raised:
         planned(tmp_path, BOARD % size)

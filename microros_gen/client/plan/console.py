@@ -16,7 +16,8 @@ def console_size(application: Application, target: Target) -> int:
     if not target.sends_console:
         return 0
     sizes = (writer.size for writer in application.logging if writer.to == _WRITER)
-    return next(sizes, None) or DEFAULT_SIZE
+    size = next(sizes, None)
+    return DEFAULT_SIZE if size is None else max(size, 1)
 
 
 def console_waits(target: Target) -> bool:

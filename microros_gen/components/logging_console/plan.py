@@ -26,7 +26,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> ConsolePlan:
         _check_without_ring(writer, context, diagnostics)
     elif size < TEXT_SIZE:
         diagnostics.error(
-            f"the log writer 'console' has {size} bytes, and a line takes up to {TEXT_SIZE}",
+            f"the log writer 'console' has {writer.size} bytes, and a line takes up to {TEXT_SIZE}",
             writer.span,
             f"Write `size: {TEXT_SIZE}` or more",
             id="MG-7046",

@@ -30,7 +30,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> RingPlan:
     """Return the size; at least one line has room."""
     writer = writer_of(context.application, "ring") or LogWriter("ring")
     least = _HEADER + context.types[TypeName("rcl_interfaces", "msg", "Log")].max_encoded_size
-    size = writer.size or max(SIZE, least)
+    size = max(SIZE, least) if writer.size is None else writer.size
     if not least <= size <= LARGEST:
         diagnostics.error(
             f"the log writer 'ring' has {size} bytes; 'size' must be {least} (the largest line) to {LARGEST}",

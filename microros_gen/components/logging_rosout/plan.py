@@ -42,7 +42,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> RosoutPlan:
         for member, bound in zip(planned.message.fields, fields, strict=True)
         if bound is not None
     }
-    size = writer.size or SIZE
+    size = SIZE if writer.size is None else writer.size
     least = _HEADER + planned.max_encoded_size
     if size < least:
         diagnostics.error(
