@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
@@ -31,6 +32,8 @@ from microros_gen.selection.component import Catalogue
 
 _STARTS = ("main", "appMain", "app_main", "setup")
 _PREFIXES = ("RCUTILS_LOG_", "rcl_", "rclc_", "rmw_", "rcutils_", "rosidl_runtime_c__", "micro_ros_", "uxr_")
+# rcl_interfaces__msg__Log__init, micro_ros_msgs__msg__Graph__fini: generated with their types
+_OF_TYPE = re.compile(r"__(?:msg|srv|action)__")
 # What starts a second task: POSIX, FreeRTOS, Zephyr, CMSIS-RTOS, NuttX
 _TASKS = frozenset(
     (
@@ -80,7 +83,7 @@ def rclc_draft(
     called = [
         call
         for call in calls
-        if call.name not in own and (call.name in selected or call.name.startswith(_PREFIXES))
+        if call.name not in own and (call.name in selected or _is_of_library(call.name))
     ]
     remarks += find_missing(called, selected, catalogue)
     remarks += _macros(files)
@@ -108,6 +111,10 @@ def rclc_draft(
             id="MG-9011",
         )
     return Adopted(draft, tuple(find_capacities(files, calls, values)))
+
+
+def _is_of_library(function: str) -> bool:
+    return function.startswith(_PREFIXES) and _OF_TYPE.search(function) is None
 
 
 def _selected(

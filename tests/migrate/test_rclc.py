@@ -309,6 +309,14 @@ def test_calls_that_need_manual_work_are_reported(call: str, reason: str) -> Non
     assert any(reason in reported for reported in reasons(program(call)))
 
 
+@pytest.mark.parametrize(
+    "call", ["rcl_interfaces__msg__ParameterEvent__init(&e);", "micro_ros_msgs__msg__Graph__fini(&g);"]
+)
+def test_functions_of_types_are_no_calls_of_the_library(call: str) -> None:
+    """Their packages are named as the library's functions are."""
+    assert not any("is not in this version" in reason for reason in reasons(program(call)))
+
+
 def test_messages_that_are_sent_need_no_arena() -> None:
     """They have storage that follows from their limits."""
     reported = reasons(
