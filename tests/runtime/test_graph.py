@@ -254,6 +254,18 @@ def test_a_wait_without_a_server_keeps_its_time(device: Device, timeout_ms: int)
     assert device.count("count publishers /arm/count") == 1
 
 
+def test_a_wait_of_no_time_is_one_query(device: Device) -> None:
+    """As in rcl: what is there already is found."""
+    device.client.ok("wait subscriptions /arm/count 0")
+    before = len(device.agent.requests)
+    result = device.client.call("wait subscriptions /arm/order 0")
+    assert (result.code, result.error, len(device.agent.requests)) == (TIMEOUT, "", before + 1)
+    device.agent.server = False
+    result = device.client.call("wait publishers /arm/order 0")
+    assert (result.code, result.slept) == (TIMEOUT, BETWEEN_MS)
+    assert "no answer of a graph server" in result.error
+
+
 def test_a_wait_that_fails_for_good_ends_at_once(device: Device) -> None:
     for name, code in (("/" + "x" * 95, ERROR), ("not_absolute", INVALID)):
         result = device.client.call(f"wait publishers {name} 9000")

@@ -1,21 +1,24 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Queries of the ROS graph. They are answered by a graph server (`microros-gen graph-server`, or one in the agent), or
- * with the component `graph_topic` from the last sample of ros_to_microros_graph, which the agent sends again for each
- * query. The sample has no QoS, type hash and GID (unknown, zero) and no names of DDS (RCL_RET_UNSUPPORTED); matched
- * counts are then those of endpoints of the same type.
+ * Queries of the ROS graph. A graph server answers them (`microros-gen graph-server`, or one in the agent). With the
+ * component `graph_topic` they are answered from the last sample of ros_to_microros_graph, which the agent sends once
+ * more for each query. That sample has no QoS, type hash or GID (unknown, zero) and no names of DDS
+ * (RCL_RET_UNSUPPORTED), so matched counts are those of endpoints of the same type.
  *
- * A query waits at most MICROROS_CREATE_TIMEOUT_MS for each page of a list, or each fragment of the sample, without
- * calling callbacks. Only one task at a time may query; another one gets RCL_RET_ERROR. Lists use memory of the given
- * allocator, and the caller frees them; the default allocator has `memory: {arena: N}` bytes. After an error nothing
- * is allocated. Codes, each with a text:
+ * Every query waits at most MICROROS_CREATE_TIMEOUT_MS for each page of a list, or each fragment of the sample, without
+ * calling callbacks. One task at a time may query; a second one gets RCL_RET_ERROR. Not for callbacks of the executor
+ * that must not wait, and not for interrupts. Lists are memory of the given allocator, which the caller frees with the
+ * functions below; the default allocator has `memory: {arena: N}` bytes. After an error nothing is allocated. Each code
+ * except RCL_RET_OK has a text:
  *
- * RCL_RET_TIMEOUT: no server answered, or no sample arrived. RCL_RET_BAD_ALLOC: the list has no room. RCL_RET_ERROR: a
- * name exceeds `limits` of microros_graph_msgs (micro_ros_msgs), the session is lost, or the graph changes faster than
- * it is read. RCL_RET_INVALID_ARGUMENT: an argument is NULL, an output is not zero-initialized, or a name is not fully
- * qualified. RCL_RET_UNSUPPORTED: `no_mangle` is true.
- * RCL_RET_NODE_NAME_NON_EXISTENT: the graph has no such node. RCL_RET_NODE_INVALID_NAMESPACE, RCL_RET_NODE_INVALID_NAME:
- * no node can have this name.
+ * RCL_RET_TIMEOUT: no answer of a server, or no sample.
+ * RCL_RET_BAD_ALLOC: the list has no room.
+ * RCL_RET_ERROR: a name is longer than `limits` of microros_graph_msgs (micro_ros_msgs), the session is lost, or the
+ * graph changes faster than it is read.
+ * RCL_RET_INVALID_ARGUMENT: an argument is NULL, an output is not zero-initialized, or a name is not fully qualified.
+ * RCL_RET_UNSUPPORTED: `no_mangle` is true.
+ * RCL_RET_NODE_NAME_NON_EXISTENT: the graph has no such node.
+ * RCL_RET_NODE_INVALID_NAMESPACE, RCL_RET_NODE_INVALID_NAME: no node can have this name.
  */
 #ifndef MICROROS_RCL_GRAPH_H
 #define MICROROS_RCL_GRAPH_H
@@ -120,10 +123,12 @@ rcl_ret_t rcl_service_server_is_available(
 const rcl_guard_condition_t * rcl_node_get_graph_guard_condition(const rcl_node_t * node);
 
 /*
- * Wait until the topic has `count` publishers or subscriptions. `timeout` is in nanoseconds; a negative one
- * means no time-out. Each query takes a round trip, so a shorter timeout always expires. A query that fails is repeated:
- * the server or the agent may restart meanwhile. RCL_RET_TIMEOUT: *success is false; a text is set if the last query got
- * no answer. RCL_RET_ERROR, with a text: the name is too long, or the endpoints are closed. `allocator` is not used. */
+ * Wait until the topic has `count` publishers or subscriptions. `timeout` is in nanoseconds. A negative one means no
+ * timeout; 0 is a single query, which waits as the functions above do. Each query takes a round trip, so a shorter
+ * timeout always expires. A query that fails is repeated: the server or the agent may restart meanwhile.
+ * RCL_RET_TIMEOUT: *success is false; a text is set if the last query got no answer. RCL_RET_ERROR, with a text: the name
+ * is too long, or the endpoints are closed. `allocator` is not used.
+ */
 rcl_ret_t rcl_wait_for_publishers(
   const rcl_node_t * node, rcl_allocator_t * allocator, const char * topic_name, const size_t count,
   rcutils_duration_value_t timeout, bool * success);
