@@ -55,6 +55,11 @@ def test_as_a_node_of_rclpy(
         invalid = "Failed reason: Invalid logger level."
         assert both_set(peer, ("arm", 33), ("arm", 0)) == [[False, invalid], [True, ""]]
         assert both_get(peer, "arm") == [["arm", 0]]
+        assert both_set(peer, ("arm", 60), ("arm", 5), ("", 255)) == [[False, invalid]] * 3
+        assert both_set(peer, ("", WARN)) == [[True, ""]]
+        assert both_get(peer, "", "arm") == [["", WARN], ["arm", 0]]
+        assert peer.set(DEVICE, ("", 0)) == [[True, ""]]  # the level of the build; rclpy enables all
+        assert peer.get(DEVICE, "") == [["", DEBUG]]
         assert both_get(peer) == []
         full = peer.set(DEVICE, ("a", WARN), ("b", WARN), ("c", WARN), ("d", WARN))
         assert [successful for successful, _ in full] == [True, True, True, False]
