@@ -104,6 +104,20 @@ def test_a_board_that_restarts_keeps_its_counts() -> None:
     assert (state(bench).address, state(bench).reconnects) == ("b", 3)
 
 
+def test_an_agent_that_restarts_begins_with_no_clients_and_no_counts() -> None:
+    before = watched()
+    opened(before)
+    opened(before)
+    assert state(before).reconnects == 1
+    after = watched()
+    after.say(write(7, 1, stream=BEST_EFFORT))  # of a session that it does not know
+    assert after.agent.client_states() == ()
+    opened(after)
+    after.say(write(0, 1, stream=BEST_EFFORT))
+    found = state(after)
+    assert (found.presence, found.sessions, found.reconnects, found.lost) == (Presence.CONNECTED, 1, 0, 0)
+
+
 def test_resent_messages_and_the_round_trip() -> None:
     bench = watched()
     opened(bench)

@@ -294,6 +294,30 @@ static void written(int end, char * text, size_t size)
   text[used] = '\0';
 }
 
+/* A handler of the application that passes messages on to the writers. */
+static void passing(
+  const rcutils_log_location_t * location, int severity, const char * name,
+  rcutils_time_point_value_t timestamp, const char * format, va_list * args)
+{
+  ++calls;
+  rcl_logging_multiple_output_handler(
+    location, severity, strcmp(name, "arm") == 0 ? NULL : name, timestamp, format, args);
+}
+
+static void passed_on(int end)
+{
+  char text[512];
+
+  rcutils_logging_set_output_handler(passing);
+  RCUTILS_LOG_INFO_NAMED("arm", "%d of %s", 3, "four");
+  RCUTILS_LOG_WARN_NAMED("leg", "%d of %s", 5, "six");
+  rcutils_logging_set_output_handler(NULL);
+  written(end, text, sizeof(text));
+  CHECK(
+    logged() == 2 && strstr(text, "] []: 3 of four\n") != NULL &&
+    strstr(text, "] [leg]: 5 of six\n") != NULL);
+}
+
 enum { LINES = 4 };
 static char lines[LINES][300000];
 
@@ -382,6 +406,7 @@ int main(void)
   messages_without_memory();
   configured();
   CHECK(dup2(ends[1], STDERR_FILENO) >= 0);
+  passed_on(ends[0]);
   console(ends[0]);
   CHECK(dup2(error_output, STDERR_FILENO) >= 0);
   console_lines();

@@ -2,6 +2,8 @@
 #include "rcl/logging.h"
 
 #include "microros/error.h"
+#include "microros/rcutils_console.h"
+#include "microros/rcutils_rosout.h"
 #include "microros_config.h"
 
 rcl_ret_t rcl_logging_configure(const rcl_arguments_t * global_args, const rcl_allocator_t * allocator)
@@ -32,4 +34,17 @@ rcl_ret_t rcl_logging_fini(void)
 bool rcl_logging_rosout_enabled(void)
 {
   return MICROROS_LOG_HAS_ROSOUT != 0u;
+}
+
+void rcl_logging_multiple_output_handler(
+  const rcutils_log_location_t * location, int severity, const char * name,
+  rcutils_time_point_value_t timestamp, const char * format, va_list * args)
+{
+  const char * const logger = name == NULL ? "" : name;
+  va_list copy; /* both read the same arguments */
+
+  va_copy(copy, *args);
+  microros_rosout_log(location, severity, logger, timestamp, format, &copy);
+  va_end(copy);
+  microros_console_log(severity, logger, timestamp, format, args);
 }

@@ -28,6 +28,12 @@ rcl_ret_t rcl_logging_fini(void);
 /* Returns whether `rosout` is among the writers. */
 bool rcl_logging_rosout_enabled(void);
 
+/* Passes a message to the writers of `logging:` that take its level. For an output handler, which otherwise replaces them:
+ * it can change or count a message and pass it on. Takes from `args`. */
+void rcl_logging_multiple_output_handler(
+  const rcutils_log_location_t * location, int severity, const char * name,
+  rcutils_time_point_value_t timestamp, const char * format, va_list * args);
+
 #ifdef __cplusplus
 }
 #endif
