@@ -54,12 +54,16 @@ bool xrce_rosout_put(const uint8_t * body, uint32_t size)
   return true;
 }
 
-bool microros_rosout_say(
-  int severity, const char * name, rcutils_time_point_value_t timestamp, uint32_t number, const char * words)
+void rcl_logging_rosout_output_handler(
+  const rcutils_log_location_t * location, int severity, const char * name,
+  rcutils_time_point_value_t timestamp, const char * format, va_list * args)
 {
   (void)timestamp;
-  announced += severity == 20 && strcmp(name, "microros") == 0 && number == 0u && words[0] == 'l' ? 1u : 100u;
-  return true;
+  (void)args;
+  announced += location == NULL && severity == RCUTILS_LOG_SEVERITY_INFO && strcmp(name, "microros") == 0 &&
+                   format[0] == 'l' && !microros_ring_takes(RCUTILS_LOG_SEVERITY_FATAL)
+                 ? 1u
+                 : 100u;
 }
 
 int64_t port_time_epoch_ns(void)

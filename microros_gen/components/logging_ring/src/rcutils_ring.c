@@ -3,9 +3,9 @@
 
 #include "microros/port.h"
 #include "microros/rcutils_ring_hooks.h"
-#include "microros/rcutils_rosout.h"
 #include "microros/xrce_rosout.h"
 #include "microros_config.h"
+#include "rcl/logging_rosout.h"
 #include "rcl_interfaces/msg/log.h"
 
 #include <stddef.h>
@@ -30,6 +30,7 @@ static const uint32_t ring_mark = 0x4c4f4721u ^ (uint32_t)MICROROS_LOG_RING_SIZE
 static uint32_t ring_before; /* bytes of lines from before the reset that wait for /rosout */
 static bool ring_is_checked;
 static bool ring_is_announced;
+static bool ring_is_announcing;
 
 static uint32_t ring_first(void)
 {
@@ -107,7 +108,7 @@ static void ring_drop(void)
 
 bool microros_ring_takes(int severity)
 {
-  return severity >= (int)MICROROS_LOG_RING_LEVEL;
+  return severity >= (int)MICROROS_LOG_RING_LEVEL && !ring_is_announcing;
 }
 
 /* A reset meanwhile leaves the lines as they were, or without the oldest ones: the place changes before and after. */
@@ -160,16 +161,23 @@ static void ring_publish_oldest(void)
   ring_drop();
 }
 
+/* Whatever the level of /rosout: the times of the lines alone do not tell. Not in the ring, where it would replace a line. */
+static void ring_announce(void)
+{
+  ring_is_announced = true;
+  ring_is_announcing = true;
+  rcl_logging_rosout_output_handler(
+    NULL, RCUTILS_LOG_SEVERITY_INFO, "microros", port_time_epoch_ns(), "lines from before the reset follow",
+    NULL); /* a format without conversions reads no arguments */
+  ring_is_announcing = false;
+}
+
 void microros_ring_step(const xrce_client_t * client)
 {
   ring_check();
   while (ring_before != 0u && xrce_rosout_is_open(client) && xrce_rosout_has_room((uint32_t)RING_LINE_MAX)) {
     if (!ring_is_announced) {
-      ring_is_announced = true;
-      /* Whatever the level of /rosout: their times alone do not tell. Not into the ring, where it would replace a line. */
-      (void)microros_rosout_say(
-        RCUTILS_LOG_SEVERITY_INFO, "microros", port_time_epoch_ns(), 0u,
-        "lines from before the reset follow");
+      ring_announce();
     } else {
       ring_publish_oldest();
     }

@@ -102,31 +102,23 @@ static void rosout_end(rosout_line_t * line, const rcutils_log_location_t * loca
   rosout_number(line, location == NULL ? 0u : (uint32_t)location->line_number);
 }
 
-bool microros_rosout_say(
-  int severity, const char * name, rcutils_time_point_value_t timestamp, uint32_t number, const char * words)
+static void rosout_report_dropped(rcutils_time_point_value_t timestamp)
 {
-  const microros_conversion_t how = {false, false, false, false, false, 0, -1, '\0', 'u'};
+  const microros_conversion_t number = {false, false, false, false, false, 0, -1, '\0', 'u'};
   rosout_line_t line;
   microros_format_t out;
 
-  rosout_begin(&line, severity, name, timestamp);
-  out = rosout_text_begin(&line, MICROROS_LOG_ROSOUT_TEXT);
-  if (number != 0u) {
-    microros_format_integer(&out, &how, number, false);
+  /* Reported once: there is room for a further line. */
+  if (rosout_unreported == 0u || !xrce_rosout_has_room((uint32_t)sizeof(line.body))) {
+    return;
   }
-  microros_format_string(&out, words);
+  rosout_begin(&line, RCUTILS_LOG_SEVERITY_WARN, "rcutils", timestamp);
+  out = rosout_text_begin(&line, MICROROS_LOG_ROSOUT_TEXT);
+  microros_format_integer(&out, &number, rosout_unreported, false);
+  microros_format_string(&out, " messages dropped");
   rosout_text_end(&line, &out);
   rosout_end(&line, NULL);
-  return xrce_rosout_put(line.body, line.position);
-}
-
-static void rosout_report_dropped(rcutils_time_point_value_t timestamp)
-{
-  /* Reported once: there is room for a further line. */
-  if (
-    rosout_unreported != 0u && xrce_rosout_has_room((uint32_t)rcl_interfaces__msg__Log__MAX_ENCODED_SIZE) &&
-    microros_rosout_say(
-      RCUTILS_LOG_SEVERITY_WARN, "rcutils", timestamp, rosout_unreported, " messages dropped")) {
+  if (xrce_rosout_put(line.body, line.position)) {
     rosout_unreported = 0;
   }
 }
