@@ -68,7 +68,7 @@ class GraphServer(Serving):
     def version(self, question: object, answer: object) -> int:
         """Return the version of the graph: a new one if the question was answered otherwise in this one.
 
-        DDS changes what the node knows before it tells the node so. Pages in between would belong to two graphs, and
+        DDS changes the graph of the node before it notifies the node. Pages in between would belong to two graphs, and
         have one version.
         """
         known = hash(answer)

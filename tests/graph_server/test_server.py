@@ -285,7 +285,7 @@ def test_a_change_is_announced_and_makes_another_version(peer: Peer) -> None:
 
 
 def test_pages_of_one_version_are_of_one_graph(peer: Peer) -> None:
-    """The graph of the node changes before the node is told so."""
+    """The graph of the node changes before the node notices."""
     serving = GraphServer(peer, print)
     ask = {"what": answers.NODES, "node": "", "filter": "", "name_size": 0, "types_max": 0, "names_max": 1}
     graph: Any = MadeGraph(node_names=("/a", "/b"))

@@ -255,7 +255,7 @@ def test_a_wait_without_a_server_keeps_its_time(device: Device, timeout_ms: int)
 
 
 def test_a_wait_of_no_time_is_one_query(device: Device) -> None:
-    """As in rcl: what is there already is found."""
+    """As in rcl: publishers that exist already are found."""
     device.client.ok("wait subscriptions /arm/count 0")
     before = len(device.agent.requests)
     result = device.client.call("wait subscriptions /arm/order 0")
