@@ -180,6 +180,16 @@ def test_without_logging_the_macros_are_nothing(tmp_path: Path, optimized: str) 
     assert "format" in done.stderr
 
 
+@pytest.mark.parametrize("logging", ["", "logging: [{to: console, level: debug}]\n"], ids=["without", "with"])
+def test_the_macros_in_cpp(tmp_path: Path, logging: str) -> None:
+    out = rendered(tmp_path, BARE + logging)
+    source = out / "macros.cpp"
+    source.write_text(MACROS)
+    flags = ("-Wall", "-Wextra", "-Wold-style-cast", "-Wunreachable-code", "-Werror", f"-I{out / 'include'}")
+    for compiler_name in ("g++", "clang++"):
+        run(compiler_name, *flags, "-fsyntax-only", source)
+
+
 def test_both_headers_have_the_same_macros() -> None:
     folder = ROOT / "microros_gen" / "components"
     heads = [

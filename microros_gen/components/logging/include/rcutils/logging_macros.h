@@ -16,7 +16,12 @@
 extern "C" {
 #endif
 
+#ifdef __cplusplus
+#define RCUTILS_CAST_DURATION(x) \
+  (static_cast<rcutils_duration_value_t>(x)) /* as C++ asks with -Wold-style-cast */
+#else
 #define RCUTILS_CAST_DURATION(x) ((rcutils_duration_value_t)(x))
+#endif
 
 #define RCUTILS_LOG_MIN_SEVERITY_DEBUG 0
 #define RCUTILS_LOG_MIN_SEVERITY_INFO 1

@@ -17,6 +17,13 @@
 extern "C" {
 #endif
 
+#ifdef __cplusplus
+#define RCUTILS_CAST_DURATION(x) \
+  (static_cast<rcutils_duration_value_t>(x)) /* as C++ asks with -Wold-style-cast */
+#else
+#define RCUTILS_CAST_DURATION(x) ((rcutils_duration_value_t)(x))
+#endif
+
 /* Never called. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
@@ -41,7 +48,7 @@ microros_log_nothing(const char * name, const char * format, ...)
   } while (0)
 
 #define MICROROS_LOG_CHECK_THROTTLE(get_time_point_value, duration) \
-  (get_time_point_value(&microros_log_now) == RCUTILS_RET_OK && (rcutils_duration_value_t)(duration) > 0)
+  (get_time_point_value(&microros_log_now) == RCUTILS_RET_OK && RCUTILS_CAST_DURATION(duration) > 0)
 
 #define RCUTILS_LOG_DEBUG(...) MICROROS_LOG_NOTHING(true, NULL, __VA_ARGS__)
 #define RCUTILS_LOG_DEBUG_NAMED(name, ...) MICROROS_LOG_NOTHING(true, name, __VA_ARGS__)
