@@ -125,13 +125,29 @@ void cdr_get_bool(cdr_in_t * in, bool * to, size_t count, const char * field)
   }
 }
 
+/** Returns a number with its bytes reversed. */
+static inline uint32_t turned(uint32_t number)
+{
+  return (number >> 24U) | ((number >> 8U) & 0xFF00U) | ((number << 8U) & 0xFF0000U) | (number << 24U);
+}
+
 uint32_t cdr_in_length(cdr_in_t * in, uint32_t width, const char * field)
 {
+  const uint32_t bytes = ((0U - in->position) & 3U) + 4U; /* its padding, and the length */
+  uint32_t left = in->size - in->position;                /* 0 after a fault */
   uint32_t length = 0U;
 
-  cdr_get_4(in, &length, 1U, field);
-  const uint32_t left = in->size - in->position; /* 0 after a fault */
-  if ((length > left) || (((uint64_t)length * width) > left)) {
+  if (left < bytes) {
+    cdr_in_refuse(in, CDR_FAULT_END, field, bytes, left);
+    return 0U;
+  }
+  in->position += bytes;
+  left -= bytes;
+  (void)memcpy(&length, &in->body[in->position - 4U], sizeof(length));
+  if (in->swap) {
+    length = turned(length);
+  }
+  if ((length > left) || ((width > 1U) && (((uint64_t)length * width) > left))) {
     cdr_in_refuse(in, CDR_FAULT_END, field, (uint64_t)length * width, left);
     return 0U;
   }

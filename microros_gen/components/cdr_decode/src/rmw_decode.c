@@ -32,7 +32,7 @@ rmw_ret_t rmw_decode_refuse(const microros_message_type_t * type, const cdr_faul
 rmw_ret_t rmw_decode(
   const microros_message_type_t * type, const uint8_t * body, uint32_t size, bool big_endian, void * message)
 {
-  cdr_fault_t fault = {.field = ""};
+  cdr_fault_t fault; /* set if the body is refused */
 
   if (type->decode == NULL) {
     return microros_error_named(RMW_RET_UNSUPPORTED, microros_error_not_received, type->dds_type_name);
