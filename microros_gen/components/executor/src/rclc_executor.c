@@ -73,7 +73,7 @@ rcl_ret_t rclc_executor_init(
       RCL_RET_INVALID_ARGUMENT, "executor, context, number_of_handles or allocator");
   }
   handles = executor_take(executor);
-  *executor = rclc_executor_get_zero_initialized_executor();
+  (void)memset(executor, 0, sizeof(*executor));
   if (handles == NULL) {
     return RCL_RET_BAD_ALLOC;
   }
@@ -101,7 +101,7 @@ rcl_ret_t rclc_executor_fini(rclc_executor_t * executor)
 {
   if (executor != NULL && executor->handles != NULL) {
     executor_release(executor);
-    *executor = rclc_executor_get_zero_initialized_executor();
+    (void)memset(executor, 0, sizeof(*executor));
     executor->timeout_ns = first_timeout_ns;
   }
   return RCL_RET_OK;
