@@ -79,9 +79,9 @@ static bool entities_is_free(const xrce_client_t * client, uint16_t place, uint8
 
 static void entities_next_place(xrce_entities_t * entities)
 {
-  const uint16_t next = (uint16_t)(entities->cursor + 1u);
+  const uint32_t next = (uint32_t)entities->cursor + 1u;
 
-  entities->cursor = next < XRCE_PLACES ? next : 0u;
+  entities->cursor = (uint16_t)(next < (uint32_t)XRCE_PLACES ? next : 0u);
 }
 
 /* Makes the next step look for work at once. */

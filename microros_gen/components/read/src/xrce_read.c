@@ -5,15 +5,18 @@
 #include "microros/xrce_sinks.h"
 #include "microros/xrce_wire.h"
 
-#include <string.h>
-
 /* Message header, submessage header, request id, object id; then the specification (OMG DDS-XRCE 1.0, 8.3.5.9). */
 enum {
   READ_REQUEST_AT = 8,
   READ_OBJECT_AT = 10,
   STREAM_AT = 12,
+  FORMAT_AT = 13,
+  FILTERED_AT = 14,
   CONTROLLED_AT = 15,
   SAMPLES_AT = 16,
+  ELAPSED_AT = 18,
+  BYTES_AT = 20,
+  PACE_AT = 22,
   READ_DATA_MESSAGE = 24,
   READ_STATUS_SIZE = 6
 };
@@ -47,11 +50,14 @@ const xrce_queue_t * xrce_read_queue(const xrce_client_t * client, const xrce_re
   return &xrce_queues[read_index(client, receiver)];
 }
 
+static bool read_is_reliable(const xrce_client_t * client, uint16_t index)
+{
+  return (client->endpoints[read_place(index) - MICROROS_NODES_MAX].qos & XRCE_QOS_RELIABLE) != 0u;
+}
+
 bool xrce_read_is_reliable(const xrce_client_t * client, const xrce_receiver_t * receiver)
 {
-  const uint16_t place = read_place(read_index(client, receiver));
-
-  return (client->endpoints[place - MICROROS_NODES_MAX].qos & XRCE_QOS_RELIABLE) != 0u;
+  return read_is_reliable(client, read_index(client, receiver));
 }
 
 xrce_receiver_t * xrce_read_find(xrce_client_t * client, uint16_t object)
@@ -68,31 +74,45 @@ xrce_receiver_t * xrce_read_find(xrce_client_t * client, uint16_t object)
 static void read_send(xrce_client_t * client, uint32_t now)
 {
   xrce_reading_t * reading = &client->reading;
-  const xrce_receiver_t * receiver = &client->receivers[reading->receiver];
   uint8_t message[READ_DATA_MESSAGE];
 
-  (void)memset(message, 0, sizeof(message));
   xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_READING, reading->sequence);
   xrce_put_submessage(&message[4], XRCE_READ_DATA, XRCE_FLAG_LITTLE_ENDIAN, READ_DATA_MESSAGE - 8);
   xrce_put_be16(&message[READ_REQUEST_AT], reading->request);
   xrce_put_be16(&message[READ_OBJECT_AT], read_object(reading->receiver));
+  message[STREAM_AT] = 0;
   if (reading->samples != 0u) {
-    message[STREAM_AT] = xrce_read_is_reliable(client, receiver) ? (uint8_t)XRCE_STREAM_RELIABLE
-                                                                 : (uint8_t)XRCE_STREAM_BEST_EFFORT;
+    message[STREAM_AT] = read_is_reliable(client, reading->receiver) ? (uint8_t)XRCE_STREAM_RELIABLE
+                                                                     : (uint8_t)XRCE_STREAM_BEST_EFFORT;
   }
+  message[FORMAT_AT] = 0; /* that of XRCE_READ_FORMATS, without a content filter */
+  message[FILTERED_AT] = 0;
   message[CONTROLLED_AT] = 1;
-  xrce_put_le16(&message[SAMPLES_AT], reading->samples);
+  xrce_put_le16(&message[SAMPLES_AT], reading->samples); /* limited by nothing else */
+  xrce_put_le16(&message[ELAPSED_AT], 0);
+  xrce_put_le16(&message[BYTES_AT], 0);
+  xrce_put_le16(&message[PACE_AT], 0);
   reading->due_ms = now + xrce_session_short_pause(now - reading->requested_ms);
   (void)xrce_session_send(&client->session, message, sizeof(message)); /* a lost message is repeated */
 }
 
 /* Returns how many samples to request; 0: none. */
-static uint16_t read_samples(const xrce_client_t * client, const xrce_receiver_t * receiver)
+static uint16_t read_samples(const xrce_client_t * client, uint16_t index)
 {
-  if (!xrce_read_is_reliable(client, receiver)) {
+  const xrce_receiver_t * receiver = &client->receivers[index];
+
+  if (!read_is_reliable(client, index)) {
     return receiver->request == XRCE_REQUEST_NONE ? (uint16_t)SAMPLES_UNLIMITED : 0u;
   }
   return receiver->granted == 0u ? xrce_read_room(client, receiver) : 0u;
+}
+
+/*
+ * Returns whether a receiver waits for samples that it requested, as most of them do: each pump looks at all receivers.
+ * A preconfigured one may have been closed meanwhile. */
+static bool read_waits(const xrce_receiver_t * receiver)
+{
+  return MICROROS_PRECONFIGURED == 0u && receiver->granted != 0u;
 }
 
 /* Returns whether a receiver needs a READ_DATA, and for how many samples. Preconfigured entities still
@@ -106,11 +126,13 @@ static bool read_needs_request(xrce_client_t * client, uint16_t index, uint32_t 
   if (!state->wanted) {
     return MICROROS_PRECONFIGURED != 0u && receiver->request != XRCE_REQUEST_NONE;
   }
-  receiver->resting = receiver->resting && !xrce_is_due(now, receiver->due_ms);
+  if (receiver->resting) {
+    receiver->resting = !xrce_is_due(now, receiver->due_ms);
+  }
   if (receiver->resting || state->stale || state->level != xrce_place_complete(read_place(index))) {
     return false;
   }
-  *samples = read_samples(client, receiver);
+  *samples = read_samples(client, index);
   return *samples != 0u;
 }
 
@@ -134,6 +156,7 @@ static void read_begin(xrce_client_t * client, uint16_t samples, uint32_t now)
 void xrce_read_step(xrce_client_t * client, uint32_t now)
 {
   xrce_reading_t * reading = &client->reading;
+  uint32_t index = reading->receiver;
   uint16_t samples;
 
   if (client->session.state != XRCE_READY) {
@@ -145,11 +168,13 @@ void xrce_read_step(xrce_client_t * client, uint32_t now)
     }
     return;
   }
-  for (uint16_t i = 0; i < (uint16_t)XRCE_RECEIVERS; ++i) {
-    reading->receiver = (uint16_t)(reading->receiver + 1u);
+  for (uint32_t i = 0; i < (uint32_t)XRCE_RECEIVERS; ++i) {
+    ++index;
     /* cppcheck-suppress knownConditionTrueFalse ; a plan with one receiver has no other */
-    reading->receiver = reading->receiver < XRCE_RECEIVERS ? reading->receiver : 0u;
-    if (read_needs_request(client, reading->receiver, now, &samples)) {
+    index = index < XRCE_RECEIVERS ? index : 0u;
+    if (
+      !read_waits(&client->receivers[index]) && read_needs_request(client, (uint16_t)index, now, &samples)) {
+      reading->receiver = (uint16_t)index;
       read_begin(client, samples, now);
       return;
     }

@@ -3,19 +3,23 @@
 
 size_t microros_text_size(const char * text)
 {
-  const char * end = text;
+  size_t size = 0;
 
-  while (*end != '\0') {
-    ++end;
+  while (text[size] != '\0') {
+    ++size;
   }
-  return (size_t)(end - text);
+  return size;
 }
 
+/* The linker stores equal constants once, so that the names of types mostly have one address. */
 bool microros_text_equals(const char * a, const char * b)
 {
-  while (*a == *b && *a != '\0') {
+  while (*a == *b) {
+    if (a == b || *a == '\0') {
+      return true;
+    }
     ++a;
     ++b;
   }
-  return *a == *b;
+  return false;
 }
