@@ -2,17 +2,20 @@
 #include "microros/rclc_parameter_in.h"
 
 #include <stddef.h>
+#include <string.h>
+
+enum { IN_LENGTH = 4 }; /* bytes of the length of a sequence */
 
 const uint8_t * rclc_parameter_in_take(cdr_in_t * in, uint32_t count, uint32_t width)
 {
   const uint32_t start = cdr_aligned(in->position, width);
-  const uint64_t bytes = (uint64_t)count * width;
 
-  if (in->failed || start > in->size || bytes > (uint64_t)in->size - start) {
-    cdr_in_refuse(in, CDR_FAULT_END, "message", bytes, in->size - in->position);
+  /* A sample has less than 64 KiB, so a product that is looked at is in range. */
+  if (in->failed || start > in->size || count > in->size - start || count * width > in->size - start) {
+    cdr_in_refuse(in, CDR_FAULT_END, "message", (uint64_t)count * width, in->size - in->position);
     return NULL;
   }
-  in->position = start + (uint32_t)bytes;
+  in->position = start + count * width;
   return &in->body[start];
 }
 
@@ -24,16 +27,16 @@ uint32_t rclc_parameter_in_length(cdr_in_t * in)
 /* As in ROS, a string ends at its first NUL or after its length. */
 parameter_text_t rclc_parameter_in_text(cdr_in_t * in)
 {
-  const uint32_t length = rclc_parameter_in_length(in);
-  const uint8_t * bytes = rclc_parameter_in_take(in, length, 1u);
-  parameter_text_t text = {"", 0};
+  const uint32_t length = rclc_parameter_in_length(in); /* so many bytes are left */
+  const uint8_t * bytes = &in->body[in->position];
+  parameter_text_t text = {(const char *)bytes, 0};
+  uint32_t size = 0;
 
-  if (bytes != NULL) {
-    text.data = (const char *)bytes;
-    while (text.size < length && bytes[text.size] != 0u) {
-      ++text.size;
-    }
+  while (size < length && bytes[size] != 0u) {
+    ++size;
   }
+  text.size = size;
+  in->position += length;
   return text;
 }
 
@@ -55,4 +58,24 @@ uint32_t rclc_parameter_in_pass_texts(cdr_in_t * in)
     (void)rclc_parameter_in_text(in);
   }
   return count;
+}
+
+bool rclc_parameter_in_pass_empty(cdr_in_t * in, uint32_t count)
+{
+  const uint32_t bytes = count * (uint32_t)IN_LENGTH;
+  const uint32_t start = cdr_aligned(in->position, (uint32_t)IN_LENGTH);
+
+  if (start > in->size || bytes > in->size - start) {
+    return false;
+  }
+  for (uint32_t i = 0; i < count; ++i) {
+    uint32_t length;
+
+    (void)memcpy(&length, &in->body[start + i * (uint32_t)IN_LENGTH], sizeof(length));
+    if (length != 0u) { /* 0 in both byte orders */
+      return false;
+    }
+  }
+  in->position = start + bytes;
+  return true;
 }

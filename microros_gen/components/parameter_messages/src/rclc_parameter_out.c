@@ -4,26 +4,26 @@
 #include "microros/cdr.h"
 #include "microros/text.h"
 
-#include <string.h>
+#include <stddef.h>
 
-/* Returns the place for `bytes` with the alignment `width` and moves past it; NULL: no room. */
-static uint8_t * out_take(parameter_out_t * out, uint32_t width, uint32_t bytes)
+uint8_t * rclc_parameter_out_take(parameter_out_t * out, uint32_t width, uint32_t bytes)
 {
   const uint32_t start = cdr_aligned(out->position, width);
-  uint8_t * to = &out->body[out->position];
 
   if (start > out->room || bytes > out->room - start) {
     out->full = true;
     return NULL;
   }
-  (void)memset(to, 0, start - out->position);
+  for (uint32_t i = out->position; i < start; ++i) {
+    out->body[i] = 0; /* mostly none: a call of memset for each member would take longer than the member */
+  }
   out->position = start + bytes;
   return &out->body[start];
 }
 
 void rclc_parameter_out_1(parameter_out_t * out, uint8_t value)
 {
-  uint8_t * to = out_take(out, 1u, 1u);
+  uint8_t * to = rclc_parameter_out_take(out, 1u, 1u);
 
   if (to != NULL) {
     *to = value;
@@ -32,7 +32,7 @@ void rclc_parameter_out_1(parameter_out_t * out, uint8_t value)
 
 void rclc_parameter_out_4(parameter_out_t * out, uint32_t value)
 {
-  uint8_t * to = out_take(out, 4u, 4u);
+  uint8_t * to = rclc_parameter_out_take(out, 4u, 4u);
 
   if (to != NULL) {
     cdr_put_4(to, &value);
@@ -54,7 +54,7 @@ void rclc_parameter_out_end(parameter_out_t * out, uint32_t at, uint32_t count)
 
 void rclc_parameter_out_8(parameter_out_t * out, const void * value)
 {
-  uint8_t * to = out_take(out, 8u, 8u);
+  uint8_t * to = rclc_parameter_out_take(out, 8u, 8u);
 
   if (to != NULL) {
     cdr_put_8(to, value);
@@ -63,7 +63,7 @@ void rclc_parameter_out_8(parameter_out_t * out, const void * value)
 
 void rclc_parameter_out_bytes(parameter_out_t * out, uint32_t width, const void * from, uint32_t bytes)
 {
-  uint8_t * to = out_take(out, width, bytes);
+  uint8_t * to = rclc_parameter_out_take(out, width, bytes);
 
   if (to != NULL) {
     cdr_copy(to, from, bytes);
@@ -78,7 +78,7 @@ void rclc_parameter_out_parts(parameter_out_t * out, const parameter_text_t * pa
   for (uint32_t i = 0; i < count; ++i) {
     size += parts[i].size;
   }
-  to = out_take(out, 4u, 4u + size);
+  to = rclc_parameter_out_take(out, 4u, 4u + size);
   if (to == NULL) {
     return;
   }

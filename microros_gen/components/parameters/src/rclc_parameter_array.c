@@ -17,6 +17,9 @@ void rclc_parameter_array_request(cdr_in_t * in, parameter_requested_t * request
 {
   requested->array = *in;
   requested->array_count = 0;
+  if (rclc_parameter_in_pass_empty(in, (uint32_t)PARAMETER_ARRAYS)) {
+    return;
+  }
   for (uint32_t i = 0; i < (uint32_t)PARAMETER_ARRAYS; ++i) {
     cdr_in_t start = *in;
     const uint32_t count = i == (uint32_t)PARAMETER_ARRAYS - 1u ? rclc_parameter_in_pass_texts(in)

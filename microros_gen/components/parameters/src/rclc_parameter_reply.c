@@ -124,8 +124,11 @@ uint32_t rclc_parameter_reply_results(const void * message, uint8_t * body, cdr_
   (void)fault;
   rclc_parameter_out_4(&out, count);
   for (uint32_t i = 0; fits && i < count; ++i) {
-    parameter_requested_t requested = {.name = {"", 0}, .type = (uint8_t)RCLC_PARAMETER_NOT_SET};
+    parameter_requested_t requested; /* read only for a reason */
 
+    requested.name.data = "";
+    requested.name.size = 0;
+    requested.type = (uint8_t)RCLC_PARAMETER_NOT_SET;
     if (has_reasons) {
       rclc_parameter_request_parameter(&in, &requested); /* no name and no value of one that did not arrive */
     }

@@ -10,23 +10,33 @@
 
 #include <string.h>
 
-void rclc_parameter_request_parameter(cdr_in_t * in, parameter_requested_t * requested)
+/* Moves past what follows the numbers of a parameter, and notes its string or array where a server can hold them. */
+static void request_rest(cdr_in_t * in, parameter_requested_t * requested)
 {
-  bool truth = false;
-  rclc_parameter_scalar_t numbers[2] = {
-    {.integer_value = 0}, {.integer_value = 0}}; /* an integer, a double */
-
-  requested->type = (uint8_t)RCLC_PARAMETER_NOT_SET;
-  requested->name = rclc_parameter_in_text(in);
-  cdr_get_1(in, &requested->type, 1u, "message");
-  cdr_get_bool(in, &truth, 1u, "message");
-  cdr_get_8(in, numbers, 2u, "message");
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
   requested->string = rclc_parameter_in_text(in);
 #else
-  (void)rclc_parameter_in_text(in);
+  (void)rclc_parameter_in_pass(in, 1u);
 #endif
   rclc_parameter_array_request(in, requested);
+}
+
+void rclc_parameter_request_parameter(cdr_in_t * in, parameter_requested_t * requested)
+{
+  rclc_parameter_scalar_t numbers[2] = {
+    {.integer_value = 0}, {.integer_value = 0}}; /* an integer, a double */
+  const uint8_t * bytes;
+  bool truth = false;
+
+  requested->type = (uint8_t)RCLC_PARAMETER_NOT_SET;
+  requested->name = rclc_parameter_in_text(in);
+  bytes = rclc_parameter_in_take(in, 2u, 1u);
+  if (bytes != NULL) {
+    requested->type = bytes[0];
+    truth = bytes[1] != 0u;
+  }
+  cdr_get_8(in, numbers, 2u, "message");
+  request_rest(in, requested);
   requested->value = numbers[requested->type == (uint8_t)RCLC_PARAMETER_DOUBLE ? 1 : 0];
   if (requested->type == (uint8_t)RCLC_PARAMETER_BOOL) {
     requested->value.bool_value = truth;
@@ -91,7 +101,7 @@ void rclc_parameter_decode_list(cdr_in_t * in, void * server)
 
 void rclc_parameter_decode_parameters(cdr_in_t * in, void * server)
 {
-  parameter_requested_t requested;
+  parameter_requested_t passed = {.type = (uint8_t)RCLC_PARAMETER_NOT_SET};
   uint32_t count;
 
   if (request_cut(in, server)) {
@@ -99,7 +109,10 @@ void rclc_parameter_decode_parameters(cdr_in_t * in, void * server)
   }
   count = rclc_parameter_in_length(in);
   for (uint32_t i = 0; i < count && !in->failed; ++i) {
-    rclc_parameter_request_parameter(in, &requested);
+    (void)rclc_parameter_in_pass(in, 1u);     /* the name */
+    (void)rclc_parameter_in_take(in, 2u, 1u); /* the type, and a bool */
+    (void)rclc_parameter_in_take(in, 2u, 8u); /* an integer, and a double */
+    request_rest(in, &passed);
   }
   request_keep(in, server);
 }

@@ -8,8 +8,8 @@
 #include "microros/rclc_parameter_held.h"
 #endif
 #include "rclc/publisher.h"
-#include "rclc/service.h"
 
+#include <stddef.h>
 #include <string.h>
 
 typedef struct server_service_t {
@@ -55,11 +55,16 @@ static const server_service_t server_offers[RCLC_EXECUTOR_PARAMETER_SERVER_HANDL
 };
 #endif
 
+/* The names of the services are constants, so they are not checked as those of an application. */
 static rcl_ret_t server_open(rclc_parameter_server_t * server, const rcl_node_t * node)
 {
+  if (!rcl_node_is_valid(node)) {
+    return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
+  }
   for (uint32_t i = 0; i < (uint32_t)RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES; ++i) {
-    const rcl_ret_t result = rclc_service_init(
-      &server->services[i], node, server_offers[i].type, server_offers[i].name, &rmw_qos_profile_parameters);
+    const rcl_ret_t result = rmw_replier_open(
+      node->impl, server_offers[i].type, server_offers[i].name, &rmw_qos_profile_parameters,
+      &server->services[i].impl);
 
     if (result != RCL_RET_OK) {
       return result;
@@ -114,7 +119,8 @@ static rcl_ret_t server_init(
   if (parameter_server == NULL || node == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "parameter_server or node");
   }
-  (void)memset(parameter_server, 0, sizeof(*parameter_server)); /* it may be uninitialized memory */
+  /* It may be uninitialized memory. What follows the places is written before it is read, as each place is. */
+  (void)memset(parameter_server, 0, offsetof(rclc_parameter_server_t, places));
   parameter_server->node = node;
   parameter_server->max_params = options->max_params;
   parameter_server->notify_changed_over_dds = options->notify_changed_over_dds;

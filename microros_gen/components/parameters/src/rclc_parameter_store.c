@@ -111,16 +111,16 @@ static char * parameter_shown(const char * text)
   return pointer.out;
 }
 
-/* Creates the message for the callback; it points to the name of the place. */
+/* Fills the message for the callback, which is zero; it points to the name of the place. */
 static void parameter_present(
-  rclc_parameter_server_t * server, const parameter_state_t * state, Parameter * message, uint32_t which)
+  rclc_parameter_server_t * server, const parameter_state_t * state, size_t name_size, Parameter * message,
+  uint32_t which)
 {
   static char nothing[1]; /* a string of ROS 2 is never NULL */
 
-  (void)memset(message, 0, sizeof(*message));
   message->name.data = parameter_shown(state->name);
-  message->name.size = microros_text_size(state->name);
-  message->name.capacity = message->name.size + 1u;
+  message->name.size = name_size;
+  message->name.capacity = name_size + 1u;
   message->value.type = state->type;
   message->value.string_value.data = nothing;
   message->value.string_value.capacity = sizeof(nothing);
@@ -145,17 +145,21 @@ bool rclc_parameter_accepts(
 {
   const Parameter * shown[2];
   Parameter messages[2];
+  size_t name_size;
   bool result;
 
   if (server->on_modification == NULL) {
     return true;
   }
+  name_size =
+    microros_text_size((old_state != NULL ? old_state : new_state)->name); /* both are of one place */
+  (void)memset(messages, 0, sizeof(messages));
   for (uint32_t i = 0; i < 2u; ++i) {
     const parameter_state_t * state = i == 0u ? old_state : new_state;
 
     shown[i] = NULL;
     if (state != NULL) {
-      parameter_present(server, state, &messages[i], i);
+      parameter_present(server, state, name_size, &messages[i], i);
       shown[i] = &messages[i];
     }
   }

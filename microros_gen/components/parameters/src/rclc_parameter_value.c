@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rclc_parameter_value.h"
 
+#include "microros/cdr.h"
 #include "microros/rclc_parameter_array.h"
 #include "microros/rclc_parameter_string.h"
+
+#include <stddef.h>
 
 static const rclc_parameter_about_t value_about_nothing = {.name = ""};
 
@@ -13,11 +16,17 @@ void rclc_parameter_out_value(parameter_out_t * out, const rclc_parameter_place_
   const uint8_t type = place->type;
   const bool truth = type == (uint8_t)RCLC_PARAMETER_BOOL && place->value.bool_value;
   static const rclc_parameter_scalar_t zero = {.integer_value = 0}; /* in all 8 bytes */
+  uint8_t * to = rclc_parameter_out_take(out, 1u, 2u);
 
-  rclc_parameter_out_1(out, type);
-  rclc_parameter_out_1(out, truth ? 1u : 0u);
-  rclc_parameter_out_8(out, type == (uint8_t)RCLC_PARAMETER_INT ? &place->value : &zero);
-  rclc_parameter_out_8(out, type == (uint8_t)RCLC_PARAMETER_DOUBLE ? &place->value : &zero);
+  if (to != NULL) {
+    to[0] = type;
+    to[1] = truth ? 1u : 0u;
+  }
+  to = rclc_parameter_out_take(out, 8u, 16u);
+  if (to != NULL) {
+    cdr_put_8(&to[0], type == (uint8_t)RCLC_PARAMETER_INT ? &place->value : &zero);
+    cdr_put_8(&to[8], type == (uint8_t)RCLC_PARAMETER_DOUBLE ? &place->value : &zero);
+  }
   rclc_parameter_out_text(out, rclc_parameter_string_of(place));
   rclc_parameter_out_arrays(out, place);
 }

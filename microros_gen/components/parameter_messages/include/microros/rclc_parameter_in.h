@@ -3,6 +3,7 @@
 #ifndef MICROROS_RCLC_PARAMETER_IN_H
 #define MICROROS_RCLC_PARAMETER_IN_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "microros/cdr_decode.h"
@@ -27,6 +28,9 @@ const uint8_t * rclc_parameter_in_take(cdr_in_t * in, uint32_t count, uint32_t w
 /* Skip a sequence of numbers or of strings; return the number of its elements. */
 uint32_t rclc_parameter_in_pass(cdr_in_t * in, uint32_t width);
 uint32_t rclc_parameter_in_pass_texts(cdr_in_t * in);
+
+/* Skips `count` sequences if all of them are empty; otherwise returns false and skips nothing. */
+bool rclc_parameter_in_pass_empty(cdr_in_t * in, uint32_t count);
 
 #ifdef __cplusplus
 }

@@ -20,6 +20,9 @@ typedef struct parameter_out_t {
   bool full;
 } parameter_out_t;
 
+/* Returns the place for `bytes` with the alignment `width`, after its padding, and moves past it; NULL: no room. */
+uint8_t * rclc_parameter_out_take(parameter_out_t * out, uint32_t width, uint32_t bytes);
+
 void rclc_parameter_out_1(parameter_out_t * out, uint8_t value);
 void rclc_parameter_out_4(parameter_out_t * out, uint32_t value);
 

@@ -7,6 +7,8 @@
 #include "microros/rclc_parameter_out.h"
 #include "microros/rclc_parameters.h"
 
+#include <string.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -50,11 +52,13 @@ void rclc_parameter_out_arrays(parameter_out_t * out, const rclc_parameter_place
 static inline void rclc_parameter_array_request(cdr_in_t * in, const parameter_requested_t * requested)
 {
   (void)requested;
-  (void)rclc_parameter_in_pass(in, 1u);
-  (void)rclc_parameter_in_pass(in, 1u);
-  (void)rclc_parameter_in_pass(in, 8u);
-  (void)rclc_parameter_in_pass(in, 8u);
-  (void)rclc_parameter_in_pass_texts(in);
+  if (!rclc_parameter_in_pass_empty(in, (uint32_t)PARAMETER_ARRAYS)) {
+    (void)rclc_parameter_in_pass(in, 1u);
+    (void)rclc_parameter_in_pass(in, 1u);
+    (void)rclc_parameter_in_pass(in, 8u);
+    (void)rclc_parameter_in_pass(in, 8u);
+    (void)rclc_parameter_in_pass_texts(in);
+  }
 }
 
 static inline bool rclc_parameter_array_fits(
@@ -117,9 +121,12 @@ static inline void rclc_parameter_array_take(
 
 static inline void rclc_parameter_out_arrays(parameter_out_t * out, const rclc_parameter_place_t * place)
 {
+  const uint32_t bytes = (uint32_t)PARAMETER_ARRAYS * 4u; /* the lengths of empty ones */
+  uint8_t * to = rclc_parameter_out_take(out, 4u, bytes);
+
   (void)place;
-  for (uint32_t i = 0; i < (uint32_t)PARAMETER_ARRAYS; ++i) {
-    rclc_parameter_out_4(out, 0u);
+  if (to != NULL) {
+    (void)memset(to, 0, bytes);
   }
 }
 
