@@ -36,7 +36,9 @@ static uint16_t output_sequence[2];
 static uint8_t read_ids[SERVICES][4]; /* request and object of each READ_DATA, by the index of the object */
 static volatile uint32_t written;     /* WRITE_DATA since the start */
 
-/* Takes the place of a loop that the compiler would make a call of memcpy, which is the library's to count. */
+/*
+ * Takes the place of a loop, or of an array with initial values, that the compiler would make a call of memcpy, which is
+ * the library's to count. */
 static void put(uint8_t * at, const uint8_t * bytes, size_t size)
 {
   for (volatile size_t i = 0; i < size; ++i) {
@@ -55,9 +57,14 @@ static void answer(const uint8_t * bytes, size_t size)
 
 static void answer_status(uint8_t stream, const uint8_t * ids)
 {
+  static const uint8_t begin[14] = {0x81, 1, 0, 0, 0x05, 0x01, 6, 0, 0, 0, 0, 0, 0, 0};
   uint16_t * sequence = &output_sequence[stream == RELIABLE ? 1 : 0];
-  uint8_t status[14] = {0x81, stream == RELIABLE ? RELIABLE : 1, 0, 0, 0x05, 0x01, 6, 0, 0, 0, 0, 0, 0, 0};
+  uint8_t status[sizeof(begin)];
 
+  put(status, begin, sizeof(begin));
+  if (stream == RELIABLE) {
+    status[1] = RELIABLE;
+  }
   status[2] = (uint8_t)(*sequence & 0xffu);
   status[3] = (uint8_t)(*sequence >> 8);
   ++*sequence;
@@ -67,9 +74,11 @@ static void answer_status(uint8_t stream, const uint8_t * ids)
 
 static void answer_acknack(const uint8_t * message)
 {
+  static const uint8_t begin[13] = {0x81, 0, 0, 0, 0x0a, 0x01, 5, 0, 0, 0, 0, 0, 0};
   const uint16_t next = (uint16_t)((message[2] | (uint32_t)message[3] << 8) + 1u);
-  uint8_t acknack[13] = {0x81, 0, 0, 0, 0x0a, 0x01, 5, 0, 0, 0, 0, 0, 0};
+  uint8_t acknack[sizeof(begin)];
 
+  put(acknack, begin, sizeof(begin));
   acknack[8] = (uint8_t)(next & 0xffu);
   acknack[9] = (uint8_t)(next >> 8);
   acknack[12] = message[1];
