@@ -19,7 +19,7 @@ DEVICE = "/arm/device"
 SIZES = {
     "qemu-microbit": (25_876, 5_728, 960),
     NAME: (23_868, 5_728, 1_088),
-    "qemu-mps2-an505": (24_044, 5_728, 1_092),
+    "qemu-mps2-an505": (23_924, 5_728, 1_092),
 }
 """Flash, RAM without the stack, worst stack; the goals on the Cortex-M4 are 24,000, 6,000 and 1,200."""
 COSTS = {"bool": (28, 16), "integer": (28, 16), "double": (28, 16), "string": (44, 40)}
@@ -97,7 +97,7 @@ def test_its_size_where_the_program_adds_them(builds: Builds) -> None:
     """As sources for rclc do: their names and ranges are in RAM."""
     need(NAME)
     found = taken(builds, NAME, ADDED)
-    assert found.flash <= 24_468
+    assert found.flash <= 24_356
     assert found.size.ram <= 5_928
     assert found.stack <= 1_104
 

@@ -11,6 +11,7 @@ static void clock_decode(cdr_in_t * in, void * message)
 {
   if (in->size < 8u) {
     in->failed = true;
+    (void)memset(in->fault, 0, sizeof(*in->fault)); /* as cdr_in_refuse, it fills all of it */
     in->fault->field = "clock";
     in->fault->kind = CDR_FAULT_END;
   } else {
