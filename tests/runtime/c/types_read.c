@@ -24,6 +24,8 @@ static void fail(cdr_in_t * in, cdr_fault_kind_t kind, uint32_t found, uint32_t 
   in->fault->kind = kind;
   in->fault->found = found;
   in->fault->fits = fits;
+  in->fault->index = CDR_NO_INDEX;
+  in->fault->depth = 0;
 }
 
 static bool is_big_endian(const cdr_in_t * in)
