@@ -25,7 +25,7 @@ extern const microros_declared_node_t microros_declared_nodes[MICROROS_NODES_MAX
 /* In the order of their places: publishers, subscriptions, services, clients. */
 extern const microros_declared_endpoint_t microros_declared_endpoints[XRCE_ENDPOINTS];
 
-/* The names in the source code: the same as on the wire. */
+/* The names in the source code: without `remap:` the same as on the wire. */
 static inline const char * microros_declared_node_name(const microros_declared_node_t * node)
 {
   return node->name;

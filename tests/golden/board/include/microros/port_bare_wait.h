@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Between the files of this port that wait and wake. */
+/* Shared by the files of this port that wait and wake. Internal. */
 #ifndef MICROROS_PORT_BARE_WAIT_H
 #define MICROROS_PORT_BARE_WAIT_H
 
@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* Returns whether port_wake was called since the last time. */
+/* Returns whether port_wake was called since the last call. */
 bool port_bare_woken(void);
 
 /* Returns whether bytes of the serial line wait to be read. */

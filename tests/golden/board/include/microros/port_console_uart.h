@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Between the console of a board and the driver that sends its bytes. Log messages, and what the program prints if `stdio`
- * names the same UART, wait in a ring until the driver's interrupt, or a DMA controller, has sent them. The task alone
- * writes one end of the ring and the interrupt the other, so nothing is locked.
+ * names the same UART, wait in a ring until the driver's interrupt, or a DMA controller, has sent them. Only the task
+ * writes one end of the ring and only the interrupt the other, so no lock is needed.
  *
  * For a UART without a driver of this project, `provides: [console_send]` in the target file leaves port_console_send() to
  * the application (docs/howto/port.md).
@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-/* Of the driver: the ring has bytes. The first call turns the UART on. Enables the transmit interrupt, or starts a transfer
+/* Implemented by the driver: the ring has bytes. The first call turns the UART on. Enables the transmit interrupt, or starts a transfer
  * unless one is in progress; does not wait. */
 void port_console_send(void);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The parts of the Cortex-M port that know each other. Applications have use for the registers and the interrupts alone. */
+/* Shared by the files of the Cortex-M port. Applications need only the registers and the interrupts. */
 #ifndef MICROROS_PORT_CORTEX_M_H
 #define MICROROS_PORT_CORTEX_M_H
 
@@ -9,16 +9,16 @@
 extern "C" {
 #endif
 
-/* A register of 32 bit at an address. */
+/* The 32-bit register at an address. */
 #define PORT_CORTEX_M_REGISTER(address) (*(volatile uint32_t *)(address))
 
-/* The first code after a reset: paints the stack and goes on to port_bare_start(). */
+/* The first code after a reset: fills the stack with a pattern, then runs port_bare_start(). */
 void port_cortex_m_reset(void);
 
-/* Every exception and interrupt without its own handler: keeps the cause and restarts the board. */
+/* Handles exceptions and interrupts without their own handler: records the cause and resets the board. */
 void port_cortex_m_fault(void);
 
-/* Its second half: `frame` is where the processor saved its registers, NULL where that is not readable. */
+/* Its second half. `frame` points to the registers that the processor saved; NULL: not readable. */
 void port_cortex_m_fault_record(const uint32_t * frame);
 
 /* The serial line's interrupt. */
@@ -27,10 +27,10 @@ void port_cortex_m_uart_interrupt(void);
 /* The transmit interrupt of the console. */
 void port_cortex_m_console_interrupt(void);
 
-/* Lets interrupt `number` through (0 is the first one after the processor's own 16). */
+/* Enables interrupt `number` (0 is the first one after the processor's 16 exceptions). */
 void port_cortex_m_interrupt_enable(uint32_t number);
 
-/* Makes interrupt `number` come, as if its device had asked (NVIC_ISPR). */
+/* Sets interrupt `number` pending, as if its device had requested it (NVIC_ISPR). */
 static inline void port_cortex_m_interrupt_pend(uint32_t number)
 {
   PORT_CORTEX_M_REGISTER(0xe000e200u + 4u * (number / 32u)) = (uint32_t)1 << (number % 32u);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Between the serial line of microros/port.h and the driver of a UART. What the receive interrupt takes in waits in one ring
- * until the task reads it; what the task writes waits in another until the transmit interrupt, or a DMA controller, has
- * sent it. The ends of a ring belong to one of the two each, so nothing is locked.
+ * Connects the serial line of microros/port.h to the driver of a UART. Received bytes wait in one ring until the task reads
+ * them; bytes to send wait in another one until the transmit interrupt, or a DMA controller, has sent them. Only the task
+ * writes one end of each ring and only the interrupt the other, so no lock is needed.
  *
- * A driver of yours: three functions, and an interrupt that calls the others. `uart: {driver: application}` of the target
- * file leaves them to the application (docs/howto/port.md).
+ * Your own driver consists of three functions and an interrupt that calls the others. `uart: {driver: application}` of the
+ * target file leaves them to the application (docs/howto/port.md).
  */
 #ifndef MICROROS_PORT_UART_H
 #define MICROROS_PORT_UART_H
@@ -17,18 +17,18 @@
 extern "C" {
 #endif
 
-/* Of the driver: turns the UART on at PORT_BOARD_UART_BAUD, 8 bits, no parity, one stop bit, and lets its interrupts
- * through. */
+/* Implemented by the driver: turns the UART on at PORT_BOARD_UART_BAUD, 8 bits, no parity, one stop bit, and enables its
+ * interrupts. */
 void port_uart_start(void);
 
-/* Of the driver: turns it off. Nothing of the ring is read after that. */
+/* Implemented by the driver: turns the UART off, and no longer reads the ring. */
 void port_uart_stop(void);
 
-/* Of the driver: there is something to send. Lets the transmit interrupt come, or starts a DMA transfer unless one is under
- * way; does not wait. */
+/* Implemented by the driver: the ring has bytes to send. Enables the transmit interrupt, or starts a DMA transfer unless one
+ * is in progress; does not wait. */
 void port_uart_send(void);
 
-/* For the driver's interrupt: takes the next byte to send out of the ring. Returns false if it is empty. */
+/* For the driver's interrupt: takes the next byte to send from the ring. Returns false if it is empty. */
 bool port_uart_next(uint8_t * byte);
 
 /* For DMA: sets `bytes` to the next bytes to send and returns how many are contiguous, 0 if there is nothing to send. They

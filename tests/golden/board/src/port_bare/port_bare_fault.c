@@ -3,7 +3,7 @@
 
 #include <stddef.h>
 
-/* The linker script keeps this one out of what the start-up clears, by its name. */
+/* The linker script places it, by its name, outside the memory that start-up code clears. */
 static volatile struct {
   uint32_t mark;
   uint32_t cause;

@@ -5,8 +5,8 @@
 #include "microros/port_board.h"
 #include "microros/port_uart.h"
 
-/* One byte is never used: so a full ring differs from an empty one. The interrupt alone writes `put` and `lost`, the task alone
- * `taken`. */
+/* One byte is never used, so that a full ring differs from an empty one. Only the interrupt writes `put` and `lost`, only the
+ * task `taken`. */
 static struct {
   volatile uint32_t put;
   volatile uint32_t taken;
@@ -14,15 +14,15 @@ static struct {
   volatile uint8_t bytes[PORT_BOARD_RING_SIZE];
 } port_ring;
 
-/* The same the other way: the task alone writes `put`, the interrupt alone `sent`. Upwards, as a DMA controller reads. */
+/* The other direction: only the task writes `put`, only the interrupt `sent`. Upwards, as a DMA controller reads. */
 static struct {
   volatile uint32_t put;
   volatile uint32_t sent;
   volatile uint8_t bytes[PORT_BOARD_OUTPUT_SIZE];
 } port_output;
 
-/* A message that is not copied: it goes when everything in front of `turn` has gone. The task sets `next` while it is NULL, and
- * both may end it. */
+/* A message that is not copied: it is sent after everything before `turn`. The task sets `next` while it is NULL; both may
+ * end the message. */
 static struct {
   volatile port_serial_next_t next;
   void * context;
@@ -35,7 +35,7 @@ static uint32_t output_after(uint32_t at, uint32_t count)
   return at + count == PORT_BOARD_OUTPUT_SIZE ? 0u : at + count;
 }
 
-/* Downwards: it is shorter to see that 0 is reached. */
+/* Downwards: comparing with 0 takes less code. */
 static uint32_t ring_next(uint32_t at)
 {
   return (at == 0u ? PORT_BOARD_RING_SIZE : at) - 1u;
@@ -46,7 +46,7 @@ void port_uart_received(uint8_t byte)
   const uint32_t put = port_ring.put;
   const uint32_t next = ring_next(put);
 
-  port_ring.bytes[put] = byte; /* nobody reads it before `put` has gone on */
+  port_ring.bytes[put] = byte; /* not read before `put` has passed it */
   if (next == port_ring.taken) {
     port_uart_lost();
   } else {
@@ -71,7 +71,7 @@ bool port_bare_serial_arrived(void)
 
 bool port_serial_open(port_serial_t * serial, const char * device, uint32_t baud)
 {
-  (void)device; /* there is one */
+  (void)device; /* the board has only one */
   serial->handle = 0;
   if (baud != PORT_BOARD_UART_BAUD) {
     return false;
@@ -106,7 +106,7 @@ bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size
     return false;
   }
   for (size_t i = 0; i < size; ++i) {
-    port_output.bytes[put] = data[i]; /* nobody sends it before `put` has gone on */
+    port_output.bytes[put] = data[i]; /* not sent before `put` has passed it */
     put = output_after(put, 1);
   }
   port_output.put = put;
@@ -121,7 +121,7 @@ bool port_serial_send_kept(port_serial_t * serial, port_serial_next_t next, void
   }
   port_kept.context = context;
   port_kept.turn = port_output.put;
-  port_kept.next = next; /* from here on it is the interrupt's */
+  port_kept.next = next; /* from now on it belongs to the interrupt */
   port_uart_send();
   return true;
 }

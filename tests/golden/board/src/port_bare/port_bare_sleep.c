@@ -3,8 +3,8 @@
 #include "microros/port_bare.h"
 #include "microros/port_board.h"
 
-/* The tick that is under way counts for nothing, so that the time is never too short. The timer wakes the processor each
- * millisecond, so an interrupt between the question and the wait costs a millisecond at most. */
+/* The current tick is not counted, so the time is never too short. The timer wakes the processor every millisecond, so an
+ * interrupt between the check and the wait delays it by one millisecond at most. */
 void port_sleep_ms(uint32_t duration_ms)
 {
   const uint32_t start = port_time_ms();

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/port_bare.h"
 
-/* Of the linker script. The first steps after a reset fill it with this word; it grows downwards. */
+/* From the linker script. Start-up code fills the stack with this word; it grows downwards. */
 extern const uint32_t port_stack_low[];
 extern const uint32_t port_stack_high[];
 

@@ -6,7 +6,7 @@ enum { RESTART_PAUSE_MS = 1000 };
 
 typedef void (*start_function_t)(void);
 
-/* Of the linker script. */
+/* From the linker script. */
 extern const uint32_t port_data_load[];
 extern uint32_t port_data_start[];
 extern uint32_t port_data_end[];
@@ -38,7 +38,7 @@ void port_bare_start(void)
   for (const start_function_t * init = port_init_start; init != port_init_end; ++init) {
     (*init)(); /* constructors of C++ */
   }
-  (void)main(); /* nobody is there to take its status */
+  (void)main(); /* its status has no receiver */
   port_sleep_ms(RESTART_PAUSE_MS);
   port_bare_reset();
 }

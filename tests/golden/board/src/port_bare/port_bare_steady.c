@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/port.h"
 
-/* Of one task. The milliseconds begin again at 0 after 49 days; it has to be asked once in these. */
+/* For one task. The milliseconds wrap to 0 after 49 days, so it must be called at least once in this time. */
 int64_t port_time_steady_ns(void)
 {
   static const int64_t ns_per_ms = 1000000;

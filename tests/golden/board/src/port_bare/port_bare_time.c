@@ -2,7 +2,7 @@
 #include "microros/port.h"
 #include "microros/port_bare.h"
 
-/* One word, which is read and written at once; only the interrupt writes. */
+/* One word, read and written atomically; only the interrupt writes it. */
 static volatile uint32_t port_bare_now_ms;
 
 void port_bare_tick(void)

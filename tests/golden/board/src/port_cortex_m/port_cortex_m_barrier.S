@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The instructions that C has no word for. */
+/* Instructions that C cannot express. */
   .syntax unified
   .thumb
 

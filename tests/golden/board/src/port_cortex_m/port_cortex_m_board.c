@@ -17,7 +17,7 @@ static const uint32_t fpu_access = 0x00f00000u;    /* CP10 and CP11 */
 
 void port_bare_board_init(void)
 {
-  if (PORT_BOARD_VECTORS != 0u) { /* after a bootloader, which has another table */
+  if (PORT_BOARD_VECTORS != 0u) { /* a bootloader with its own table ran before */
     PORT_CORTEX_M_REGISTER(SCB_VTOR) = PORT_BOARD_VECTORS;
     port_cortex_m_barrier();
   }
@@ -35,6 +35,6 @@ void port_bare_reset(void)
   port_cortex_m_barrier();
   PORT_CORTEX_M_REGISTER(SCB_AIRCR) = reset_request;
   for (;;) {
-    port_cortex_m_barrier(); /* it takes a moment */
+    port_cortex_m_barrier(); /* until the reset takes effect */
   }
 }

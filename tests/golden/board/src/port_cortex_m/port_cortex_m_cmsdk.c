@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The UART of Arm's Cortex-M System Design Kit (DDI 0479, "APB UART"). It holds one byte of input and one of
- * output; each that comes and each that goes asks for an interrupt, on two numbers with one handler. */
+/* The UART of Arm's Cortex-M System Design Kit (DDI 0479, "APB UART"). It buffers one byte of input and
+ * one of output. Each received and each sent byte requests an interrupt: two numbers with one handler. */
 #include "microros/port_board.h"
 #include "microros/port_cortex_m.h"
 #include "microros/port_uart.h"
@@ -15,7 +15,7 @@ static const uint32_t state_tx_full = 1u << 0;
 static const uint32_t state_rx_full = 1u << 1;
 static const uint32_t state_rx_overrun = 1u << 3;
 static const uint32_t control_on =
-  0x2fu; /* transmitter, receiver, interrupts of both and of an overrun in receiving */
+  0x2fu; /* transmitter, receiver, their interrupts, receive overrun interrupt */
 static const uint32_t clear_all = 0x0bu; /* of these three */
 
 void port_cortex_m_uart_interrupt(void)
@@ -48,7 +48,7 @@ void port_uart_stop(void)
   PORT_CORTEX_M_REGISTER(UART_CTRL) = 0;
 }
 
-/* Nothing but the interrupt touches the data register. */
+/* Only the interrupt accesses the data register. */
 void port_uart_send(void)
 {
   port_cortex_m_interrupt_pend(PORT_BOARD_UART_TX_IRQ);

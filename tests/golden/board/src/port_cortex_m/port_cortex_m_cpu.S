@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The instruction that C has no word for. */
+/* An instruction that C cannot express. */
   .syntax unified
   .thumb
 

@@ -17,7 +17,7 @@ static const uint32_t active_exception = 0x1ffu; /* in ICSR */
 static const uint32_t mmfar_valid = 1u << 7;     /* in CFSR */
 static const uint32_t bfar_valid = 1u << 15;
 
-/* Armv6-M and Armv8-M Baseline have no fault status: their architecture field in CPUID is 0xc, that of the others 0xf. */
+/* Armv6-M and Armv8-M Baseline have no fault status registers: the architecture field in their CPUID is 0xc, otherwise 0xf. */
 static bool fault_has_status(void)
 {
   return (PORT_CORTEX_M_REGISTER(SCB_CPUID) & 0x000f0000u) == 0x000f0000u;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What has to happen without a stack: painting it after a reset, and leaving it after an overflow. */
+/* Code that runs without a stack: fills it with a pattern after a reset, and leaves it after an overflow. */
   .syntax unified
   .thumb
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The vector table (Arm Architecture Reference Manuals, "Vector tables"). The linker script puts it first, by its name. */
+/* The vector table (Arm Architecture Reference Manuals, "Vector tables"). The linker script places it first, by the name of its section. */
 #include "microros/port_bare.h"
 #include "microros/port_board.h"
 #include "microros/port_cortex_m.h"

@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* Returns whether the system has to make room for output of this line: then a wait ends when it has. */
+/* Returns whether output waits for room in the system; a wait then also ends when there is room. */
 bool port_posix_serial_waits(int handle);
 
 #ifdef __cplusplus

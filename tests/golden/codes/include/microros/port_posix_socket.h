@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the sockets of this port share; internal to it. */
+/* Shared by the sockets of this port. Internal. */
 #ifndef MICROROS_PORT_POSIX_SOCKET_H
 #define MICROROS_PORT_POSIX_SOCKET_H
 
@@ -11,9 +11,8 @@ extern "C" {
 #endif
 
 /*
- * Opens a socket of this kind (SOCK_DGRAM, SOCK_STREAM) that does not block, and connects it, or begins to. `host` is an
- * IPv4 or IPv6 address in digits, without a zone; `local` is the port of this side, 0 for any. Returns its descriptor, or
- * -1.
+ * Opens a non-blocking socket of this kind (SOCK_DGRAM, SOCK_STREAM), and connects it or begins to. `host` is a numeric
+ * IPv4 or IPv6 address without a zone; `local` is the local port, 0 for any. Returns the descriptor, or -1.
  */
 int port_posix_socket_connect(const char * host, uint16_t port, int kind, uint16_t local);
 

@@ -6,7 +6,7 @@
 #include <time.h>
 #include <unistd.h>
 
-/* A system without random numbers: the process and the moment in which it asks. */
+/* Without random numbers of the system: the process id and the current time. */
 static uint32_t id_of_process(void)
 {
   struct timespec now = {0, 0};
@@ -18,7 +18,7 @@ static uint32_t id_of_process(void)
   return id;
 }
 
-/* Drawn once for each process: two programs on one machine differ, and one that is initialized again stays what it is. */
+/* Drawn once per process: two programs on one machine differ, and a program that initializes again keeps its id. */
 uint32_t port_unique_id(void)
 {
   static uint32_t id;

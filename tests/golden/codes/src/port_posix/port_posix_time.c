@@ -26,6 +26,6 @@ void port_sleep_ms(uint32_t duration_ms)
   struct timespec left = {(time_t)(duration_ms / 1000u), (long)(duration_ms % 1000u) * 1000000L};
 
   while (nanosleep(&left, &left) != 0 && errno == EINTR) {
-    /* nanosleep has left in `left` what is still to be slept */
+    /* nanosleep has stored the remaining time in `left` */
   }
 }

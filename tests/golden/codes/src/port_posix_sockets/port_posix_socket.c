@@ -16,7 +16,7 @@ typedef union address_t {
   struct sockaddr_in6 v6;
 } address_t;
 
-/* Returns the address's length, 0 where the text is none. */
+/* Returns the size of the address; 0: the text is not an address. */
 static socklen_t socket_parse(address_t * address, const char * host, uint16_t port)
 {
   (void)memset(address, 0, sizeof(*address));
@@ -41,7 +41,7 @@ static bool socket_begin(int handle, const address_t * address, socklen_t size)
          (connect(handle, &address->any, size) == 0 || errno == EINPROGRESS);
 }
 
-/* Gives this side a port; 0: the system does when it connects. */
+/* Binds the local port; 0: the system selects one at the connect. */
 static bool socket_bind(int handle, const address_t * peer, socklen_t size, uint16_t local)
 {
   address_t address;

@@ -30,8 +30,7 @@ bool port_udp_send(port_udp_t * udp, const uint8_t * data, size_t size)
   ssize_t sent = send(handle, data, size, 0);
 
   if (sent < 0 && errno == ECONNREFUSED) {
-    sent =
-      send(handle, data, size, 0); /* that was the news about an earlier datagram; this one was not sent */
+    sent = send(handle, data, size, 0); /* the error belonged to an earlier datagram: this one was not sent */
   }
   return sent == (ssize_t)size;
 }
@@ -47,7 +46,7 @@ int32_t port_udp_receive(port_udp_t * udp, uint8_t * buffer, size_t capacity)
   message.msg_iovlen = 1;
   size = recvmsg((int)udp->handle, &message, 0);
   if (size < 0) {
-    return 0; /* nothing there, or the news that nobody listens */
+    return 0; /* nothing arrived, or an ICMP error: nobody listens */
   }
   return (message.msg_flags & MSG_TRUNC) != 0 ? -1 : (int32_t)size;
 }

@@ -32,7 +32,7 @@ extern "C" {
 /* Flags of DATA: every format except a single sample without a header. */
 enum { XRCE_READ_FORMATS = 0x0e };
 
-/* Position of a queue in the slots of all queues; from the plan. */
+/* Position of a queue in the storage of all queues; from the plan. */
 typedef struct xrce_queue_t {
   uint32_t offset;    /* of its first byte */
   uint16_t slot_size; /* largest sample in bytes */

@@ -12,18 +12,22 @@ enum { PAUSE_AFTER_ERROR_NS = 1000000 };
 /* Looks at all handles; *changed: a handle has become ready. */
 static rcl_ret_t executor_look(const rclc_executor_t * executor, bool * changed, int64_t * look_again_ns)
 {
+  rclc_executor_handle_t * handle = executor->handles;
+
   *changed = false;
   *look_again_ns = INT64_MAX;
-  for (size_t i = 0; i < executor->index; ++i) {
-    rclc_executor_handle_t * handle = &executor->handles[i];
+  for (size_t left = executor->index; left != 0u; --left) {
     bool is_ready = false;
     const rcl_ret_t result = handle->kind->look(handle, &is_ready, look_again_ns);
 
     if (result != RCL_RET_OK) {
       return result;
     }
-    *changed = *changed || (is_ready && !handle->data_available);
+    if (is_ready && !handle->data_available) {
+      *changed = true;
+    }
     handle->data_available = is_ready;
+    ++handle;
   }
   return RCL_RET_OK;
 }
@@ -56,11 +60,14 @@ static rcl_ret_t handle_take(rclc_executor_handle_t * handle)
   return result;
 }
 
+static bool handle_is_due(const rclc_executor_handle_t * handle)
+{
+  return handle->data_available || handle->invocation == ALWAYS;
+}
+
 static rcl_ret_t handle_call(rclc_executor_handle_t * handle)
 {
-  const bool calls = handle->data_available || handle->invocation == ALWAYS;
-
-  return calls ? handle->kind->call(handle) : RCL_RET_OK;
+  return handle_is_due(handle) ? handle->kind->call(handle) : RCL_RET_OK;
 }
 
 static void executor_note(rcl_ret_t * first, rcl_ret_t result)
@@ -73,28 +80,32 @@ static void executor_note(rcl_ret_t * first, rcl_ret_t result)
 /* Returns the first handle that still has a turn in this round, or NULL. */
 static rclc_executor_handle_t * executor_next(const rclc_executor_t * executor)
 {
-  for (size_t i = 0; i < executor->index; ++i) {
-    if (executor->handles[i].has_turn) {
-      return &executor->handles[i];
+  rclc_executor_handle_t * handle = executor->handles;
+
+  for (size_t left = executor->index; left != 0u; --left) {
+    if (handle->has_turn) {
+      return handle;
     }
+    ++handle;
   }
   return NULL;
 }
 
 /* A callback may remove handles, including its own, which moves those after it, or finalize the executor;
  * handles that it adds have their first turn in the next round. Therefore each turn searches for its
- * handle. */
+ * handle, and only handles with something to do have a turn. */
 static rcl_ret_t executor_process(const rclc_executor_t * executor)
 {
   const bool takes_first = executor->data_comm_semantics == RCLC_SEMANTICS_LOGICAL_EXECUTION_TIME;
-  rclc_executor_handle_t * handle;
+  rclc_executor_handle_t * handle = executor->handles;
   rcl_ret_t first = RCL_RET_OK;
 
-  for (size_t i = 0; i < executor->index; ++i) {
-    executor->handles[i].has_turn = true;
+  for (size_t left = executor->index; left != 0u; --left) {
+    handle->has_turn = handle_is_due(handle);
     if (takes_first) {
-      executor_note(&first, handle_take(&executor->handles[i]));
+      executor_note(&first, handle_take(handle));
     }
+    ++handle;
   }
   for (handle = executor_next(executor); handle != NULL; handle = executor_next(executor)) {
     handle->has_turn = false;
@@ -103,8 +114,10 @@ static rcl_ret_t executor_process(const rclc_executor_t * executor)
     }
     executor_note(&first, handle_call(handle));
   }
-  for (size_t i = 0; i < executor->index; ++i) {
-    executor->handles[i].data_available = false;
+  handle = executor->handles;
+  for (size_t left = executor->index; left != 0u; --left) {
+    handle->data_available = false;
+    ++handle;
   }
   return first;
 }

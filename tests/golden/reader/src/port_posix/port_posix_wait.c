@@ -22,7 +22,7 @@ static bool wake_make_end(int end)
   return flags >= 0 && fcntl(end, F_SETFL, flags | O_NONBLOCK) >= 0 && fcntl(end, F_SETFD, FD_CLOEXEC) >= 0;
 }
 
-/* Without a pipe, waits end by their time-out. */
+/* Without a pipe, waits end at their time-out. */
 static void wake_open(void)
 {
   int ends[ENDS];
@@ -39,7 +39,7 @@ static void wake_open(void)
   wake_pipe[IN] = ends[IN];
 }
 
-/* Returns an end of the only pipe, which the first caller opens; -1 on failure. */
+/* Returns one end of the pipe, which the first call opens; -1 on failure. */
 static int wake_end(int end)
 {
   static pthread_once_t once = PTHREAD_ONCE_INIT;
@@ -62,9 +62,9 @@ void port_wait(intptr_t handle, uint32_t timeout_ms)
 {
   const int most_ms = timeout_ms > (uint32_t)INT_MAX ? INT_MAX : (int)timeout_ms;
   const int wake = wake_end(OUT);
-  struct pollfd ends[ENDS] = { {wake, POLLIN, 0}, {(int)handle, POLLIN, 0} }; /* poll leaves out what is negative */
+  struct pollfd ends[ENDS] = { {wake, POLLIN, 0}, {(int)handle, POLLIN, 0} }; /* poll ignores negative descriptors */
 
-  (void)poll(ends, sizeof(ends) / sizeof(ends[0]), most_ms); /* a signal ends it early, as may be */
+  (void)poll(ends, sizeof(ends) / sizeof(ends[0]), most_ms); /* a signal may end it early */
   if (wake >= 0) {
     wake_drain(wake);
   }

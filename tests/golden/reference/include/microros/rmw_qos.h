@@ -17,7 +17,7 @@ extern "C" {
  * policy. */
 const char * rmw_qos_to_xrce(const rmw_qos_profile_t * qos, uint8_t * flags, uint16_t * depth);
 
-/* The same for the times of an endpoint: this plan has none. */
+/* The same for deadline and lifespan; does nothing if no endpoint of the plan has either. */
 static inline void rmw_qos_add_times(const rmw_qos_profile_t * qos, const xrce_endpoint_t * endpoint)
 {
   (void)qos;
@@ -27,9 +27,7 @@ static inline void rmw_qos_add_times(const rmw_qos_profile_t * qos, const xrce_e
 /* Fills in the QoS of the endpoint with defaults resolved, for getters. */
 void rmw_qos_actual(const xrce_endpoint_t * endpoint, rmw_qos_profile_t * qos);
 
-/*
- * Returns rmw_qos_profile_default, which otherwise every file that includes rmw/qos_profiles.h would
- * duplicate. */
+/* Returns rmw_qos_profile_default. Each file that includes rmw/qos_profiles.h and names it has a copy of it. */
 const rmw_qos_profile_t * rmw_qos_default(void);
 
 #ifdef __cplusplus

@@ -8,8 +8,8 @@
  * next HEARTBEAT: the public agent sends everything that an acknowledgement names, however often it is
  * named.
  *
- *  An early message is not acknowledged, and the agent
- * repeats it.  */
+ * An early message waits in a free slot; without one it is not acknowledged, and the agent repeats it.
+ */
 #ifndef MICROROS_XRCE_STREAM_RELIABLE_INPUT_H
 #define MICROROS_XRCE_STREAM_RELIABLE_INPUT_H
 

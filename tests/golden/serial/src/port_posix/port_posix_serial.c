@@ -10,14 +10,14 @@
 #include <termios.h>
 #include <unistd.h>
 
-/* An open line, and what the system had no room for: it follows with later calls. */
+/* An open line, and output that the system had no room for: later calls write it. */
 typedef struct serial_line_t {
   int handle; /* -1: none */
   size_t size;
   uint8_t bytes[MICROROS_SEND_BUFFER];
 } serial_line_t;
 
-enum { LINES = 2 }; /* that of the session, and one to another agent that is asked whether it is there */
+enum { LINES = 2 }; /* that of the session, and one to another agent that is pinged */
 
 static serial_line_t lines[LINES] = {{-1, 0, {0}}, {-1, 0, {0}}};
 
@@ -37,7 +37,7 @@ typedef struct serial_speed_t {
   speed_t speed;
 } serial_speed_t;
 
-/* POSIX names the speeds up to 38400; every system of today has the next three, Linux the others as well. */
+/* POSIX defines the speeds up to 38400; all current systems have the next three, Linux also the others. */
 static const serial_speed_t speeds[] = {
   {1200, B1200},       {2400, B2400},       {4800, B4800},       {9600, B9600},
   {19200, B19200},     {38400, B38400},
@@ -62,7 +62,7 @@ static bool serial_find_speed(uint32_t baud, speed_t * speed)
   return false;
 }
 
-/* Eight data bits, no parity, one stop bit, no flow control, and no byte changed or waited for. */
+/* Eight data bits, no parity, one stop bit, no flow control; no byte is changed, and reads do not wait. */
 static bool serial_make_raw(int handle, uint32_t baud)
 {
   struct termios settings;
@@ -112,12 +112,12 @@ void port_serial_close(port_serial_t * serial)
   serial->handle = -1;
 }
 
-/* Hands over what the system has room for, and returns how much that is. */
+/* Writes as much as the system has room for, and returns the number of bytes. */
 static size_t serial_write_some(int handle, const uint8_t * data, size_t size)
 {
   const ssize_t taken = size != 0u ? write(handle, data, size) : 0;
 
-  return taken > 0 ? (size_t)taken : 0u; /* no room, or nobody at the other end: the session finds that out */
+  return taken > 0 ? (size_t)taken : 0u; /* no room, or a broken line, which the session detects */
 }
 
 static void line_flush(serial_line_t * line)
@@ -130,7 +130,7 @@ static void line_flush(serial_line_t * line)
   }
 }
 
-/* Returns the line, with what the system takes of it handed over; NULL: it is not open. */
+/* Returns the line after it has written what the system has room for; NULL: not open. */
 static serial_line_t * line_flushed(const port_serial_t * serial)
 {
   serial_line_t * line = serial->handle >= 0 ? line_of((int)serial->handle) : NULL;
@@ -184,5 +184,5 @@ size_t port_serial_read(port_serial_t * serial, uint8_t * buffer, size_t capacit
 
   (void)line_flushed(serial);
   size = read((int)serial->handle, buffer, capacity);
-  return size > 0 ? (size_t)size : 0u; /* nothing there, or nobody at the other end */
+  return size > 0 ? (size_t)size : 0u; /* nothing arrived, or a broken line */
 }

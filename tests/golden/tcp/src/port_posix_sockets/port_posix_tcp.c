@@ -15,7 +15,7 @@ bool port_tcp_open(port_tcp_t * tcp, const char * host, uint16_t port)
   const int handle = port_posix_socket_connect(host, port, SOCK_STREAM, 0);
   const int at_once = 1;
 
-  if (handle >= 0) { /* without it a message waits for the acknowledgement of the one before */
+  if (handle >= 0) { /* otherwise a message waits for the acknowledgement of the previous one */
     (void)setsockopt(handle, IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof(at_once));
   }
   tcp->handle = handle;
@@ -28,13 +28,13 @@ void port_tcp_close(port_tcp_t * tcp)
   tcp->handle = -1;
 }
 
-/* Whether the connection only needs time: it is being made, has no room, or nothing came. */
+/* Whether the connection only needs time: it is being established, has no room, or nothing arrived. */
 static bool tcp_needs_time(int error)
 {
   return error == EAGAIN || error == EINTR || error == EINPROGRESS;
 }
 
-/* ENOTCONN is what some systems say of a connection that is being made; one that failed has its error as well. */
+/* Some systems report ENOTCONN while a connection is being established. A failed one also has its own error. */
 static bool tcp_is_connecting(int handle)
 {
   int error = 0;

@@ -29,7 +29,7 @@ void port_multicast_close(port_multicast_t * multicast)
   multicast->handle = -1;
 }
 
-/* Sends over the interface with this address, or (INADDR_ANY) over that of the system's choice. */
+/* Sends over the interface with this address; INADDR_ANY: the system selects one. */
 static bool multicast_send_over(
   int handle, in_addr_t interface, const struct sockaddr_in * group, const uint8_t * data, size_t size)
 {
@@ -40,7 +40,7 @@ static bool multicast_send_over(
          sendto(handle, data, size, 0, (const struct sockaddr *)group, sizeof(*group)) == (ssize_t)size;
 }
 
-/* An agent of this machine alone hears the loopback interface only. */
+/* An agent that only serves this machine listens on the loopback interface. */
 bool port_multicast_send(
   port_multicast_t * multicast, const char * group, uint16_t port, const uint8_t * data, size_t size)
 {
