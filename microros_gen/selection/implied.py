@@ -16,7 +16,7 @@ from microros_gen.application.model import (
     ParameterDecl,
 )
 from microros_gen.diagnostics import Diagnostics, nearest
-from microros_gen.selection.component import Implied
+from microros_gen.selection.component import Component, Implied
 from microros_gen.selection.model import Selection
 
 _OF_ENTITIES = frozenset({"nodes", "interfaces", "pools"})
@@ -50,9 +50,8 @@ def with_implied(application: Application, selection: Selection, diagnostics: Di
     once = _endpoints(selection, changes, every_node=False)
     each = _endpoints(selection, changes, every_node=True)
     _check_changes(application, (*once, *each), diagnostics)
-    if each and not application.nodes and not _OF_ENTITIES & application.spans.keys():
-        shown = next((_NODES[name] for name in selection.profiles if name in _NODES), _NODE)
-        application = replace(application, nodes=(shown,))
+    chosen = [item.component for item in selection.components]
+    application = with_default_node(application, selection.profiles, chosen)
     if application.nodes:
         first, *others = application.nodes
         nodes = (_with(first, (*once, *each)), *(_with(node, each) for node in others))
@@ -61,6 +60,17 @@ def with_implied(application: Application, selection: Selection, diagnostics: Di
     if all(chosen.component.ready for chosen in selection.components):
         _refuse([*(e for e in once if e.kind != "subscription"), *each], application, diagnostics)
     return replace(application, implied=once)
+
+
+def with_default_node(
+    application: Application, profiles: Iterable[str], components: Iterable[Component]
+) -> Application:
+    """Return the application with the one node of a profile alone, if its components open endpoints in every node."""
+    each = any(implied.every_node for component in components for implied in component.implies)
+    if not each or application.nodes or _OF_ENTITIES & application.spans.keys():
+        return application
+    shown = next((_NODES[name] for name in profiles if name in _NODES), _NODE)
+    return replace(application, nodes=(shown,))
 
 
 def _refuse(endpoints: Sequence[EndpointDecl], application: Application, diagnostics: Diagnostics) -> None:

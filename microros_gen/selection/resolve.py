@@ -23,6 +23,7 @@ from microros_gen.selection.component import (
 )
 from microros_gen.selection.contradictions import check_contradictions
 from microros_gen.selection.declared import check_holder, holder_demands, stream_demands
+from microros_gen.selection.implied import with_default_node
 from microros_gen.selection.model import Chosen, ChosenAxis, ChosenComponent, Selection
 from microros_gen.selection.picker import Picker
 from microros_gen.selection.profiles import at, signed, unique_changes
@@ -60,7 +61,9 @@ def resolve_selection(
     for demand in holder_demands(application):
         picker.pick(demand.component, demand.text, demand.span)
     picker.close()
-    for demand in stream_demands(application, picker.open_to(application), axes["entities"].value):
+    chosen = [picker.catalogue[name] for name in picker.causes]
+    declared = with_default_node(application, [profile.name for profile in profiles], chosen)
+    for demand in stream_demands(declared, picker.open_to(application), axes["entities"].value):
         picker.pick(demand.component, demand.text, demand.span)
     if axes["transport"].value == "custom" and application.transport.framing is not False:
         picker.pick(

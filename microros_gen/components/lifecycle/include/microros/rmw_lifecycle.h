@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The state of each node as the client stores it, and replies in pieces. Internal. */
+#ifndef MICROROS_RMW_LIFECYCLE_H
+#define MICROROS_RMW_LIFECYCLE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "microros/xrce_pieces.h"
+#include "rmw/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Return and set the state of a node that is open, as its id; 0: none. It survives a sleep with the session. */
+uint8_t rmw_lifecycle_state(const rmw_node_t * node);
+void rmw_lifecycle_set_state(const rmw_node_t * node, uint8_t state);
+
+/* Sets what writes the body of a reply in pieces. */
+void rmw_lifecycle_use(const rmw_node_t * node, xrce_pieces_body_t body);
+
+/* Returns whether a reply in pieces is under way. */
+bool rmw_lifecycle_is_replying(const rmw_node_t * node);
+
+/* Begins a reply in pieces; the next one has to wait for its end. */
+void rmw_lifecycle_reply(const rmw_service_t * service, const rmw_request_id_t * request);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RMW_LIFECYCLE_H */

@@ -1,0 +1,8 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef MICROROS_RCLC_LIFECYCLE_VISIBILITY_CONTROL_H
+#define MICROROS_RCLC_LIFECYCLE_VISIBILITY_CONTROL_H
+
+/* A static library has no visibility to control. */
+#define RCLC_LIFECYCLE_PUBLIC
+
+#endif /* MICROROS_RCLC_LIFECYCLE_VISIBILITY_CONTROL_H */

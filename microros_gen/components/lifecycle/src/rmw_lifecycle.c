@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/rmw_lifecycle.h"
+
+#include "microros/lock.h"
+#include "microros/port.h"
+#include "microros/rmw_node.h"
+#include "microros/xrce_client.h"
+
+#include <string.h>
+
+/* In SampleIdentity (OMG DDS-XRCE 1.0, annex A): the writer's GUID, then the two halves of the sequence number. */
+enum { HIGH_AT = RMW_GID_STORAGE_SIZE, LOW_AT = HIGH_AT + 4 };
+
+uint8_t rmw_lifecycle_state(const rmw_node_t * node)
+{
+  const xrce_client_t * client = node->context->impl;
+
+  return client->lifecycle[rmw_node_index(node)];
+}
+
+void rmw_lifecycle_set_state(const rmw_node_t * node, uint8_t state)
+{
+  xrce_client_t * client = node->context->impl;
+
+  microros_lock();
+  client->lifecycle[rmw_node_index(node)] = state;
+  microros_unlock();
+}
+
+void rmw_lifecycle_use(const rmw_node_t * node, xrce_pieces_body_t body)
+{
+  xrce_client_t * client = node->context->impl;
+
+  microros_lock();
+  client->pieces.body = body;
+  microros_unlock();
+}
+
+bool rmw_lifecycle_is_replying(const rmw_node_t * node)
+{
+  const xrce_client_t * client = node->context->impl;
+
+  return client->pieces.busy;
+}
+
+static void lifecycle_put_4(uint8_t * at, uint32_t number)
+{
+  xrce_put_le16(&at[0], (uint16_t)(number & UINT16_MAX));
+  xrce_put_le16(&at[2], (uint16_t)(number >> 16));
+}
+
+void rmw_lifecycle_reply(const rmw_service_t * service, const rmw_request_id_t * request)
+{
+  const xrce_endpoint_t * endpoint = service->data;
+  const uint64_t sequence = (uint64_t)request->sequence_number;
+  uint8_t identity[XRCE_IDENTITY_SIZE];
+
+  (void)memcpy(identity, request->writer_guid, RMW_GID_STORAGE_SIZE);
+  lifecycle_put_4(&identity[HIGH_AT], (uint32_t)(sequence >> 32));
+  lifecycle_put_4(&identity[LOW_AT], (uint32_t)(sequence & UINT32_MAX));
+  microros_lock();
+  xrce_pieces_begin(endpoint->client, endpoint->index, identity, port_time_ms());
+  microros_unlock();
+}
