@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: Apache-2.0
+"""An rclpy process that drives nodes with a life cycle, and has one of rclpy as the model: /model/device.
+
+One JSON object a line; `do` is the name of a method of `_Peer`. The answer of a call is the response, null without one
+in time.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from tests.support.agent.line_process import LineProcess, serving
+from tests.support.patience import seconds
+
+MODEL = "/model/device"
+
+
+class LifecyclePeer(LineProcess):
+    """The test's side."""
+
+    def change(self, node: str, identifier: int, label: str = "") -> bool | None:
+        answer = self.ask(do="change", node=node, id=identifier, label=label, timeout=seconds(30))
+        return None if answer is None else bool(answer)
+
+    def get(self, node: str, what: str) -> Any:
+        return self.ask(do="get", node=node, what=what, timeout=seconds(30))
+
+    def state(self, node: str) -> Any:
+        return self.get(node, "state")
+
+
+@contextmanager
+def lifecycle_peer(domain: int) -> Iterator[LifecyclePeer]:
+    """Run the process in a ROS domain."""
+    with serving("tests.support.e2e.lifecycle_peer", domain) as process:
+        yield LifecyclePeer(process)
+
+
+def _state(state: Any) -> list[Any]:
+    return [state.id, state.label]
+
+
+class _Peer:
+    """The peer's side: a node that asks, and the model, which is made anew by `reset`."""
+
+    def __init__(self, executor: Any) -> None:
+        import rclpy
+
+        self._executor = executor
+        self._asker = rclpy.create_node("asker")
+        executor.add_node(self._asker)
+        self._clients: dict[str, Any] = {}
+        self._events: list[Any] = []
+        self._watched: list[Any] = []
+        self._model: Any = None
+        self._outcomes: dict[str, str] = {}
+        self._calls: list[str] = []
+
+    def reset(self) -> bool:
+        """Make a model in its first state."""
+        if self._model is not None:
+            self._executor.remove_node(self._model)
+            self._model.destroy_node()
+        self._model = self._new_model()
+        self._executor.add_node(self._model)
+        return True
+
+    def _new_model(self) -> Any:
+        from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+
+        peer = self
+
+        def callback(name: str) -> Any:
+            def run(_node: Any, _state: Any) -> Any:
+                peer._calls.append(name)
+                return getattr(TransitionCallbackReturn, peer._outcomes.get(name, "SUCCESS"))
+
+            return run
+
+        names = ("configure", "activate", "deactivate", "cleanup", "shutdown", "error")
+        model = type("Model", (LifecycleNode,), {f"on_{name}": callback(name) for name in names})
+        return model("device", namespace="/model")
+
+    def outcome(self, name: str, value: str) -> bool:
+        """Set what a callback of the model returns."""
+        self._outcomes[name] = value
+        return True
+
+    def calls(self) -> list[str]:
+        """Return the callbacks of the model that were called."""
+        found, self._calls = self._calls, []
+        return found
+
+    def api(self, id: int) -> list[Any]:
+        """Let the model change its state by itself; return whether the transition exists, and the state."""
+        from rclpy.impl.implementation_singleton import rclpy_implementation
+
+        try:
+            self._model._LifecycleNodeMixin__change_state(id)
+        except rclpy_implementation.RCLError:
+            return [False, self._model._state_machine.current_state[0]]
+        return [True, self._model._state_machine.current_state[0]]
+
+    def graph_of_machine(self) -> list[Any]:
+        """Return the transitions of librcl_lifecycle."""
+        return [list(transition) for transition in self._model._state_machine.transition_graph]
+
+    def watch(self, node: str) -> bool:
+        """Keep events of a node."""
+        from lifecycle_msgs.msg import TransitionEvent
+
+        topic = f"{node}/transition_event"
+        self._watched.append(
+            self._asker.create_subscription(
+                TransitionEvent, topic, lambda event: self._keep(node, event), 100
+            )
+        )
+        return True
+
+    def _keep(self, node: str, event: Any) -> None:
+        transition = [event.timestamp, event.transition.id, event.transition.label]
+        self._events.append([node, transition, _state(event.start_state), _state(event.goal_state)])
+
+    def matched(self, node: str) -> int:
+        return int(self._asker.count_publishers(f"{node}/transition_event"))
+
+    def events(self) -> list[Any]:
+        """Return the events since the last call."""
+        found, self._events = self._events, []
+        return found
+
+    def services(self, node: str) -> list[Any]:
+        """Return the services of a node for its life cycle, with their types."""
+        namespace, _, name = node.rpartition("/")
+        found = self._asker.get_service_names_and_types_by_node(name, namespace)
+        return sorted([s, t] for s, t in found if t[0].startswith("lifecycle_msgs"))
+
+    def change(self, node: str, id: int, label: str, timeout: float) -> bool | None:
+        from lifecycle_msgs.msg import Transition
+        from lifecycle_msgs.srv import ChangeState
+
+        request = ChangeState.Request(transition=Transition(id=id, label=label))
+        response = self._call(ChangeState, f"{node}/change_state", request, timeout)
+        return None if response is None else bool(response.success)
+
+    def get(self, node: str, what: str, timeout: float) -> Any:
+        from lifecycle_msgs import srv
+
+        names = {
+            "state": "GetState",
+            "available_states": "GetAvailableStates",
+            "available_transitions": "GetAvailableTransitions",
+            "transition_graph": "GetAvailableTransitions",
+        }
+        kind = getattr(srv, names[what])
+        response = self._call(kind, f"{node}/get_{what}", kind.Request(), timeout)
+        if response is None:
+            return None
+        if what == "state":
+            return _state(response.current_state)
+        if what == "available_states":
+            return [_state(state) for state in response.available_states]
+        return [
+            [*_state(t.transition), *_state(t.start_state), *_state(t.goal_state)]
+            for t in response.available_transitions
+        ]
+
+    def _call(self, kind: Any, name: str, request: Any, timeout: float) -> Any:
+        if name not in self._clients:
+            self._clients[name] = self._asker.create_client(kind, name)
+        client = self._clients[name]
+        if not client.wait_for_service(timeout):
+            return None
+        done = threading.Event()
+        future = client.call_async(request)
+        future.add_done_callback(lambda _: done.set())
+        return future.result() if done.wait(timeout) else None
+
+
+def main() -> None:
+    """Serve commands from stdin; callbacks run in a thread."""
+    import rclpy
+    from rclpy.executors import SingleThreadedExecutor
+
+    rclpy.init()
+    executor = SingleThreadedExecutor()
+    peer = _Peer(executor)
+    threading.Thread(target=executor.spin, daemon=True).start()
+    for line in sys.stdin:
+        command = json.loads(line)
+        print(json.dumps(getattr(peer, command.pop("do"))(**command)), flush=True)
+
+
+if __name__ == "__main__":
+    main()
