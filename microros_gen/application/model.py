@@ -115,6 +115,7 @@ class EndpointDecl:
     `of_the_library`: nobody declared it, and the library itself opens it; `executed`: an executor runs it all the
     same. `usual_limits` are then those of its component, which hold where the application says nothing but `*`.
     `streamed`: its samples are taken piece by piece and never wait; `outside_ros`: `topic` is the name in DDS.
+    `managed`: a publisher that drops what is published while its node is not active.
     """
 
     kind: str
@@ -135,6 +136,7 @@ class EndpointDecl:
     usual_limits: tuple[LimitRule, ...] = ()
     streamed: bool = False
     outside_ros: bool = False
+    managed: bool = False
 
     @property
     def takes_handle(self) -> bool:
@@ -158,12 +160,16 @@ class EndpointChange:
 
 @dataclass(frozen=True)
 class TimerDecl:
-    """A timer of a node; its period in microseconds. `kind` is what makes it ready: clock, rtos or hardware."""
+    """A timer of a node; its period in microseconds. `kind` is what makes it ready: clock, rtos or hardware.
+
+    `managed`: it is never ready while its node is not active.
+    """
 
     name: str
     period_us: int
     span: Span | None = None
     kind: str = "clock"
+    managed: bool = False
 
 
 @dataclass(frozen=True)

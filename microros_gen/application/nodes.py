@@ -24,6 +24,7 @@ from microros_gen.application.qos import endpoint_qos
 from microros_gen.application.remap import rename_endpoints, rename_node
 from microros_gen.diagnostics import Diagnostics, Span, nearest
 from microros_gen.documents.tree_values import (
+    bool_of,
     child,
     int_of,
     items,
@@ -124,6 +125,7 @@ def _endpoints(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Iter
                 queue_bytes=int_of(child(endpoint, "queue_bytes")),
                 queue_bytes_span=span_of(child(endpoint, "queue_bytes")),
                 stored=text_of(child(endpoint, "storage")) != "none",
+                managed=bool_of(child(endpoint, "managed")) is True,
             )
 
 
@@ -143,6 +145,7 @@ def _timer(item: YamlNode, diagnostics: Diagnostics) -> TimerDecl:
         period_us=positive_time(item, "period", diagnostics) or 0,
         span=item.span,
         kind=text_of(child(item, "kind")) or TimerDecl.kind,
+        managed=bool_of(child(item, "managed")) is True,
     )
 
 

@@ -33,8 +33,12 @@ def declared_components(application: Application) -> Iterator[Demand]:
     for node in application.nodes:
         for endpoint in node.endpoints:
             yield Demand(KIND[endpoint.kind].component, _article(endpoint.kind), endpoint.span)
+            if endpoint.managed:
+                yield Demand("lifecycle", "a managed publisher", endpoint.span)
         for timer in node.timers:
             yield Demand("timers", "a timer", timer.span)
+            if timer.managed:
+                yield Demand("lifecycle", "a managed timer", timer.span)
         for parameter in node.parameters:
             yield Demand("parameters", "a parameter", parameter.span)
         for client in node.parameter_clients:

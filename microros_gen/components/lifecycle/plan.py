@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-from microros_gen.application.model import Application, LimitRule
+from microros_gen.application.model import Application, LimitRule, TimerDecl
 from microros_gen.client.plan.creation import MESSAGE_HEADER, SUBMESSAGE_HEADER
+from microros_gen.client.plan.declared import declarations, full_name
 from microros_gen.client.plan.features import PlanContext, refuse_own_limits
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass
@@ -24,12 +25,36 @@ _FRAME = 7
 _PACKAGE = "lifecycle_msgs"
 
 
+@dataclass(frozen=True)
+class ManagedPublisher:
+    """A publisher of the plan, in its order; `managed` as C writes it."""
+
+    name: str
+    managed: str
+
+
+@dataclass(frozen=True)
+class ManagedTimer:
+    """A managed timer and the index of its node."""
+
+    name: str
+    period_ns: int
+    node: int
+
+
 @dataclass(frozen=True, kw_only=True)
 class LifecyclePlan:
-    """`piece_size`: bytes of ~/get_transition_graph's response that are sent at a time; `handles` of the executor."""
+    """`piece_size`: bytes of ~/get_transition_graph's response that are sent at a time; `handles` of the executor.
+
+    `publishers` has all of the plan; `manages`: one of them is managed. `timers` are those that are managed.
+    """
 
     piece_size: int = MOST_PIECE
     handles: int = _SERVICES
+    publishers: tuple[ManagedPublisher, ...] = ()
+    manages: bool = False
+    timers: tuple[ManagedTimer, ...] = ()
+    shown: str = ""
 
 
 def plan(context: PlanContext, diagnostics: Diagnostics) -> LifecyclePlan:
@@ -40,15 +65,50 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LifecyclePlan:
     if runtime.transport.kind == "serial":
         # Each byte but the flag may be stuffed, and one byte of the buffer is never used.
         largest = min(largest, (runtime.transport.send_buffer - 2) // 2 - (_FRAME - 1))
+    application = context.application
+    _check_timers(application, diagnostics)
+    publishers = declarations(application, "publisher")
+    names = [full_name(node, endpoint) for _, node, endpoint in publishers if endpoint.managed]
+    timers = tuple(
+        ManagedTimer(timer.name, timer.period_us * 1000, index)
+        for index, node in enumerate(application.nodes)
+        for timer in node.timers
+        if timer.managed
+    )
     return LifecyclePlan(
         piece_size=min(MOST_PIECE, largest - _FRAGMENT_HEADERS),
-        handles=_SERVICES * len(context.application.nodes),
+        handles=_SERVICES * len(application.nodes),
+        publishers=tuple(
+            ManagedPublisher(full_name(node, endpoint), "true" if endpoint.managed else "false")
+            for _, node, endpoint in publishers
+        ),
+        manages=bool(names),
+        timers=timers,
+        shown=", ".join((*names, *(f"timer {timer.name}" for timer in timers))),
     )
+
+
+def _check_timers(application: Application, diagnostics: Diagnostics) -> None:
+    """Report a managed timer whose period another timer has: a timer of the program is recognized by its period."""
+    managed: dict[int, tuple[int, TimerDecl]] = {}
+    every = [(index, timer) for index, node in enumerate(application.nodes) for timer in node.timers]
+    for index, timer in sorted(every, key=lambda item: not item[1].managed):
+        first, other = managed.setdefault(timer.period_us, (index, timer))
+        if other.managed and (not timer.managed or first != index):
+            diagnostics.error(
+                f"the timer '{timer.name}' has the period of the managed timer '{other.name}'",
+                timer.span,
+                "Give them different periods: a timer of the program is recognized by its period",
+                id="MG-7051",
+            )
 
 
 def record(part: LifecyclePlan) -> object:
     """Return what the plan id is made of."""
-    return [part.piece_size]
+    return {
+        "piece": part.piece_size,
+        "managed": [part.manages and [p.managed for p in part.publishers], [[t.period_ns, t.node] for t in part.timers]],
+    }
 
 
 def limits(application: Application) -> tuple[LimitRule, ...]:

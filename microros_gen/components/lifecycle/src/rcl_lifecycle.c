@@ -4,6 +4,7 @@
 #include "microros/error.h"
 #include "microros/rcl_lifecycle_answer.h"
 #include "microros/rcl_lifecycle_states.h"
+#include "microros/rcl_lifecycle_timers.h"
 #include "microros/rcl_publisher_open.h"
 #include "microros/rcl_service_open.h"
 #include "microros/rmw_lifecycle.h"
@@ -218,6 +219,9 @@ static rcl_ret_t machine_go(
   machine->current_state = transition->goal;
   if (machine_is_primary(transition->goal)) {
     rmw_lifecycle_set_state(machine->com_interface.node_handle->impl, transition->goal->id);
+    if (transition->goal->id == (uint8_t)lifecycle_msgs__msg__State__PRIMARY_STATE_ACTIVE) {
+      rcl_lifecycle_timers_start(machine->com_interface.node_handle);
+    }
   }
   if (publish) {
     machine_publish(&machine->com_interface, transition);

@@ -3,6 +3,7 @@
 #include "microros/port.h"
 #include "microros/rcl_guard_condition.h"
 #include "microros/rcl_timer.h"
+#include "microros/rcl_timer_gate.h"
 #include "microros/time_math.h"
 
 #include <string.h>
@@ -44,6 +45,7 @@ static rcl_ret_t timer_begin(
   timer->last_call_time = now;
   timer->next_call_time = microros_time_after(now, period);
   timer->canceled = !autostart;
+  rcl_timer_gate_begin(timer);
   if (autostart && !rcl_timer_source_start(timer)) {
     timer->clock = NULL;
     return microros_error_named(RCL_RET_ERROR, microros_error_timer, "the system starts none");

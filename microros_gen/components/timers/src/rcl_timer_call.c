@@ -2,6 +2,7 @@
 #include "microros/error.h"
 #include "microros/rcl_clock.h"
 #include "microros/rcl_timer.h"
+#include "microros/rcl_timer_gate.h"
 #include "microros/time_math.h"
 
 /*
@@ -112,7 +113,7 @@ rcl_ret_t rcl_timer_look(const rcl_timer_t * timer, bool * is_ready, int64_t * l
   *is_ready = false;
   *look_again_ns = INT64_MAX;
   result = rcl_timer_get_time_until_next_call(timer, &until);
-  if (result == RCL_RET_TIMER_CANCELED) {
+  if (result == RCL_RET_TIMER_CANCELED || (result == RCL_RET_OK && !rcl_timer_gate_is_open(timer->impl))) {
     return RCL_RET_OK;
   }
   if (result != RCL_RET_OK || rcl_timer_source_ticks(timer->impl, is_ready)) {

@@ -2,6 +2,8 @@
 #include "microros/xrce_write.h"
 
 #include "microros/xrce_client.h"
+#include "microros/xrce_drops.h"
+#include "microros/xrce_gate.h"
 #include "microros/xrce_routes.h"
 #include "microros/xrce_wire.h"
 
@@ -67,6 +69,11 @@ static uint8_t * write_pump(const xrce_endpoint_t * writer)
 /* Pumps; returns XRCE_WRITTEN with the room for a submessage, or why there is no room. */
 static xrce_write_t write_begin(xrce_endpoint_t * writer, uint8_t ** room)
 {
+  if (!xrce_gate_is_open(writer)) {
+    xrce_session_pump(writer->client);
+    xrce_drops_add(writer->client, writer->index);
+    return XRCE_WRITE_DROPPED;
+  }
   *room = write_pump(writer);
   return *room != NULL ? XRCE_WRITTEN : xrce_write_on_full(writer, room);
 }
