@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import sys
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -60,14 +61,23 @@ class _Peer:
         self._model: Any = None
         self._outcomes: dict[str, str] = {}
         self._calls: list[str] = []
+        self._turn = threading.Lock()
+
+    def spin(self) -> None:
+        """Run callbacks; nodes come and go between two turns."""
+        while True:
+            with self._turn:
+                self._executor.spin_once(timeout_sec=0.02)
+            time.sleep(0.001)
 
     def reset(self) -> bool:
         """Make a model in its first state."""
-        if self._model is not None:
-            self._executor.remove_node(self._model)
-            self._model.destroy_node()
-        self._model = self._new_model()
-        self._executor.add_node(self._model)
+        with self._turn:
+            if self._model is not None:
+                self._executor.remove_node(self._model)
+                self._model.destroy_node()
+            self._model = self._new_model()
+            self._executor.add_node(self._model)
         return True
 
     def _new_model(self) -> Any:
@@ -190,7 +200,7 @@ def main() -> None:
     rclpy.init()
     executor = SingleThreadedExecutor()
     peer = _Peer(executor)
-    threading.Thread(target=executor.spin, daemon=True).start()
+    threading.Thread(target=peer.spin, daemon=True).start()
     for line in sys.stdin:
         command = json.loads(line)
         print(json.dumps(getattr(peer, command.pop("do"))(**command)), flush=True)
