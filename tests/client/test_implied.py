@@ -114,6 +114,7 @@ def test_ros_time_is_one_of_them() -> None:
         "clock_ros",
         "graph",
         "graph_topic",
+        "lifecycle",
         "logger_services",
         "logging_rosout",
         "parameters",

@@ -16,7 +16,7 @@ EVERYTHING = """\
 version: 1
 profiles: [pure_reader]
 components: [+publish, +services, +executor, +timers, +multithread, +session_state, +micro_ros_utilities, +time_sync,
-  +parameters, +parameter_storage, +parameter_client,
+  +parameters, +parameter_storage, +parameter_client, +lifecycle,
   +graph, +logger_services, +logging_float, +name_substitutions, +publish_statistics,
   +ping, +session_close, +clock_ros, {choice}]
 logging: [rosout, {{to: ring, level: debug}}, console, callback]
@@ -25,11 +25,11 @@ nodes:
     parameters: [{{name: gain, type: double}}, {{name: label, type: string, size: 8}}]
     parameter_clients:
       - {{node: /motor, elements: 3, operations: [get, set, set_atomically, list, describe, get_types, watch]}}
-    publishers: [{{topic: out, type: std_msgs/msg/String, limits: {{string: 20}}}}]
+    publishers: [{{topic: out, type: std_msgs/msg/String, limits: {{string: 20}}, managed: true}}]
     subscriptions: [{{topic: in, type: std_msgs/msg/String, limits: {{string: 20}}, queue: 2}}]
     services: [{{name: on, type: std_srvs/srv/SetBool, limits: {{message: 9}}}}]
     clients: [{{name: ask, type: std_srvs/srv/SetBool, limits: {{message: 20}}}}]
-    timers: [{{name: tick, period: 50 ms}}]
+    timers: [{{name: tick, period: 50 ms, managed: true}}]
 transport: {transport}
 """
 

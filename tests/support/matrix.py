@@ -149,6 +149,11 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "    parameter_clients:\n      - {node: /motor, elements: 3, operations: "
         + "[get, set, set_atomically, list, describe, get_types, watch]}\n"
         + "profiles: [pure_sender]\ncomponents: [+parameter_client, +subscribe, +parameters]\n",
+        "lifecycle": _BUSY + "profiles: [managed_service]\nerrors: code\n",
+        "lifecycle-managed": _BUSY
+        + "    publishers: [{topic: sure, type: std_msgs/msg/Int32, managed: true}]\n"
+        + "    timers: [{name: control, period: 20 ms, managed: true}]\n"
+        + "profiles: [managed_service]\ncomponents: [+timers, +sleep_cycles]\n",
         "graph": _BUSY
         + "profiles: [pure_sender]\ncomponents: [+graph]\nmemory: {arena: 4096}\nerrors: code\n",
         "graph-topic": _BUSY

@@ -187,6 +187,11 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "graph_topic_xml": _NODES
         + _SURE
         + "components: [+graph_topic]\nentities: xml\nmemory: {arena: 4096}\n",
+        "lifecycle": _NODES + _SURE + "components: [+lifecycle, +multithread]\n",
+        "lifecycle_managed": _NODES
+        + "      - {topic: sure, type: std_msgs/msg/UInt8, managed: true}\n"
+        + "    timers: [{name: control, period: 20 ms, managed: true}]\n"
+        + "components: [+lifecycle, +timers, +sleep_cycles]\n",
         "services_less": _SERVED.replace("20", "9") + _ASKED.replace("9", "20"),
         "lent_tcp": _READER + _ALONE + "transport: {type: tcp, agent: '127.0.0.1:8888'}\n",
     }

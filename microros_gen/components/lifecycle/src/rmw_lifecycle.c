@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* In SampleIdentity (OMG DDS-XRCE 1.0, annex A): the writer's GUID, then the two halves of the sequence number. */
-enum { HIGH_AT = RMW_GID_STORAGE_SIZE, LOW_AT = HIGH_AT + 4 };
+enum { NUMBER_HIGH_AT = RMW_GID_STORAGE_SIZE, NUMBER_LOW_AT = NUMBER_HIGH_AT + 4 };
 
 uint8_t rmw_lifecycle_state(const rmw_node_t * node)
 {
@@ -56,8 +56,8 @@ void rmw_lifecycle_reply(const rmw_service_t * service, const rmw_request_id_t *
   uint8_t identity[XRCE_IDENTITY_SIZE];
 
   (void)memcpy(identity, request->writer_guid, RMW_GID_STORAGE_SIZE);
-  lifecycle_put_4(&identity[HIGH_AT], (uint32_t)(sequence >> 32));
-  lifecycle_put_4(&identity[LOW_AT], (uint32_t)(sequence & UINT32_MAX));
+  lifecycle_put_4(&identity[NUMBER_HIGH_AT], (uint32_t)(sequence >> 32));
+  lifecycle_put_4(&identity[NUMBER_LOW_AT], (uint32_t)(sequence & UINT32_MAX));
   microros_lock();
   xrce_pieces_begin(endpoint->client, endpoint->index, identity, port_time_ms());
   microros_unlock();
