@@ -58,6 +58,8 @@ class Pair:
         code, error, _ = self.program.call("reset")
         assert code == 0, error
         self.peer.ask(do="reset")
+        for node in BOTH:
+            self.peer.await_services(node)
         for identifier in path:
             assert self.changed(identifier) == [True, True]
 

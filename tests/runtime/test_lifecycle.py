@@ -130,7 +130,7 @@ def codec() -> Codec:
 
 @pytest.fixture
 def device(program: Path, codec: Codec) -> Iterator[Device]:
-    agent = PiecingAgent(mtu=400)
+    agent = PiecingAgent()
     with Client(program, agent) as client:
         yield Device(client, agent, codec)
 
@@ -288,8 +288,8 @@ def test_the_state_survives_a_sleep(device: Device, program: Path, codec: Codec,
         assert device.agent.values(COUNT) == [7]
         assert len(woken.graph()) == 25
         assert woken.change(DEACTIVATE)
-    with Client(program, PiecingAgent(mtu=400)) as client:  # a cold start
-        cold = Device(client, PiecingAgent(mtu=400), codec)
+    with Client(program, PiecingAgent()) as client:  # a cold start
+        cold = Device(client, PiecingAgent(), codec)
         cold.agent = client.agent  # type: ignore[assignment]
         cold.start()
         assert cold.state() == "unconfigured"
@@ -300,6 +300,12 @@ def test_labels_of_any_length(device: Device) -> None:
     assert device.change(0, "configure")
     for label in ("transition_failure", "x" * 18):
         assert not device.change(0, label)
+    for size in (19, 24, 60, 300, 900):  # what is too large is reported, and answered; the last two come in fragments
+        number = device.request("change_state", transition={"id": ACTIVATE, "label": "y" * size})
+        device.client.wait(STEP_MS)
+        codes = [device.client.call("spin").code for _ in range(SPINS)]
+        assert codes.count(0) >= SPINS - 1
+        assert not device.answer("change_state", number)["success"]
     assert device.state() == "inactive"
 
 

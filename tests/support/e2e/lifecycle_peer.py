@@ -16,9 +16,10 @@ from contextlib import contextmanager
 from typing import Any
 
 from tests.support.agent.line_process import LineProcess, serving
-from tests.support.patience import seconds
+from tests.support.patience import deadline, seconds
 
 MODEL = "/model/device"
+WHATS = ("state", "available_states", "available_transitions", "transition_graph")
 
 
 class LifecyclePeer(LineProcess):
@@ -31,8 +32,17 @@ class LifecyclePeer(LineProcess):
     def get(self, node: str, what: str) -> Any:
         return self.ask(do="get", node=node, what=what, timeout=seconds(30))
 
-    def state(self, node: str) -> Any:
-        return self.get(node, "state")
+    def await_services(self, node: str) -> None:
+        """Ask until each service answers: what goes to one that was just made, or to its predecessor, is lost."""
+        end = deadline(60)
+        label = "no_transition"
+        commands = (
+            {"do": "change", "node": node, "id": 0, "label": label},
+            *({"do": "get", "node": node, "what": what} for what in WHATS),
+        )
+        for command in commands:
+            while self.ask(**command, timeout=seconds(1)) is None:
+                assert time.monotonic() < end, command
 
 
 @contextmanager

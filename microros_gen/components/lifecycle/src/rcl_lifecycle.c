@@ -42,6 +42,9 @@ static rcl_ret_t machine_close(rcl_lifecycle_com_interface_t * offers, rcl_node_
     &offers->srv_get_available_transitions, &offers->srv_get_transition_graph};
   rcl_ret_t first = rcl_publisher_fini(&offers->pub_transition_event, node);
 
+  if (rcl_service_is_valid(&offers->srv_change_state)) {
+    rmw_lifecycle_answer_large(offers->srv_change_state.impl, false);
+  }
   for (size_t i = 0; i < sizeof(services) / sizeof(services[0]); ++i) {
     const rcl_ret_t result = rcl_service_fini(services[i], node);
 
@@ -138,6 +141,9 @@ rcl_ret_t rcl_lifecycle_state_machine_init(
       machine_open(offers, ts_pub_notify, services, state_machine->options.enable_com_interface ? count : 0u);
   }
   if (result == RCL_RET_OK) {
+    if (state_machine->options.enable_com_interface) {
+      rmw_lifecycle_answer_large(offers->srv_change_state.impl, true);
+    }
     machine_begin(state_machine);
   }
   return result;

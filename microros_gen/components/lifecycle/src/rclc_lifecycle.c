@@ -92,6 +92,8 @@ rcl_ret_t rclc_lifecycle_register_on_cleanup(rclc_lifecycle_node_t * node, int (
 
 rcl_ret_t rclc_lifecycle_execute_callback(rclc_lifecycle_node_t * lifecycle_node, unsigned int transition_id)
 {
+  int (*cb)(void);
+
   if (lifecycle_node == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "lifecycle_node");
   }
@@ -100,7 +102,8 @@ rcl_ret_t rclc_lifecycle_execute_callback(rclc_lifecycle_node_t * lifecycle_node
     !lifecycle_node->callbacks.goal_states[transition_id]) {
     return RCL_RET_OK;
   }
-  return lifecycle_node->callbacks.fun_ptrs[transition_id]();
+  cb = lifecycle_node->callbacks.fun_ptrs[transition_id];
+  return cb();
 }
 
 /* Calls a callback and leaves the transition state by what it returned, which is the position of the transition. */

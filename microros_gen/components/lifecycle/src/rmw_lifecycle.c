@@ -5,6 +5,7 @@
 #include "microros/port.h"
 #include "microros/rmw_node.h"
 #include "microros/xrce_client.h"
+#include "microros/xrce_parameters.h"
 
 #include <string.h>
 
@@ -41,6 +42,13 @@ bool rmw_lifecycle_is_replying(const rmw_node_t * node)
   const xrce_client_t * client = node->context->impl;
 
   return client->pieces.busy;
+}
+
+void rmw_lifecycle_answer_large(const rmw_service_t * service, bool answers)
+{
+  microros_lock();
+  xrce_parameters_keep_beginning(service->data, answers ? (uint8_t)XRCE_PARAMETERS_BEGINNING : 0u);
+  microros_unlock();
 }
 
 static void lifecycle_put_4(uint8_t * at, uint32_t number)

@@ -23,6 +23,9 @@ void rmw_lifecycle_use(const rmw_node_t * node, xrce_pieces_body_t body);
 /* Returns whether a reply in pieces is under way. */
 bool rmw_lifecycle_is_replying(const rmw_node_t * node);
 
+/* Lets a request that is too large for an open service reach it with its first bytes. */
+void rmw_lifecycle_answer_large(const rmw_service_t * service, bool answers);
+
 /* Begins a reply in pieces; the next one has to wait for its end. */
 void rmw_lifecycle_reply(const rmw_service_t * service, const rmw_request_id_t * request);
 

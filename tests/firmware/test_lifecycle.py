@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A node with a life cycle on a board: rclpy drives it over the serial line. Its size, with all kinds of entities."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.support.e2e.lifecycle_peer import MODEL, lifecycle_peer
+from tests.support.firmware.board import Builds, board, need
+from tests.support.firmware.footprint import bounded_stack, image_sections
+from tests.support.firmware.running import started
+
+NAME = "qemu-mps2-an386"
+DEVICE = "/arm/device"
+APPLICATION = """\
+version: 1
+profiles: [managed_service]
+errors: code
+session: {connect_timeout: 20 s, create_timeout: 20 s, liveliness_timeout: 20 s}
+nodes: [{name: device, namespace: /arm}]
+"""
+SIZES = {
+    "qemu-microbit": (0, 0, 0),
+    NAME: (0, 0, 0),
+    "qemu-mps2-an505": (0, 0, 0),
+}
+"""Flash, RAM without the stack, worst stack; the goals on the Cortex-M4 are 20,000, 5,000 and 1,200."""
+SIZES_OF_ENTITIES = {"xml": (0, 0), "reference": (0, 0), "preconfigured": (0, 0)}
+
+
+@pytest.mark.ros
+def test_rclpy_drives_it(builds: Builds, domain: int) -> None:
+    """The states, callbacks and lists are those of rclpy's node; the whole graph comes in pieces over the line."""
+    need(NAME, emulator=True)
+    built = builds.build(NAME, APPLICATION)
+    image = builds.application(built, "lifecycle.c")
+    with (
+        lifecycle_peer(domain) as peer,
+        board(built, image) as running,
+        started("agent", "serial", "--dev", running.device, "--domain", str(domain), domain=domain) as agent,
+    ):
+        agent.wait_for("agent ready")
+        running.go_on()
+        peer.ask(do="reset")
+        for node in (DEVICE, MODEL):
+            peer.await_services(node)
+        for what in ("available_states", "transition_graph"):
+            assert peer.get(DEVICE, what) == peer.get(MODEL, what)
+        for identifier, label in ((1, ""), (0, "activate"), (2, ""), (4, ""), (2, ""), (1, ""), (6, ""), (1, "")):
+            transitions = [t[:2] for t in peer.get(MODEL, "available_transitions")]
+            exists = any(t[1] == label if label else t[0] == identifier for t in transitions)
+            assert peer.change(DEVICE, identifier, label) is exists
+            if exists:
+                assert peer.change(MODEL, identifier, label)
+            assert peer.state(DEVICE) == peer.state(MODEL)
+        report = running.words("lifecycle_report", 5)
+    assert report == (4, 2, 1, 1, 1)
+
+
+@pytest.mark.parametrize(("name", "limits"), SIZES.items(), ids=SIZES)
+def test_its_size(builds: Builds, name: str, limits: tuple[int, int, int]) -> None:
+    """Five services, a publisher, executor, over a serial line."""
+    need(name)
+    built = builds.build(name, APPLICATION)
+    image = builds.application(built, "lifecycle.c")
+    size = image_sections(built, image)
+    found = (size.text + size.data, size.ram, bounded_stack(built, image))
+    assert all(value <= limit for value, limit in zip(found, limits, strict=True)), found
+
+
+@pytest.mark.parametrize(("entities", "limits"), SIZES_OF_ENTITIES.items(), ids=SIZES_OF_ENTITIES)
+def test_its_size_by_entities(builds: Builds, entities: str, limits: tuple[int, int]) -> None:
+    need(NAME)
+    built = builds.build(NAME, f"{APPLICATION}entities: {entities}\n")
+    size = image_sections(built, builds.application(built, "lifecycle.c"))
+    found = (size.text + size.data, size.ram)
+    assert all(value <= limit for value, limit in zip(found, limits, strict=True)), found
