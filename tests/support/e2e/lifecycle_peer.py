@@ -32,6 +32,9 @@ class LifecyclePeer(LineProcess):
     def get(self, node: str, what: str) -> Any:
         return self.ask(do="get", node=node, what=what, timeout=seconds(30))
 
+    def state(self, node: str) -> Any:
+        return self.get(node, "state")
+
     def await_services(self, node: str) -> None:
         """Ask until each service answers: what goes to one that was just made, or to its predecessor, is lost."""
         end = deadline(60)
