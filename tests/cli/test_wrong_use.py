@@ -92,11 +92,6 @@ IN_THE_FILE = {
         "profiles: [pure_sender]\nmemory: {ram_budget: 512}",
         r"microros\.yaml:3:\d+: error: .*ram_budget is 512",
     ),
-    "a component that is not there yet": (
-        "[pure_sender]",
-        "[pure_sender, managed_service]",
-        r"microros\.yaml:2:25: error: .*managed_service.*lifecycle.*does not have yet",
-    ),
     "an RTOS without a port": (
         "profiles: [pure_sender]",
         "profiles: [pure_sender]\ntarget: {name: cortex-m4, rtos: freertos}",

@@ -19,7 +19,6 @@ from tests.support.migrate.proposals import Init, application_in, entities_of
 
 pytestmark = pytest.mark.builds
 
-PLANNED = ("managed_service",)
 FILES = {
     "microros.yaml",
     "main.c",
@@ -84,14 +83,6 @@ def test_a_folder_for_each_target(target: str, init: Init, tmp_path: Path) -> No
     kinds = {entity[0] for entity in entities_of(application_in(folder / "microros.yaml"))}
     assert kinds == {"node", "publisher", "subscription"}
     compiles(folder, target)
-
-
-@pytest.mark.parametrize("profile", PLANNED)
-def test_a_profile_that_is_not_there_yet_is_refused(profile: str, init: Init, tmp_path: Path) -> None:
-    status, _, err = init("app", "--profile", profile)
-    assert status == 2
-    assert f"<command line>:1:11: error: profile {profile} needs the component" in err
-    assert not (tmp_path / "app").exists()
 
 
 def test_profiles_and_targets_of_the_users_own_are_named_from_the_folder(init: Init, tmp_path: Path) -> None:

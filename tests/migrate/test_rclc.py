@@ -294,7 +294,6 @@ def test_settings_of_transport_session_and_domain() -> None:
     ("call", "reason"),
     [
         ("rclc_action_server_init_default(&a, &node, &support, T, n);", "needs the component 'actions'"),
-        ("rclc_lifecycle_node_fini(&l, a);", "rclc_lifecycle_node_fini needs the component 'lifecycle'"),
         ("rcl_get_node_names(&node, a, &b, &c);", "rcl_get_node_names takes memory from `memory.arena`"),
         ("rcl_no_such_call(&node);", "rcl_no_such_call is not in this version"),
         ("set_microros_serial_transports(Serial);", "set_microros_serial_transports() is of another library"),

@@ -60,6 +60,18 @@ def test_a_folder_is_built_like_a_component_of_the_tool(folder: Path, run: Runne
     assert {row["name"]: row["from"] for row in rows if "from" in row} == {"beacon": "folder beacon"}
 
 
+def test_a_component_that_is_planned_is_refused_by_a_build(folder: Path, run: Runner) -> None:
+    """The resolver shows it; `init` writes no folder with a profile that needs it."""
+    planned = COMPONENT.replace("status: ready", "status: planned")
+    write_files(folder / "beacon", {**BEACON, "component.yaml": planned})
+    application(folder)
+    done = run("generate", "-o", "out")
+    assert done.status == 2
+    assert "the component beacon, which this version of microros-gen does not have yet" in done.err
+    assert not (folder / "out").exists()
+    assert "beacon" in run("resolve").out
+
+
 def test_where_the_folder_is_does_not_matter(folder: Path, run: Runner, tmp_path: Path) -> None:
     outputs = []
     for place in ("near", "far/away"):

@@ -3,13 +3,13 @@
 
 #include "microros/error.h"
 #include "microros/rcl_lifecycle_answer.h"
+#include "microros/rcl_lifecycle_events.h"
 #include "microros/rcl_lifecycle_states.h"
 #include "microros/rcl_lifecycle_timers.h"
 #include "microros/rcl_publisher_open.h"
 #include "microros/rcl_service_open.h"
 #include "microros/rmw_lifecycle.h"
 #include "microros/text.h"
-#include "rcl/error_handling.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -167,6 +167,7 @@ rcl_ret_t rcl_lifecycle_state_machine_fini(
   rcl_lifecycle_answer_no_longer(state_machine);
   if (rcl_node_is_valid(node_handle)) {
     rmw_lifecycle_set_state(node_handle->impl, 0u);
+    rcl_lifecycle_events_clear(node_handle);
   }
   result = machine_close(&state_machine->com_interface, node_handle);
   *state_machine = rcl_lifecycle_get_zero_initialized_state_machine();
@@ -199,17 +200,6 @@ const rcl_lifecycle_transition_t * rcl_lifecycle_get_transition_by_label(
   return NULL;
 }
 
-/* A message without room is counted by the stream; the state is what it is. */
-static void machine_publish(
-  rcl_lifecycle_com_interface_t * offers, const rcl_lifecycle_transition_t * transition)
-{
-  offers->msg.start_state = rcl_lifecycle_message_of(transition->start);
-  offers->msg.goal_state = rcl_lifecycle_message_of(transition->goal);
-  if (rcl_publish(&offers->pub_transition_event, &offers->msg, NULL) != RCL_RET_OK) {
-    rcl_reset_error();
-  }
-}
-
 static bool machine_is_primary(const rcl_lifecycle_state_t * state)
 {
   return state->id <= (uint8_t)lifecycle_msgs__msg__State__PRIMARY_STATE_FINALIZED;
@@ -230,7 +220,7 @@ static rcl_ret_t machine_go(
     }
   }
   if (publish) {
-    machine_publish(&machine->com_interface, transition);
+    rcl_lifecycle_events_add(&machine->com_interface, transition->id);
   }
   return RCL_RET_OK;
 }

@@ -5,6 +5,7 @@
 #include "lifecycle_msgs/srv/get_available_transitions.h"
 #include "microros/cdr_decode.h"
 #include "microros/error.h"
+#include "microros/rcl_lifecycle_events.h"
 #include "microros/rcl_lifecycle_states.h"
 #include "microros/rmw_lifecycle.h"
 #include "microros/rmw_node.h"
@@ -136,6 +137,7 @@ void rcl_lifecycle_leave(const rcl_node_t * node)
 {
   answer_machines[rmw_node_index(node->impl)] = NULL;
   rmw_lifecycle_set_state(node->impl, 0u);
+  rcl_lifecycle_events_clear(node);
 }
 
 /* Takes a request; false: there is none, or it is not of its type. */
@@ -159,6 +161,7 @@ static void answer_requests(rcl_lifecycle_state_machine_t * machine)
   rcl_lifecycle_state_t state = *machine->current_state;
   rmw_request_id_t request;
 
+  rcl_lifecycle_events_send(offers);
   if (answer_take(&offers->srv_get_available_transitions, &request)) {
     if (rcl_send_response(&offers->srv_get_available_transitions, &request, &state) != RCL_RET_OK) {
       rcl_reset_error(); /* there is room for what was taken; else it is counted */

@@ -6,7 +6,9 @@
 #include "microros/rmw_node.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_parameters.h"
+#include "microros/xrce_write.h"
 
+#include <stddef.h>
 #include <string.h>
 
 /* In SampleIdentity (OMG DDS-XRCE 1.0, annex A): the writer's GUID, then the two halves of the sequence number. */
@@ -42,6 +44,19 @@ bool rmw_lifecycle_is_replying(const rmw_node_t * node)
   const xrce_client_t * client = node->context->impl;
 
   return client->pieces.busy;
+}
+
+bool rmw_lifecycle_has_room(const rmw_publisher_t * publisher)
+{
+  bool result;
+
+  if (publisher == NULL) {
+    return false;
+  }
+  microros_lock();
+  result = xrce_write_reserve(publisher->data) != NULL;
+  microros_unlock();
+  return result;
 }
 
 void rmw_lifecycle_answer_large(const rmw_service_t * service, bool answers)

@@ -23,6 +23,9 @@ void rmw_lifecycle_use(const rmw_node_t * node, xrce_pieces_body_t body);
 /* Returns whether a reply in pieces is under way. */
 bool rmw_lifecycle_is_replying(const rmw_node_t * node);
 
+/* Returns whether an open publisher has a session and room in its stream. */
+bool rmw_lifecycle_has_room(const rmw_publisher_t * publisher);
+
 /* Lets a request that is too large for an open service reach it with its first bytes. */
 void rmw_lifecycle_answer_large(const rmw_service_t * service, bool answers);
 

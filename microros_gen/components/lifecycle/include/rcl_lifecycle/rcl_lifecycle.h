@@ -59,8 +59,8 @@ const rcl_lifecycle_transition_t * rcl_lifecycle_get_transition_by_label(
 
 /*
  * Goes through one transition, without callbacks. RCL_RET_INVALID_ARGUMENT, with a text: it does not begin in the
- * current state, which stays. An event that the stream has no room for is dropped and counted; the state changes all
- * the same.
+ * current state, which stays. Up to eight events wait for room in the stream; then the oldest is dropped and counted.
+ * The state changes all the same.
  */
 rcl_ret_t rcl_lifecycle_trigger_transition_by_id(
   rcl_lifecycle_state_machine_t * state_machine, uint8_t id, bool publish_notification);

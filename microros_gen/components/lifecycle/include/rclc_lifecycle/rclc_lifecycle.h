@@ -95,8 +95,8 @@ void rclc_lifecycle_change_state_callback(const void * req, void * res, void * c
 /*
  * Requests a transition, calls its callback, and goes on to the state that follows from what it returns. RCL_RET_OK
  * also if the callback failed: state_machine->current_state tells. RCL_RET_ERROR, with a text: the transition does not
- * begin in the current state, which stays. `publish_update`: send two messages to ~/transition_event; without room or
- * without the agent they are dropped and counted.
+ * begin in the current state, which stays. `publish_update`: send events to ~/transition_event; without room or
+ * without the agent up to eight wait, then the oldest is dropped and counted.
  */
 rcl_ret_t rclc_lifecycle_change_state(
   rclc_lifecycle_node_t * lifecycle_node, unsigned int transition_id, bool publish_update);
