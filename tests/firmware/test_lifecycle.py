@@ -46,7 +46,16 @@ def test_rclpy_drives_it(builds: Builds, domain: int) -> None:
             peer.await_services(node)
         for what in ("available_states", "transition_graph"):
             assert peer.get(DEVICE, what) == peer.get(MODEL, what)
-        for identifier, label in ((1, ""), (0, "activate"), (2, ""), (4, ""), (2, ""), (1, ""), (6, ""), (1, "")):
+        for identifier, label in (
+            (1, ""),
+            (0, "activate"),
+            (2, ""),
+            (4, ""),
+            (2, ""),
+            (1, ""),
+            (6, ""),
+            (1, ""),
+        ):
             transitions = [t[:2] for t in peer.get(MODEL, "available_transitions")]
             exists = any(t[1] == label if label else t[0] == identifier for t in transitions)
             assert peer.change(DEVICE, identifier, label) is exists
@@ -54,7 +63,7 @@ def test_rclpy_drives_it(builds: Builds, domain: int) -> None:
                 assert peer.change(MODEL, identifier, label)
             assert peer.state(DEVICE) == peer.state(MODEL)
         report = running.words("lifecycle_report", 5)
-    assert report == (4, 2, 1, 1, 1)
+    assert report == [4, 2, 1, 1, 1]
 
 
 @pytest.mark.parametrize(("name", "limits"), SIZES.items(), ids=SIZES)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A life cycle with a scripted agent: replies in pieces, what its state manages, lost sessions, sleep, wrap of the clock."""
+"""A life cycle with a scripted agent: replies in pieces, managed entities, lost sessions, sleep, wrap of the clock."""
 
 from __future__ import annotations
 
@@ -142,7 +142,9 @@ def test_the_graph_is_sent_in_pieces(device: Device, start_ms: int) -> None:
     graph = device.graph()
     assert len(graph) == 25
     assert device.agent.pieces[:-1] == [128] * (len(device.agent.pieces) - 1)
-    assert [t["transition"]["label"] for t in device.ask("get_available_transitions")["available_transitions"]] == [
+    assert [
+        t["transition"]["label"] for t in device.ask("get_available_transitions")["available_transitions"]
+    ] == [
         "configure",
         "shutdown",
     ]
@@ -216,7 +218,13 @@ def test_publishers_and_timers_follow_the_state(device: Device, start_ms: int) -
     device.start()
     wanted = {COUNT: list[int](), STATUS: list[int]()}
     value = 0
-    for path, active in (((), False), ((CONFIGURE,), False), ((ACTIVATE,), True), ((DEACTIVATE,), False), ((ACTIVATE,), True)):
+    for path, active in (
+        ((), False),
+        ((CONFIGURE,), False),
+        ((ACTIVATE,), True),
+        ((DEACTIVATE,), False),
+        ((ACTIVATE,), True),
+    ):
         for step in path:
             assert device.change(step)
         dropped = device.dropped()
@@ -300,7 +308,13 @@ def test_labels_of_any_length(device: Device) -> None:
     assert device.change(0, "configure")
     for label in ("transition_failure", "x" * 18):
         assert not device.change(0, label)
-    for size in (19, 24, 60, 300, 900):  # what is too large is reported, and answered; the last two come in fragments
+    for size in (
+        19,
+        24,
+        60,
+        300,
+        900,
+    ):  # what is too large is reported, and answered; the last two come in fragments
         number = device.request("change_state", transition={"id": ACTIVATE, "label": "y" * size})
         device.client.wait(STEP_MS)
         codes = [device.client.call("spin").code for _ in range(SPINS)]

@@ -107,7 +107,10 @@ def record(part: LifecyclePlan) -> object:
     """Return what the plan id is made of."""
     return {
         "piece": part.piece_size,
-        "managed": [part.manages and [p.managed for p in part.publishers], [[t.period_ns, t.node] for t in part.timers]],
+        "managed": [
+            part.manages and [p.managed for p in part.publishers],
+            [[t.period_ns, t.node] for t in part.timers],
+        ],
     }
 
 

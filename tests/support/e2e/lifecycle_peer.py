@@ -39,7 +39,7 @@ class LifecyclePeer(LineProcess):
         """Ask until each service answers: what goes to one that was just made, or to its predecessor, is lost."""
         end = deadline(60)
         label = "no_transition"
-        commands = (
+        commands: tuple[dict[str, Any], ...] = (
             {"do": "change", "node": node, "id": 0, "label": label},
             *({"do": "get", "node": node, "what": what} for what in WHATS),
         )
