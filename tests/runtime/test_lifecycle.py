@@ -141,7 +141,7 @@ def test_the_graph_is_sent_in_pieces(device: Device, start_ms: int) -> None:
     device.start()
     graph = device.graph()
     assert len(graph) == 25
-    assert device.agent.pieces[:-1] == [128] * (len(device.agent.pieces) - 1)
+    assert device.agent.pieces[:-1] == [64] * (len(device.agent.pieces) - 1)
     assert [
         t["transition"]["label"] for t in device.ask("get_available_transitions")["available_transitions"]
     ] == [

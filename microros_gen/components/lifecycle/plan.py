@@ -15,7 +15,7 @@ LONGEST_STATE = len("errorprocessing")
 LONGEST_TRANSITION = len("transition_success")
 MOST_TRANSITIONS = 3
 """How many leave one state."""
-MOST_PIECE = 128
+MOST_PIECE = 64
 """Bytes of a piece: it is on the stack while it is sent."""
 _SERVICES = 3
 """How many the executor of the application runs, for each node."""

@@ -111,7 +111,8 @@ static rcl_ret_t store(const char * file, bool sleeps)
   size_t count = 0;
 
   if (stream != NULL) {
-    count = sleeps ? fwrite(&retained, sizeof(retained), 1, stream) : fread(&retained, sizeof(retained), 1, stream);
+    count =
+      sleeps ? fwrite(&retained, sizeof(retained), 1, stream) : fread(&retained, sizeof(retained), 1, stream);
     (void)fclose(stream);
   }
   return count == 1u ? RCL_RET_OK : RCL_RET_ERROR;

@@ -9,5 +9,6 @@ READY = (
     "configurable_sender_with_diagnostics",
     "ad_hoc_discoverable_sender",
     "static_configured_sender",
+    "managed_service",
     "simulation_node",
 )

@@ -6,6 +6,7 @@
 #include "microros/rcl_lifecycle_events.h"
 #include "microros/rcl_lifecycle_states.h"
 #include "microros/rcl_lifecycle_timers.h"
+#include "microros/rcl_lifecycle_types.h"
 #include "microros/rcl_publisher_open.h"
 #include "microros/rcl_service_open.h"
 #include "microros/rmw_lifecycle.h"
@@ -53,30 +54,13 @@ static rcl_ret_t machine_close(rcl_lifecycle_com_interface_t * offers, rcl_node_
   return first;
 }
 
-/* A service of a node with a life cycle. */
-typedef struct machine_service_t {
-  rcl_service_t * service;
-  const rosidl_service_type_support_t * type;
-  const char * name;
-} machine_service_t;
-
-static rcl_ret_t machine_open(
-  rcl_lifecycle_com_interface_t * offers, const rosidl_message_type_support_t * event,
-  const machine_service_t * services, size_t count)
+/* Opens a service unless an earlier one failed. */
+static rcl_ret_t machine_offer(
+  rcl_ret_t before, rcl_service_t * service, const rcl_node_t * node,
+  const rosidl_service_type_support_t * type, const char * name)
 {
-  rcl_ret_t result = rcl_publisher_open(
-    &offers->pub_transition_event, offers->node_handle, event, "~/transition_event",
-    &rmw_qos_profile_default);
-
-  for (size_t i = 0; i < count && result == RCL_RET_OK; ++i) {
-    result = rcl_service_open(
-      services[i].service, offers->node_handle, services[i].type, services[i].name,
-      &rmw_qos_profile_services_default);
-  }
-  if (result != RCL_RET_OK) {
-    (void)machine_close(offers, offers->node_handle); /* the first error is reported */
-  }
-  return result;
+  return before == RCL_RET_OK ? rcl_service_open(service, node, type, name, &rmw_qos_profile_services_default)
+                              : before;
 }
 
 /* Returns the state in which a node begins: after a sleep the one before it. */
@@ -122,23 +106,29 @@ rcl_ret_t rcl_lifecycle_state_machine_init(
   if (!state_machine_options->initialize_default_states) {
     return microros_error_named(RCL_RET_UNSUPPORTED, microros_error_lifecycle, "it has the default states");
   }
-  *state_machine = rcl_lifecycle_get_zero_initialized_state_machine(); /* it may be uninitialized memory */
+  (void)memset(state_machine, 0, sizeof(*state_machine)); /* it may be uninitialized memory */
   state_machine->options = *state_machine_options;
   offers = &state_machine->com_interface;
   offers->node_handle = node_handle;
-  {
-    const machine_service_t services[] = {
-      {&offers->srv_change_state, ts_srv_change_state, "~/change_state"},
-      {&offers->srv_get_available_states, ts_srv_get_available_states, "~/get_available_states"},
-      {&offers->srv_get_available_transitions, &rcl_lifecycle_transitions_type,
-       "~/get_available_transitions"},
-      {&offers->srv_get_state, ts_srv_get_state, "~/get_state"},
-      {&offers->srv_get_transition_graph, &rcl_lifecycle_transitions_type, "~/get_transition_graph"},
-    };
-    const size_t count = sizeof(services) / sizeof(services[0]);
-
+  result = rcl_publisher_open(
+    &offers->pub_transition_event, node_handle, ts_pub_notify, "~/transition_event",
+    &rmw_qos_profile_default);
+  if (state_machine->options.enable_com_interface) {
     result =
-      machine_open(offers, ts_pub_notify, services, state_machine->options.enable_com_interface ? count : 0u);
+      machine_offer(result, &offers->srv_change_state, node_handle, ts_srv_change_state, "~/change_state");
+    result = machine_offer(
+      result, &offers->srv_get_available_states, node_handle, ts_srv_get_available_states,
+      "~/get_available_states");
+    result = machine_offer(
+      result, &offers->srv_get_available_transitions, node_handle, &rcl_lifecycle_transitions_type,
+      "~/get_available_transitions");
+    result = machine_offer(result, &offers->srv_get_state, node_handle, ts_srv_get_state, "~/get_state");
+    result = machine_offer(
+      result, &offers->srv_get_transition_graph, node_handle, &rcl_lifecycle_transitions_type,
+      "~/get_transition_graph");
+  }
+  if (result != RCL_RET_OK) {
+    (void)machine_close(offers, node_handle); /* the first error is reported */
   }
   if (result == RCL_RET_OK) {
     if (state_machine->options.enable_com_interface) {

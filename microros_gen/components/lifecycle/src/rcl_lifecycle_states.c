@@ -120,7 +120,13 @@ const rcl_lifecycle_state_t rcl_lifecycle_states[RCL_LIFECYCLE_STATES] = {
    &rcl_lifecycle_transitions[AFTER_ERRORPROCESSING], OUTCOMES},
 };
 
-#define MESSAGE(name, text) {STATE_ID(name), {(text), sizeof(text) - 1u, sizeof(text)}}
+#define MESSAGE(name, text) \
+  { \
+    STATE_ID(name), \
+    { \
+      (text), sizeof(text) - 1u, sizeof(text) \
+    } \
+  }
 
 static const lifecycle_msgs__msg__State state_messages[RCL_LIFECYCLE_STATES] = {
   MESSAGE(PRIMARY_STATE_UNKNOWN, "unknown"),

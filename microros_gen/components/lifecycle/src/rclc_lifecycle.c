@@ -2,6 +2,7 @@
 #include "rclc_lifecycle/rclc_lifecycle.h"
 
 #include "microros/error.h"
+#include "microros/rcl_lifecycle_types.h"
 #include "microros/rclc_lifecycle_change.h"
 
 #include <string.h>
@@ -22,9 +23,8 @@ rcl_ret_t rclc_make_node_a_lifecycle_node(
   options.allocator = *allocator;
   (void)memset(lifecycle_node, 0, sizeof(*lifecycle_node)); /* it may be uninitialized memory */
   result = rcl_lifecycle_state_machine_init(
-    state_machine, node, ROSIDL_GET_MSG_TYPE_SUPPORT(lifecycle_msgs, msg, TransitionEvent),
-    &rclc_lifecycle_change_type, ROSIDL_GET_SRV_TYPE_SUPPORT(lifecycle_msgs, srv, GetState),
-    ROSIDL_GET_SRV_TYPE_SUPPORT(lifecycle_msgs, srv, GetAvailableStates), NULL, NULL, &options);
+    state_machine, node, &rcl_lifecycle_event_type, &rclc_lifecycle_change_type, &rcl_lifecycle_state_type,
+    &rcl_lifecycle_states_type, NULL, NULL, &options);
   if (result != RCL_RET_OK) {
     return result;
   }
@@ -60,7 +60,8 @@ rcl_ret_t rclc_lifecycle_node_fini(rclc_lifecycle_node_t * node, rcl_allocator_t
 rcl_ret_t rclc_lifecycle_register_callback(
   rclc_lifecycle_node_t * lifecycle_node, unsigned int goal_state, int (*cb)(void))
 {
-  if (lifecycle_node == NULL || cb == NULL || goal_state >= (unsigned int)RCLC_LIFECYCLE_MAX_NUMBER_OF_STATES) {
+  if (
+    lifecycle_node == NULL || cb == NULL || goal_state >= (unsigned int)RCLC_LIFECYCLE_MAX_NUMBER_OF_STATES) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "lifecycle_node, goal_state or callback");
   }
   lifecycle_node->callbacks.goal_states[goal_state] = true;
@@ -70,8 +71,7 @@ rcl_ret_t rclc_lifecycle_register_callback(
 
 rcl_ret_t rclc_lifecycle_register_on_configure(rclc_lifecycle_node_t * node, int (*cb)(void))
 {
-  return rclc_lifecycle_register_callback(
-    node, lifecycle_msgs__msg__Transition__TRANSITION_CONFIGURE, cb);
+  return rclc_lifecycle_register_callback(node, lifecycle_msgs__msg__Transition__TRANSITION_CONFIGURE, cb);
 }
 
 rcl_ret_t rclc_lifecycle_register_on_activate(rclc_lifecycle_node_t * node, int (*cb)(void))
@@ -81,8 +81,7 @@ rcl_ret_t rclc_lifecycle_register_on_activate(rclc_lifecycle_node_t * node, int 
 
 rcl_ret_t rclc_lifecycle_register_on_deactivate(rclc_lifecycle_node_t * node, int (*cb)(void))
 {
-  return rclc_lifecycle_register_callback(
-    node, lifecycle_msgs__msg__Transition__TRANSITION_DEACTIVATE, cb);
+  return rclc_lifecycle_register_callback(node, lifecycle_msgs__msg__Transition__TRANSITION_DEACTIVATE, cb);
 }
 
 rcl_ret_t rclc_lifecycle_register_on_cleanup(rclc_lifecycle_node_t * node, int (*cb)(void))
@@ -144,8 +143,8 @@ lifecycle_outcome_t rclc_lifecycle_change(
   if (machine->current_state->id <= (uint8_t)lifecycle_msgs__msg__State__PRIMARY_STATE_FINALIZED) {
     return LIFECYCLE_SUCCESS; /* a transition that ends a transition state */
   }
-  outcome =
-    lifecycle_call(lifecycle_node, machine->current_state->id == error_id ? error_id : transition_id, publish_update);
+  outcome = lifecycle_call(
+    lifecycle_node, machine->current_state->id == error_id ? error_id : transition_id, publish_update);
   if (outcome == LIFECYCLE_ERROR && machine->current_state->id == error_id) {
     (void)lifecycle_call(lifecycle_node, error_id, publish_update);
   }

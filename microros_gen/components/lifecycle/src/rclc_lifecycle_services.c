@@ -9,8 +9,7 @@
 /* Returns the node, or NULL with a text. */
 static rclc_lifecycle_node_t * services_node(const rclc_lifecycle_service_context_t * context)
 {
-  if (
-    context != NULL && context->lifecycle_node != NULL && context->lifecycle_node->state_machine != NULL) {
+  if (context != NULL && context->lifecycle_node != NULL && context->lifecycle_node->state_machine != NULL) {
     return context->lifecycle_node;
   }
   (void)microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "context");
@@ -33,11 +32,11 @@ rcl_ret_t rclc_lifecycle_init_get_available_states_server(
 {
   rclc_lifecycle_node_t * node = services_node(context);
 
-  return node == NULL ? RCL_RET_INVALID_ARGUMENT
-                      : rclc_executor_add_service_with_context(
-                          executor, &node->state_machine->com_interface.srv_get_available_states,
-                          &node->gas_req, &node->gas_res, rclc_lifecycle_get_available_states_callback,
-                          context);
+  return node == NULL
+           ? RCL_RET_INVALID_ARGUMENT
+           : rclc_executor_add_service_with_context(
+               executor, &node->state_machine->com_interface.srv_get_available_states, &node->gas_req,
+               &node->gas_res, rclc_lifecycle_get_available_states_callback, context);
 }
 
 rcl_ret_t rclc_lifecycle_init_change_state_server(
@@ -95,6 +94,5 @@ void rclc_lifecycle_change_state_callback(const void * req, void * res, void * c
   lifecycle_msgs__srv__ChangeState_Response * response = res;
   const int32_t id = services_requested(req, node->state_machine->current_state);
 
-  response->success =
-    id >= 0 && rclc_lifecycle_change(node, (unsigned int)id, true) == LIFECYCLE_SUCCESS;
+  response->success = id >= 0 && rclc_lifecycle_change(node, (unsigned int)id, true) == LIFECYCLE_SUCCESS;
 }

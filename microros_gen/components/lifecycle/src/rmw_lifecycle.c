@@ -2,7 +2,6 @@
 #include "microros/rmw_lifecycle.h"
 
 #include "microros/lock.h"
-#include "microros/port.h"
 #include "microros/rmw_node.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_parameters.h"
@@ -82,6 +81,6 @@ void rmw_lifecycle_reply(const rmw_service_t * service, const rmw_request_id_t *
   lifecycle_put_4(&identity[NUMBER_HIGH_AT], (uint32_t)(sequence >> 32));
   lifecycle_put_4(&identity[NUMBER_LOW_AT], (uint32_t)(sequence & UINT32_MAX));
   microros_lock();
-  xrce_pieces_begin(endpoint->client, endpoint->index, identity, port_time_ms());
+  xrce_pieces_begin(endpoint->client, endpoint->index, identity);
   microros_unlock();
 }

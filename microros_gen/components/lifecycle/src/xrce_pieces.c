@@ -52,7 +52,8 @@ static void pieces_send(xrce_client_t * client, uint32_t now)
   xrce_pieces_t * pieces = &client->pieces;
   const uint32_t size = pieces->broken ? 0u : pieces_left(pieces);
   const bool is_last = pieces->broken || pieces->position + size == pieces->size;
-  const uint32_t flags = is_last ? XRCE_FLAG_LITTLE_ENDIAN | XRCE_FLAG_LAST_FRAGMENT : XRCE_FLAG_LITTLE_ENDIAN;
+  const uint32_t flags =
+    is_last ? XRCE_FLAG_LITTLE_ENDIAN | XRCE_FLAG_LAST_FRAGMENT : XRCE_FLAG_LITTLE_ENDIAN;
   uint8_t message[PIECE_AT + MICROROS_PIECE_SIZE];
 
   xrce_put_header(message, XRCE_SESSION_ID, STREAM_PIECES, pieces->sequence);
@@ -85,7 +86,7 @@ static void pieces_go(xrce_client_t * client, uint32_t now)
   }
 }
 
-void xrce_pieces_begin(xrce_client_t * client, uint16_t endpoint, const uint8_t * identity, uint32_t now)
+void xrce_pieces_begin(xrce_client_t * client, uint16_t endpoint, const uint8_t * identity)
 {
   xrce_pieces_t * pieces = &client->pieces;
 
@@ -96,8 +97,7 @@ void xrce_pieces_begin(xrce_client_t * client, uint16_t endpoint, const uint8_t 
   (void)memcpy(pieces->identity, identity, sizeof(pieces->identity));
   pieces->size = (uint32_t)HEAD_SIZE + pieces->body(0u, 0u, NULL);
   pieces->position = 0;
-  pieces->busy = true;
-  pieces_go(client, now);
+  pieces->busy = true; /* sent by the next step */
 }
 
 void xrce_pieces_step(xrce_client_t * client, uint32_t now)
@@ -132,16 +132,14 @@ void xrce_pieces_on_acknack(xrce_client_t * client, const uint8_t * submessage, 
   const uint8_t * payload = xrce_payload_of(submessage);
   xrce_pieces_t * pieces = &client->pieces;
 
+  (void)now;
   if (
     size < XRCE_ACKNACK_SIZE || payload[4] != (uint8_t)STREAM_PIECES || !pieces->outstanding ||
     client->session.state != (uint8_t)XRCE_READY ||
     xrce_get_u16(&payload[0], xrce_flags_of(submessage)) != (uint16_t)(pieces->sequence + 1u)) {
     return;
   }
-  pieces_arrived(pieces);
-  if (pieces->busy && pieces->body != NULL) {
-    pieces_go(client, now);
-  }
+  pieces_arrived(pieces); /* the next one is sent by the step that follows: here the stack is deeper */
 }
 
 void xrce_pieces_renew(xrce_client_t * client)

@@ -9,9 +9,6 @@
 extern "C" {
 #endif
 
-/* The type of ~/get_available_transitions and ~/get_transition_graph, whose response is written from a state. */
-extern const rosidl_service_type_support_t rcl_lifecycle_transitions_type;
-
 /* Begin and end to answer the requests of a state machine, whose services are open. */
 void rcl_lifecycle_answer_for(rcl_lifecycle_state_machine_t * state_machine);
 void rcl_lifecycle_answer_no_longer(const rcl_lifecycle_state_machine_t * state_machine);

@@ -41,13 +41,12 @@ typedef struct xrce_pieces_t {
 } xrce_pieces_t;
 
 /* Begins a reply of the endpoint, unless another one is under way; `pieces.body` is set. */
-void xrce_pieces_begin(xrce_client_t * client, uint16_t endpoint, const uint8_t * identity, uint32_t now);
+void xrce_pieces_begin(xrce_client_t * client, uint16_t endpoint, const uint8_t * identity);
 
 /* --- called by xrce_routes.c --- */
 
 void xrce_pieces_step(xrce_client_t * client, uint32_t now);
-void xrce_pieces_on_acknack(
-  xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
+void xrce_pieces_on_acknack(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
 /* Called for a new session. */
 void xrce_pieces_renew(xrce_client_t * client);

@@ -10,10 +10,14 @@
 extern "C" {
 #endif
 
-/* Returns the time until a piece is repeated, at most `left`. */
+/* Returns the time until a piece is sent or repeated, at most `left`. */
 static inline uint32_t xrce_pieces_left(const xrce_client_t * client, uint32_t left, uint32_t now)
 {
-  return client->pieces.outstanding ? xrce_sooner(left, client->pieces.due_ms, now) : left;
+  if (client->pieces.outstanding) {
+    return xrce_sooner(left, client->pieces.due_ms, now);
+  }
+  return client->pieces.busy && client->session.state == (uint8_t)XRCE_READY ? xrce_sooner(left, now, now)
+                                                                             : left;
 }
 
 #ifdef __cplusplus

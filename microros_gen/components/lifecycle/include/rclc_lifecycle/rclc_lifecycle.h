@@ -113,8 +113,7 @@ rcl_ret_t rclc_lifecycle_register_on_deactivate(rclc_lifecycle_node_t * node, in
 rcl_ret_t rclc_lifecycle_register_on_cleanup(rclc_lifecycle_node_t * node, int (*cb)(void));
 
 /* Calls the callback of a transition and returns its result; RCL_RET_OK without one. The state stays. */
-rcl_ret_t rclc_lifecycle_execute_callback(
-  rclc_lifecycle_node_t * lifecycle_node, unsigned int transition_id);
+rcl_ret_t rclc_lifecycle_execute_callback(rclc_lifecycle_node_t * lifecycle_node, unsigned int transition_id);
 
 #ifdef __cplusplus
 }
