@@ -30,7 +30,7 @@ SIZES_OF_ENTITIES = {"xml": (0, 0), "reference": (0, 0), "preconfigured": (0, 0)
 
 @pytest.mark.ros
 def test_rclpy_drives_it(builds: Builds, domain: int) -> None:
-    """The states, callbacks and lists are those of rclpy's node; the whole graph comes in pieces over the line."""
+    """The states, callbacks and lists are those of rclpy's node; the whole graph comes in fragments over the line."""
     need(NAME, emulator=True)
     built = builds.build(NAME, APPLICATION)
     image = builds.application(built, "lifecycle.c")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A life cycle with a scripted agent: replies in pieces, managed entities, lost sessions, sleep, wrap of the clock."""
+"""A life cycle with a scripted agent: replies in fragments, managed entities, lost sessions, sleep, wrap of the clock."""
 
 from __future__ import annotations
 

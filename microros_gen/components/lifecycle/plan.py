@@ -115,7 +115,7 @@ def record(part: LifecyclePlan) -> object:
 
 
 def limits(application: Application) -> tuple[LimitRule, ...]:
-    """Return the limits of what is exchanged. The whole graph is longer, and goes in pieces."""
+    """Return the limits of what is exchanged. The whole graph is longer, and goes in fragments."""
     rules = (
         _rule("msg/State", "label", LONGEST_STATE),
         _rule("msg/Transition", "label", LONGEST_TRANSITION),

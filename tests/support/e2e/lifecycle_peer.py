@@ -60,7 +60,7 @@ def _state(state: Any) -> list[Any]:
 
 
 class _Peer:
-    """The peer's side: a node that asks, and the model, which is made anew by `reset`."""
+    """The peer's side: a node that asks, and the model, which is made again by `reset`."""
 
     def __init__(self, executor: Any) -> None:
         import rclpy

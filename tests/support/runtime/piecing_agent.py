@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The agent of serving_agent.py with the stream of replies in pieces, which it joins as the public agent does."""
+"""The agent of serving_agent.py with the stream of replies in fragments, which it joins as the public agent does."""
 
 from __future__ import annotations
 

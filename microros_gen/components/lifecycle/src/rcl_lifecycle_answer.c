@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The transitions of one state go into the stream, the whole graph in pieces. */
+/* The transitions of one state go into the stream, the whole graph in fragments. */
 #include "microros/rcl_lifecycle_answer.h"
 
 #include "lifecycle_msgs/srv/get_available_transitions.h"

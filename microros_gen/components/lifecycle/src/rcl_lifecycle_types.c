@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Messages of a life cycle, written from the constants: what has no room in a slot is written in pieces, and no text is
+ * Messages of a life cycle, written from the constants: what has no room in a slot is written in fragments, and no text is
  * copied before. On the wire the name of a service is enough; the names of its messages occur only in error texts.
  */
 #include "microros/rcl_lifecycle_types.h"

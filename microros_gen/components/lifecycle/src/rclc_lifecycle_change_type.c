@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A request to change the state is answered whatever it contains: a decoder of its own takes a label that is too long
+ * A request to change the state is answered whatever it contains: its own decoder takes a label that is too long
  * for one that no transition has.
  */
 #include "microros/cdr_decode.h"

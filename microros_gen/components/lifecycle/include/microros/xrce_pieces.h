@@ -2,7 +2,7 @@
 /*
  * One reply that is larger than a slot of the reliable stream: a WRITE_DATA in fragments (OMG DDS-XRCE 1.0, 8.3.5.14),
  * each of which is written when it is sent, and written again when it is repeated. So the reply is stored nowhere. It
- * uses a reliable stream of its own (0x82), one message at a time, as READ_DATA does; other messages go on meanwhile.
+ * uses a separate reliable stream (0x82), one message at a time, as READ_DATA does; other messages go on meanwhile.
  *
  * In a new session the reply starts again. An agent may still join fragments of the old one: an empty last fragment
  * ends them, which is shorter than its submessage header says, so the agent discards it. Internal.

@@ -30,7 +30,7 @@ rcl_lifecycle_state_machine_t rcl_lifecycle_get_zero_initialized_state_machine(v
  * Opens the publisher of ~/transition_event and, with options->enable_com_interface, the five services; each waits for
  * the agent, at most MICROROS_CREATE_TIMEOUT_MS. The state is `unconfigured`, or after a sleep the one before it.
  * The machine must stay where it is until rcl_lifecycle_state_machine_fini. ~/get_available_transitions and
- * ~/get_transition_graph are answered by the library whenever an executor or rcl_wait receives, with types of its own
+ * ~/get_transition_graph are answered by the library whenever an executor or rcl_wait receives, with its own types
  * (`ts_srv_get_available_transitions` and `ts_srv_get_transition_graph` are not used). RCL_RET_UNSUPPORTED: states other
  * than the default ones; otherwise the codes of rcl_publisher_init and rcl_service_init, with nothing left open.
  */
