@@ -20,12 +20,12 @@ session: {connect_timeout: 20 s, create_timeout: 20 s, liveliness_timeout: 20 s}
 nodes: [{name: device, namespace: /arm}]
 """
 SIZES = {
-    "qemu-microbit": (0, 0, 0),
-    NAME: (0, 0, 0),
-    "qemu-mps2-an505": (0, 0, 0),
+    "qemu-microbit": (22_964, 3_684, 1_048),
+    NAME: (21_260, 3_684, 1_192),
+    "qemu-mps2-an505": (21_308, 3_684, 1_196),
 }
-"""Flash, RAM without the stack, worst stack; the goals on the Cortex-M4 are 20,000, 5,000 and 1,200."""
-SIZES_OF_ENTITIES = {"xml": (0, 0), "reference": (0, 0), "preconfigured": (0, 0)}
+"""Flash, RAM without the stack, worst stack; the goals on the Cortex-M4 are 20,000 (not met), 5,000 and 1,200."""
+SIZES_OF_ENTITIES = {"xml": (21_860, 4_268), "reference": (20_904, 3_140), "preconfigured": (19_336, 3_020)}
 
 
 @pytest.mark.ros

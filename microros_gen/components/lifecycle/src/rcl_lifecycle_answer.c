@@ -40,7 +40,7 @@ void rcl_lifecycle_leave(const rcl_node_t * node)
   rcl_lifecycle_events_clear(node);
 }
 
-/* Takes a request; false: there is none, or it is not of its type. */
+/* Takes a request; false: none has arrived, or it is not of its type. */
 static bool answer_take(const rcl_service_t * service, rmw_request_id_t * request)
 {
   lifecycle_msgs__srv__GetAvailableTransitions_Request nothing;
