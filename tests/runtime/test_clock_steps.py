@@ -362,7 +362,7 @@ STEPPED = {
 ELSEWHERE = {
     "clock": "unit_days.c",
     "executor": "unit_days.c",
-    "lifecycle": "test_lifecycle.py: pieces and timers over the wrap",
+    "lifecycle": "test_lifecycle.py: parts and timers over the wrap",
     "parameter_client": "test_parameter_client.py: a call over the wrap",
     "parameters_held": "test_parameters_held.py: notices over the wrap; ages have 64 bits",
     "port_bare": "tests/firmware/c/unit_bare.c, unit_bare_timers.c and unit_console.c",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A life cycle with a scripted agent: replies in fragments, managed entities, lost sessions, sleep, wrap of the clock."""
+"""A life cycle with a scripted agent: replies in fragments, managed entities, lost sessions, sleep, clock wrap."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from microros_gen.interfaces.find import InterfaceFinder, shipped_folder
 from microros_gen.ros.codec import ENCAPSULATION_BYTES, Codec
 from tests.support.runtime.driver import Client
 from tests.support.runtime.harness import Tree, build, compile_objects, link
-from tests.support.runtime.piecing_agent import PIECES, PiecingAgent
+from tests.support.runtime.parts_agent import PARTS, PartsAgent
 from tests.support.runtime.serving_agent import identity
 from tests.support.runtime.surface import write_application
 
@@ -51,7 +51,7 @@ NEARLY_WRAPPED = 2**32 - 700
 class Device:
     """The program and its agent."""
 
-    def __init__(self, client: Client, agent: PiecingAgent, codec: Codec) -> None:
+    def __init__(self, client: Client, agent: PartsAgent, codec: Codec) -> None:
         self.client, self.agent, self._codec, self._requests = client, agent, codec, 0
 
     def start(self) -> None:
@@ -130,18 +130,18 @@ def codec() -> Codec:
 
 @pytest.fixture
 def device(program: Path, codec: Codec) -> Iterator[Device]:
-    agent = PiecingAgent()
+    agent = PartsAgent()
     with Client(program, agent) as client:
         yield Device(client, agent, codec)
 
 
 @pytest.mark.parametrize("start_ms", [0, NEARLY_WRAPPED], ids=["zero", "wraps"])
-def test_the_graph_is_sent_in_pieces(device: Device, start_ms: int) -> None:
+def test_the_graph_is_sent_in_parts(device: Device, start_ms: int) -> None:
     device.client.wait(start_ms)
     device.start()
     graph = device.graph()
     assert len(graph) == 25
-    assert device.agent.pieces[:-1] == [64] * (len(device.agent.pieces) - 1)
+    assert device.agent.parts[:-1] == [64] * (len(device.agent.parts) - 1)
     assert [
         t["transition"]["label"] for t in device.ask("get_available_transitions")["available_transitions"]
     ] == [
@@ -153,19 +153,19 @@ def test_the_graph_is_sent_in_pieces(device: Device, start_ms: int) -> None:
 
 
 @pytest.mark.parametrize("start_ms", [0, NEARLY_WRAPPED], ids=["zero", "wraps"])
-def test_lost_pieces_are_repeated(device: Device, start_ms: int) -> None:
-    """Every second piece and every third acknowledgement of one are lost."""
+def test_lost_parts_are_repeated(device: Device, start_ms: int) -> None:
+    """Every second part and every third acknowledgement of one are lost."""
     device.client.wait(start_ms)
     device.start()
     seen = {"up": 0, "down": 0}
 
-    def lost(way: str, every: int, is_piece: bool) -> bool:
-        seen[way] += is_piece
-        return is_piece and seen[way] % every == 0
+    def lost(way: str, every: int, is_part: bool) -> bool:
+        seen[way] += is_part
+        return is_part and seen[way] % every == 0
 
-    device.agent.drop = lambda datagram: lost("up", 2, datagram[1] == PIECES)
+    device.agent.drop = lambda datagram: lost("up", 2, datagram[1] == PARTS)
     device.agent.drop_answer = lambda answer: lost(
-        "down", 3, answer[4] == 0x0A and len(answer) > 12 and answer[12] == PIECES
+        "down", 3, answer[4] == 0x0A and len(answer) > 12 and answer[12] == PARTS
     )
     assert len(device.ask("get_transition_graph", 600)["available_transitions"]) == 25
     assert device.agent.spoiled == 0
@@ -181,34 +181,34 @@ def test_two_requests_for_the_graph(device: Device) -> None:
     assert device.answer("get_transition_graph", first) == device.answer("get_transition_graph", second)
 
 
-def test_a_session_lost_between_pieces(device: Device) -> None:
+def test_a_session_lost_between_parts(device: Device) -> None:
     """The reply begins again, and what the agent has of the old one is no message."""
     device.start()
     number = device.request("get_transition_graph")
-    device.agent.drop = lambda datagram: datagram[1] == PIECES and len(device.agent.pieces) == 5
+    device.agent.drop = lambda datagram: datagram[1] == PARTS and len(device.agent.parts) == 5
     device.spin(20)
-    assert len(device.agent.pieces) == 5
+    assert len(device.agent.parts) == 5
     device.agent.restart()
     device.agent.drop = lambda datagram: False
     device.spin(400)
     assert len(device.answer("get_transition_graph", number)["available_transitions"]) == 25
     assert device.agent.spoiled == 1
-    assert 0 in device.agent.pieces
+    assert 0 in device.agent.parts
     device.agent.spoiled = 0
     assert len(device.graph()) == 25
     assert device.agent.spoiled == 0
 
 
-def test_a_service_closed_between_pieces(device: Device) -> None:
+def test_a_service_closed_between_parts(device: Device) -> None:
     device.start()
     device.request("get_transition_graph")
-    device.agent.drop = lambda datagram: datagram[1] == PIECES and len(device.agent.pieces) == 5
+    device.agent.drop = lambda datagram: datagram[1] == PARTS and len(device.agent.parts) == 5
     device.spin(20)
     device.client.ok("close")
     device.agent.drop = lambda datagram: False
-    pieces = len(device.agent.pieces)
+    parts = len(device.agent.parts)
     device.spin(100)
-    assert len(device.agent.pieces) <= pieces + 1
+    assert len(device.agent.parts) <= parts + 1
     assert device.state() == "unconfigured"
 
 
@@ -296,8 +296,8 @@ def test_the_state_survives_a_sleep(device: Device, program: Path, codec: Codec,
         assert device.agent.values(COUNT) == [7]
         assert len(woken.graph()) == 25
         assert woken.change(DEACTIVATE)
-    with Client(program, PiecingAgent()) as client:  # a cold start
-        cold = Device(client, PiecingAgent(), codec)
+    with Client(program, PartsAgent()) as client:  # a cold start
+        cold = Device(client, PartsAgent(), codec)
         cold.agent = client.agent  # type: ignore[assignment]
         cold.start()
         assert cold.state() == "unconfigured"

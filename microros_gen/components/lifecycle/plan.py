@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Limits of the messages of a life cycle, whose texts are constants, and the size of a piece of a reply."""
+"""Limits of the messages of a life cycle, whose texts are constants, and the size of a part of a reply."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ LONGEST_STATE = len("errorprocessing")
 LONGEST_TRANSITION = len("transition_success")
 MOST_TRANSITIONS = 3
 """How many leave one state."""
-MOST_PIECE = 64
-"""Bytes of a piece: it is on the stack while it is sent."""
+MOST_PART = 64
+"""Bytes of a part: it is on the stack while it is sent."""
 _SERVICES = 3
 """How many the executor of the application runs, for each node."""
 _FRAGMENT_HEADERS = MESSAGE_HEADER + SUBMESSAGE_HEADER
@@ -44,12 +44,12 @@ class ManagedTimer:
 
 @dataclass(frozen=True, kw_only=True)
 class LifecyclePlan:
-    """`piece_size`: bytes of ~/get_transition_graph's response that are sent at a time; `handles` of the executor.
+    """`part_size`: bytes of ~/get_transition_graph's response that are sent at a time; `handles` of the executor.
 
     `publishers` has all of the plan; `manages`: one of them is managed. `timers` are those that are managed.
     """
 
-    piece_size: int = MOST_PIECE
+    part_size: int = MOST_PART
     handles: int = _SERVICES
     publishers: tuple[ManagedPublisher, ...] = ()
     manages: bool = False
@@ -58,7 +58,7 @@ class LifecyclePlan:
 
 
 def plan(context: PlanContext, diagnostics: Diagnostics) -> LifecyclePlan:
-    """Return the sizes: a piece fits the largest message that the transport takes at once."""
+    """Return the sizes: a part fits the largest message that the transport takes at once."""
     refuse_own_limits(context, "lifecycle", diagnostics)
     runtime = context.runtime
     largest = runtime.streams.mtu
@@ -76,7 +76,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LifecyclePlan:
         if timer.managed
     )
     return LifecyclePlan(
-        piece_size=min(MOST_PIECE, largest - _FRAGMENT_HEADERS),
+        part_size=min(MOST_PART, largest - _FRAGMENT_HEADERS),
         handles=_SERVICES * len(application.nodes),
         publishers=tuple(
             ManagedPublisher(full_name(node, endpoint), "true" if endpoint.managed else "false")
@@ -106,7 +106,7 @@ def _check_timers(application: Application, diagnostics: Diagnostics) -> None:
 def record(part: LifecyclePlan) -> object:
     """Return what the plan id is made of."""
     return {
-        "piece": part.piece_size,
+        "part": part.part_size,
         "managed": [
             part.manages and [p.managed for p in part.publishers],
             [[t.period_ns, t.node] for t in part.timers],

@@ -29,12 +29,12 @@ void rmw_lifecycle_set_state(const rmw_node_t * node, uint8_t state)
   microros_unlock();
 }
 
-void rmw_lifecycle_use(const rmw_node_t * node, xrce_pieces_body_t body)
+void rmw_lifecycle_use(const rmw_node_t * node, xrce_parts_body_t body)
 {
   xrce_client_t * client = node->context->impl;
 
   microros_lock();
-  client->pieces.body = body;
+  client->parts.body = body;
   microros_unlock();
 }
 
@@ -42,7 +42,7 @@ bool rmw_lifecycle_is_replying(const rmw_node_t * node)
 {
   const xrce_client_t * client = node->context->impl;
 
-  return client->pieces.busy;
+  return client->parts.busy;
 }
 
 bool rmw_lifecycle_has_room(const rmw_publisher_t * publisher)
@@ -81,6 +81,6 @@ void rmw_lifecycle_reply(const rmw_service_t * service, const rmw_request_id_t *
   lifecycle_put_4(&identity[NUMBER_HIGH_AT], (uint32_t)(sequence >> 32));
   lifecycle_put_4(&identity[NUMBER_LOW_AT], (uint32_t)(sequence & UINT32_MAX));
   microros_lock();
-  xrce_pieces_begin(endpoint->client, endpoint->index, identity);
+  xrce_parts_begin(endpoint->client, endpoint->index, identity);
   microros_unlock();
 }

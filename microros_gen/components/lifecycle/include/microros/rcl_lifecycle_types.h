@@ -19,7 +19,7 @@ extern const rosidl_service_type_support_t rcl_lifecycle_state_type;
 extern const rosidl_service_type_support_t rcl_lifecycle_states_type;
 extern const rosidl_message_type_support_t rcl_lifecycle_event_type;
 
-/* Writes a part of ~/get_transition_graph's response: see xrce_pieces_body_t. */
+/* Writes a part of ~/get_transition_graph's response: see xrce_parts_body_t. */
 uint32_t rcl_lifecycle_write_graph(uint32_t from, uint32_t size, uint8_t * to);
 
 #ifdef __cplusplus

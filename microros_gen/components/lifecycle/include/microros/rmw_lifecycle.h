@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "microros/xrce_pieces.h"
+#include "microros/xrce_parts.h"
 #include "rmw/types.h"
 
 #ifdef __cplusplus
@@ -18,7 +18,7 @@ uint8_t rmw_lifecycle_state(const rmw_node_t * node);
 void rmw_lifecycle_set_state(const rmw_node_t * node, uint8_t state);
 
 /* Sets what writes the body of a reply in fragments. */
-void rmw_lifecycle_use(const rmw_node_t * node, xrce_pieces_body_t body);
+void rmw_lifecycle_use(const rmw_node_t * node, xrce_parts_body_t body);
 
 /* Returns whether a reply in fragments is under way. */
 bool rmw_lifecycle_is_replying(const rmw_node_t * node);

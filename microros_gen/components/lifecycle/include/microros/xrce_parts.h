@@ -7,8 +7,8 @@
  * In a new session the reply starts again. An agent may still join fragments of the old one: an empty last fragment
  * ends them, which is shorter than its submessage header says, so the agent discards it. Internal.
  */
-#ifndef MICROROS_XRCE_PIECES_H
-#define MICROROS_XRCE_PIECES_H
+#ifndef MICROROS_XRCE_PARTS_H
+#define MICROROS_XRCE_PARTS_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -23,12 +23,12 @@ extern "C" {
 #endif
 
 /* Writes the bytes of a body from `from` on, at most `size`, to `to`. Returns the size of the whole body. */
-typedef uint32_t (*xrce_pieces_body_t)(uint32_t from, uint32_t size, uint8_t * to);
+typedef uint32_t (*xrce_parts_body_t)(uint32_t from, uint32_t size, uint8_t * to);
 
 /* Zero-initialized: nothing is sent. */
-typedef struct xrce_pieces_t {
-  xrce_pieces_body_t body;              /* NULL: not known yet */
-  uint32_t due_ms;                      /* when to repeat the outstanding piece */
+typedef struct xrce_parts_t {
+  xrce_parts_body_t body;               /* NULL: not known yet */
+  uint32_t due_ms;                      /* when to repeat the outstanding part */
   uint32_t sent_ms;                     /* when it was first sent */
   uint32_t position;                    /* its first byte, after the submessage header */
   uint32_t size;                        /* bytes of the whole submessage */
@@ -38,24 +38,24 @@ typedef struct xrce_pieces_t {
   bool busy;
   bool outstanding;
   bool broken; /* the agent has a part of a reply that does not go on */
-} xrce_pieces_t;
+} xrce_parts_t;
 
-/* Begins a reply of the endpoint, unless another one is under way; `pieces.body` is set. */
-void xrce_pieces_begin(xrce_client_t * client, uint16_t endpoint, const uint8_t * identity);
+/* Begins a reply of the endpoint, unless another one is under way; `parts.body` is set. */
+void xrce_parts_begin(xrce_client_t * client, uint16_t endpoint, const uint8_t * identity);
 
 /* --- called by xrce_routes.c --- */
 
-void xrce_pieces_step(xrce_client_t * client, uint32_t now);
-void xrce_pieces_on_acknack(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
+void xrce_parts_step(xrce_client_t * client, uint32_t now);
+void xrce_parts_on_acknack(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
 /* Called for a new session. */
-void xrce_pieces_renew(xrce_client_t * client);
+void xrce_parts_renew(xrce_client_t * client);
 
 /* Called after a sleep: addresses of functions may have changed. */
-void xrce_pieces_wake(xrce_client_t * client);
+void xrce_parts_wake(xrce_client_t * client);
 
 #ifdef __cplusplus
 }
 #endif
 
-#endif /* MICROROS_XRCE_PIECES_H */
+#endif /* MICROROS_XRCE_PARTS_H */
