@@ -15,7 +15,7 @@
 #include "microros/service_type.h"
 #include "microros/text.h"
 
-enum { TIMESTAMP_SIZE = 8 };
+enum { EVENT_TIME_SIZE = 8 };
 
 /* A part of a body: its bytes from `from` on, at most `size`, go to `to`. */
 typedef struct types_out_t {
@@ -116,7 +116,7 @@ static uint32_t types_encode_event(const void * message, uint8_t * body, cdr_fau
   types_out_t out = {body, 0, UINT32_MAX, 0};
 
   (void)fault;
-  for (uint32_t i = 0; i < (uint32_t)TIMESTAMP_SIZE; ++i) {
+  for (uint32_t i = 0; i < (uint32_t)EVENT_TIME_SIZE; ++i) {
     types_put(&out, 0u);
   }
   types_put_named(&out, 0u, "");
@@ -132,7 +132,7 @@ static void types_decode(cdr_in_t * in, void * message)
   (void)message;
 }
 
-static const microros_message_type_t request_type = {
+static const microros_message_type_t lifecycle_request_type = {
   .dds_type_name = MICROROS_ERROR_WORDS("lifecycle_msgs::srv::dds_::GetState_Request_"),
   .max_encoded_size = lifecycle_msgs__srv__GetState_Request__MAX_ENCODED_SIZE,
   .decode = types_decode};
@@ -143,39 +143,39 @@ static const microros_message_type_t transitions_response = {
   .encode = types_encode_transitions};
 static const microros_service_type_t transitions_service = {
   .dds_type_name = "lifecycle_msgs::srv::dds_::GetAvailableTransitions_",
-  .request = &request_type,
+  .request = &lifecycle_request_type,
   .response = &transitions_response};
 const rosidl_service_type_support_t rcl_lifecycle_transitions_type = {
   .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &transitions_service};
 
-static const microros_message_type_t state_response = {
+static const microros_message_type_t get_state_response = {
   .dds_type_name = MICROROS_ERROR_WORDS("lifecycle_msgs::srv::dds_::GetState_Response_"),
   .max_encoded_size = lifecycle_msgs__srv__GetState_Response__MAX_ENCODED_SIZE,
   .encode = types_encode_state};
-static const microros_service_type_t state_service = {
+static const microros_service_type_t get_state_service = {
   .dds_type_name = "lifecycle_msgs::srv::dds_::GetState_",
-  .request = &request_type,
-  .response = &state_response};
+  .request = &lifecycle_request_type,
+  .response = &get_state_response};
 const rosidl_service_type_support_t rcl_lifecycle_state_type = {
-  .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &state_service};
+  .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &get_state_service};
 
-static const microros_message_type_t states_response = {
+static const microros_message_type_t get_states_response = {
   .dds_type_name = MICROROS_ERROR_WORDS("lifecycle_msgs::srv::dds_::GetAvailableStates_Response_"),
   .max_encoded_size = lifecycle_msgs__srv__GetAvailableStates_Response__MAX_ENCODED_SIZE,
   .encode = types_encode_states};
-static const microros_service_type_t states_service = {
+static const microros_service_type_t get_states_service = {
   .dds_type_name = "lifecycle_msgs::srv::dds_::GetAvailableStates_",
-  .request = &request_type,
-  .response = &states_response};
+  .request = &lifecycle_request_type,
+  .response = &get_states_response};
 const rosidl_service_type_support_t rcl_lifecycle_states_type = {
-  .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &states_service};
+  .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &get_states_service};
 
-static const microros_message_type_t event_message = {
+static const microros_message_type_t transition_event_message = {
   .dds_type_name = "lifecycle_msgs::msg::dds_::TransitionEvent_",
   .max_encoded_size = lifecycle_msgs__msg__TransitionEvent__MAX_ENCODED_SIZE,
   .encode = types_encode_event};
 const rosidl_message_type_support_t rcl_lifecycle_event_type = {
-  .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &event_message};
+  .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &transition_event_message};
 
 uint32_t rcl_lifecycle_write_graph(uint32_t from, uint32_t size, uint8_t * to)
 {
