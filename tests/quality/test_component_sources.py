@@ -161,13 +161,17 @@ def test_calls_go_down() -> None:
     assert wrong == []
 
 
+_ARGUMENT = re.compile(r'microros_error_refuse\([^;]*"[^;]*;')
+"""An error that names an argument of the application, such as "node"."""
+
+
 @cache
 def shared_texts() -> dict[str, str]:
-    """Return the files of components and the shared templates, each with its text."""
+    """Return the files of components and the shared templates, each with its text, less names of arguments."""
     package = ROOT.parent
     paths = [p for folder in (ROOT, package / "templates") for p in sorted(folder.rglob("*"))]
     return {
-        p.relative_to(package).as_posix(): p.read_text(encoding="utf-8")
+        p.relative_to(package).as_posix(): _ARGUMENT.sub("", p.read_text(encoding="utf-8"))
         for p in paths
         if p.suffix in (".c", ".h", ".j2", ".yaml")
     }

@@ -137,7 +137,7 @@ def shared_files(name: str, package: Path) -> set[str]:
         if (
             path.suffix not in (".py", ".json", ".yaml", ".j2")
             or own
-            or shown.parts[0] in ("agent", "idl", "ros")
+            or shown.parts[0] in ("agent", "idl", "modes", "ros")
         ):
             continue
         if word.search(path.read_text(encoding="utf-8")):

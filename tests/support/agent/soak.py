@@ -203,7 +203,7 @@ class Place:
         yield from self._call(client, "done", self._service)
 
     def _sleep(self, client: SoakClient, written: int) -> Step:
-        """Say and hear nothing for longer than the time-out; go on with the session as it was."""
+        """Say and hear nothing for longer than the time-out; continue the session as it was."""
         yield lambda: client.acknowledged
         client.deaf = True
         yield self.world.agent.timeout_s * self.chance.uniform(1.3, 2)

@@ -61,5 +61,9 @@ static void undeclared_retype(rclc_parameter_server_t * server, rclc_parameter_p
 }
 
 const rclc_parameter_undeclared_t rclc_parameter_undeclared = {
-  undeclared_check, undeclared_accepts, undeclared_add, undeclared_retype, "parameter name '%n' is too long",
+  undeclared_check,
+  undeclared_accepts,
+  undeclared_add,
+  undeclared_retype,
+  "parameter name '%n' is too long",
   "no place for parameter '%n'"};
