@@ -73,6 +73,7 @@ MENTIONS = {
     "discovery": 4,
     "executor": 2,
     "framing": 1,
+    "lifecycle": 1,
     "liveliness_acknack": 2,
     "liveliness_hard": 2,
     "micro_ros_utilities": 1,
