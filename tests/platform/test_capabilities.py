@@ -21,7 +21,15 @@ _OF_OTHERS = {
     ("session", "lock"): "multithread",
     ("multithread", "wake"): "executor",
 }
-_OF_THE_PLAN = {"support": {"port_unique_id"}}
+_OF_THE_PLAN = {
+    "support": {"port_unique_id"},
+    "timers": {
+        "port_timer_start",
+        "port_timer_stop",
+        "port_hardware_timer_start",
+        "port_hardware_timer_stop",
+    },
+}
 """Calls that a component's template prints as the plan has them."""
 
 
