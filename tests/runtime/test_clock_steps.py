@@ -376,6 +376,7 @@ TIMELESS = {
     "entities_preconfigured": "hands a time-out on to the session",
     "logging": "stamps messages with the time of day, which has 64 bits; its period is an unsigned difference",
     "logging_console": "stamps messages with the time of day, which has 64 bits",
+    "logging_ring": "stamps its announcement with the time of day, which has 64 bits",
     "logging_rosout": "stamps messages with the time of day, which has 64 bits",
     "multithread": "sleeps a millisecond",
     "parameter_messages": "hands the time of arrival on",

@@ -114,6 +114,15 @@ def _endpoint_cases(
             f"'nodes[0].{key}[0].limits' must be a mapping such as {{string: 32, sequence: 8}}",
         ),
     }
+    if kind == "publisher":
+        cases[f"{path}.managed"] = KeyCase(
+            one(f"{entry}, managed: true"),
+            lambda a: _endpoint(a).managed,
+            True,
+            one(f"{name_key}: a, type: {type_name}, managed: 1"),
+            f"3:{start + 23 + len(name_key) + len(type_name)}",
+            f"'nodes[0].{key}[0].managed' must be ",
+        )
     if kind != "publisher":
         cases[f"{path}.queue"] = KeyCase(
             one(f"{entry}, queue: 3"),
@@ -635,6 +644,14 @@ _NODES = {
         _in_node("timers: [{name: t, period: 1 s, kind: os}]"),
         "3:43",
         "'nodes[0].timers[0].kind' must be clock, rtos or hardware; it is the text 'os'",
+    ),
+    "nodes[].timers[].managed": KeyCase(
+        _in_node("timers: [{name: t, period: 1 s, managed: true}]"),
+        lambda a: _node(a).timers[0].managed,
+        True,
+        _in_node("timers: [{name: t, period: 1 s, managed: 1}]"),
+        "3:46",
+        "'nodes[0].timers[0].managed' must be ",
     ),
     "nodes[].timers[].period": KeyCase(
         _in_node("timers: [{name: t, period: 50us}]"),

@@ -3,6 +3,7 @@
 #include "microros/rcl_lifecycle_states.h"
 
 #include "lifecycle_msgs/msg/transition.h"
+#include "microros/text.h"
 
 /* Positions in rcl_lifecycle_states. */
 enum {
@@ -44,10 +45,9 @@ enum { AFTER_SHUTTINGDOWN = 19, AFTER_ERRORPROCESSING = 22, OUTCOMES = 3 };
     "deactivate", TRANSITION_ID(DEACTIVATE), &rcl_lifecycle_states[ACTIVE], \
       &rcl_lifecycle_states[DEACTIVATING] \
   }
-#define SHUTDOWN(state) \
+#define SHUTDOWN(state, id) \
   { \
-    "shutdown", TRANSITION_ID(state##_SHUTDOWN), &rcl_lifecycle_states[state], \
-      &rcl_lifecycle_states[SHUTTINGDOWN] \
+    "shutdown", (id), &rcl_lifecycle_states[state], &rcl_lifecycle_states[SHUTTINGDOWN] \
   }
 
 /* The three transitions that leave a transition state, by what its callback returned. */
@@ -84,9 +84,9 @@ const rcl_lifecycle_transition_t rcl_lifecycle_transitions[RCL_LIFECYCLE_TRANSIT
   SUCCESS(DEACTIVATE, DEACTIVATING, INACTIVE),
   FAILURE(DEACTIVATE, DEACTIVATING, ACTIVE),
   ERROR(DEACTIVATE, DEACTIVATING, ERRORPROCESSING),
-  SHUTDOWN(UNCONFIGURED),
-  SHUTDOWN(INACTIVE),
-  SHUTDOWN(ACTIVE),
+  SHUTDOWN(UNCONFIGURED, TRANSITION_ID(UNCONFIGURED_SHUTDOWN)),
+  SHUTDOWN(INACTIVE, TRANSITION_ID(INACTIVE_SHUTDOWN)),
+  SHUTDOWN(ACTIVE, TRANSITION_ID(ACTIVE_SHUTDOWN)),
   SUCCESS(SHUTDOWN, SHUTTINGDOWN, FINALIZED),
   FAILURE(SHUTDOWN, SHUTTINGDOWN, FINALIZED),
   ERROR(SHUTDOWN, SHUTTINGDOWN, ERRORPROCESSING),
@@ -96,9 +96,12 @@ const rcl_lifecycle_transition_t rcl_lifecycle_transitions[RCL_LIFECYCLE_TRANSIT
 };
 
 /* Those that leave a primary state do not follow each other above. */
-static const rcl_lifecycle_transition_t leaves_unconfigured[] = {CONFIGURE, SHUTDOWN(UNCONFIGURED)};
-static const rcl_lifecycle_transition_t leaves_inactive[] = {CLEANUP, ACTIVATE, SHUTDOWN(INACTIVE)};
-static const rcl_lifecycle_transition_t leaves_active[] = {DEACTIVATE, SHUTDOWN(ACTIVE)};
+static const rcl_lifecycle_transition_t leaves_unconfigured[] = {
+  CONFIGURE, SHUTDOWN(UNCONFIGURED, TRANSITION_ID(UNCONFIGURED_SHUTDOWN))};
+static const rcl_lifecycle_transition_t leaves_inactive[] = {
+  CLEANUP, ACTIVATE, SHUTDOWN(INACTIVE, TRANSITION_ID(INACTIVE_SHUTDOWN))};
+static const rcl_lifecycle_transition_t leaves_active[] = {
+  DEACTIVATE, SHUTDOWN(ACTIVE, TRANSITION_ID(ACTIVE_SHUTDOWN))};
 
 const rcl_lifecycle_state_t rcl_lifecycle_states[RCL_LIFECYCLE_STATES] = {
   {"unknown", STATE_ID(PRIMARY_STATE_UNKNOWN), NULL, 0},
@@ -120,29 +123,25 @@ const rcl_lifecycle_state_t rcl_lifecycle_states[RCL_LIFECYCLE_STATES] = {
    &rcl_lifecycle_transitions[AFTER_ERRORPROCESSING], OUTCOMES},
 };
 
-#define MESSAGE(name, text) \
-  { \
-    STATE_ID(name), \
-    { \
-      (text), sizeof(text) - 1u, sizeof(text) \
-    } \
-  }
+/* A string of ROS 2 has a pointer to non-const characters, even in a constant message. */
+static char * states_label(const rcl_lifecycle_state_t * state)
+{
+  union {
+    const char * in;
+    char * out;
+  } pointer;
 
-static const lifecycle_msgs__msg__State state_messages[RCL_LIFECYCLE_STATES] = {
-  MESSAGE(PRIMARY_STATE_UNKNOWN, "unknown"),
-  MESSAGE(PRIMARY_STATE_UNCONFIGURED, "unconfigured"),
-  MESSAGE(PRIMARY_STATE_INACTIVE, "inactive"),
-  MESSAGE(PRIMARY_STATE_ACTIVE, "active"),
-  MESSAGE(PRIMARY_STATE_FINALIZED, "finalized"),
-  MESSAGE(TRANSITION_STATE_CONFIGURING, "configuring"),
-  MESSAGE(TRANSITION_STATE_CLEANINGUP, "cleaningup"),
-  MESSAGE(TRANSITION_STATE_SHUTTINGDOWN, "shuttingdown"),
-  MESSAGE(TRANSITION_STATE_ACTIVATING, "activating"),
-  MESSAGE(TRANSITION_STATE_DEACTIVATING, "deactivating"),
-  MESSAGE(TRANSITION_STATE_ERRORPROCESSING, "errorprocessing"),
-};
+  pointer.in = state->label;
+  return pointer.out;
+}
 
 lifecycle_msgs__msg__State rcl_lifecycle_message_of(const rcl_lifecycle_state_t * state)
 {
-  return state_messages[state - rcl_lifecycle_states];
+  lifecycle_msgs__msg__State message;
+
+  message.id = state->id;
+  message.label.data = states_label(state);
+  message.label.size = microros_text_size(state->label);
+  message.label.capacity = message.label.size + 1u;
+  return message;
 }

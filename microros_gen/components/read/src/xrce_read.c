@@ -10,8 +10,8 @@ enum {
   READ_REQUEST_AT = 8,
   READ_OBJECT_AT = 10,
   STREAM_AT = 12,
-  FORMAT_AT = 13,
-  FILTERED_AT = 14,
+  READ_FORMAT_AT = 13,
+  READ_FILTERED_AT = 14,
   CONTROLLED_AT = 15,
   SAMPLES_AT = 16,
   ELAPSED_AT = 18,
@@ -85,8 +85,8 @@ static void read_send(xrce_client_t * client, uint32_t now)
     message[STREAM_AT] = read_is_reliable(client, reading->receiver) ? (uint8_t)XRCE_STREAM_RELIABLE
                                                                      : (uint8_t)XRCE_STREAM_BEST_EFFORT;
   }
-  message[FORMAT_AT] = 0; /* that of XRCE_READ_FORMATS, without a content filter */
-  message[FILTERED_AT] = 0;
+  message[READ_FORMAT_AT] = 0; /* that of XRCE_READ_FORMATS, without a content filter */
+  message[READ_FILTERED_AT] = 0;
   message[CONTROLLED_AT] = 1;
   xrce_put_le16(&message[SAMPLES_AT], reading->samples); /* limited by nothing else */
   xrce_put_le16(&message[ELAPSED_AT], 0);
