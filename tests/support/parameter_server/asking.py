@@ -53,8 +53,10 @@ class Asking:
         peer.subscribe("/parameter_events", "rcl_interfaces/msg/ParameterEvent", self.events.append)
 
     def call(self, service: str, kind: str, **request: Any) -> dict[str, Any]:
-        response = self.peer.client(f"{self._node}/{service}", f"{KIND}/{kind}").call(request, seconds(20))
-        assert response is not None
+        """Repeat a request without a response: it may have gone to a server that was killed, which DDS still knows."""
+        client, end = self.peer.client(f"{self._node}/{service}", f"{KIND}/{kind}"), deadline(60)
+        while (response := client.call(request, seconds(10))) is None:
+            assert time.monotonic() < end, f"no response of {service}"
         return response
 
     def get(self, *names: str) -> list[Any]:
