@@ -29,10 +29,17 @@ ELSEWHERE = {
     "microros_agent_msgs",
     "microros_graph_msgs",
     "microros_parameter_msgs",
+    "system_modes_msgs",
     "tf2_msgs",
 }
-# With comments of this project: its own ones, and one whose definitions only are those of micro-ROS.
-OWN = {"micro_ros_msgs", "microros_agent_msgs", "microros_graph_msgs", "microros_parameter_msgs"}
+# With comments of this project: its own ones, and two whose definitions only are those of micro-ROS.
+OWN = {
+    "micro_ros_msgs",
+    "microros_agent_msgs",
+    "microros_graph_msgs",
+    "microros_parameter_msgs",
+    "system_modes_msgs",
+}
 # For ROS 2's own tests, not for users.
 TESTS_OF_ROS = {"test_msgs", "test_interface_files"}
 FINDER = InterfaceFinder(shipped=shipped_folder())
