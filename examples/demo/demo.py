@@ -5,30 +5,20 @@ from __future__ import annotations
 
 import os
 import shutil
-import signal
-import socket
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
-from contextlib import AbstractContextManager, ExitStack, contextmanager
+from contextlib import ExitStack
 from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent
-ROOT = FOLDER.parent.parent
+sys.path.insert(0, str(FOLDER.parent))  # a script finds what is beside it, not what examples share
+
+from processes import FIRMWARE_NEEDS, ROOT, TOOL, PartFailedError, agent, domain, free_port, part, run_build  # noqa: E402
+
 OUT = ROOT / "build" / "demo"
 LAMP = FOLDER.parent / "parameters"
-TOOL = (sys.executable, "-m", "microros_gen")
-PORTS = range(8888, 8908)
 BOARD = "qemu-mps2-an386"
-FIRMWARE_NEEDS = (
-    ("arm-none-eabi-gcc", "gcc-arm-none-eabi libnewlib-arm-none-eabi"),
-    ("qemu-system-arm", "qemu-system-arm"),
-)
-
-
-class PartFailedError(Exception):
-    """One part of the demo failed; the text says which and what it said."""
 
 
 def main() -> int:
@@ -46,18 +36,6 @@ def main() -> int:
     return 0
 
 
-def free_port() -> int:
-    """Return the first free UDP port; the usual one if it is free."""
-    for port in PORTS:
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-            try:
-                probe.bind(("127.0.0.1", port))
-            except OSError:
-                continue
-            return port
-    raise PartFailedError(f"ports: UDP ports {PORTS[0]} to {PORTS[-1]} are all in use")
-
-
 def build(port: int) -> None:
     """Generate and compile the application for the host."""
     start = time.monotonic()
@@ -65,24 +43,6 @@ def build(port: int) -> None:
     print(f"1. build: microros-gen build -c {config.relative_to(ROOT)}")
     run_build("build", config, OUT, "--agent", f"127.0.0.1:{port}")
     print(f"   {time.monotonic() - start:.1f} s")
-
-
-def run_build(name: str, config: Path, out: Path, *options: str) -> None:
-    """Run `build` of an application file."""
-    command = [*TOOL, "build", "-c", str(config), "-o", str(out), *options]
-    if subprocess.run(command, check=False).returncode != 0:
-        raise PartFailedError(f"{name}: the image could not be built (see above)")
-
-
-def environment() -> dict[str, str]:
-    """Return the environment of a part: ROS on this machine alone, lines that are printed at once."""
-    return {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", **os.environ, "PYTHONUNBUFFERED": "1"}
-
-
-def agent(port: int) -> AbstractContextManager[subprocess.Popen[str]]:
-    """Start an agent in the domain of the ROS nodes; end it afterwards."""
-    command = [*TOOL, "agent", "udp4", "--port", str(port)]
-    return part("agent", [*command, "--domain", os.environ.get("ROS_DOMAIN_ID") or "0"], "agent ready")
 
 
 def show(port: int) -> None:
@@ -137,11 +97,10 @@ def show_firmware() -> None:
         return
     out = OUT.with_name("demo_firmware")
     run_build("firmware", FOLDER / "firmware.yaml", out)
-    domain = os.environ.get("ROS_DOMAIN_ID") or "0"
     listen = [sys.executable, str(FOLDER / "subscriber.py"), "--samples", "5"]
     with ExitStack() as stack:
         listener = stack.enter_context(part("listener", listen, "listener ready"))
-        run = [*TOOL, "run", str(out), "--domain", domain]
+        run = [*TOOL, "run", str(out), "--domain", domain()]
         stack.enter_context(part("firmware", run, "agent ready"))
         assert listener.stdout is not None
         for line in listener.stdout:
@@ -149,35 +108,6 @@ def show_firmware() -> None:
                 print(f"   {line}", end="")
         if listener.wait() != 0:
             raise PartFailedError("firmware: the listener did not get its samples")
-
-
-@contextmanager
-def part(name: str, command: list[str], ready: str | None) -> Iterator[subprocess.Popen[str]]:
-    """Start a process, wait for the line that says it is ready, and end it afterwards."""
-    output = subprocess.PIPE if ready else None
-    process = subprocess.Popen(command, env=environment(), stdout=output, text=True)
-    try:
-        if ready:
-            wait_for(process, name, ready)
-        yield process
-    finally:
-        if process.poll() is None:
-            process.send_signal(signal.SIGTERM)
-        try:
-            process.wait(timeout=10)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-
-
-def wait_for(process: subprocess.Popen[str], name: str, ready: str) -> None:
-    """Read lines until the one that starts with `ready`."""
-    assert process.stdout is not None
-    for line in process.stdout:
-        if line.startswith(ready):
-            return
-        print(f"   {line}", end="")
-    raise PartFailedError(f"{name}: it ended with status {process.wait()} before it was ready")
 
 
 if __name__ == "__main__":

@@ -163,7 +163,8 @@ def demo(tmp_path_factory: pytest.TempPathFactory) -> Path:
     examples = tmp_path_factory.mktemp("demo") / "examples"
     for name in ("demo", "parameters"):
         shutil.copytree(ROOT / "examples" / name, examples / name)
-    shutil.copy(ROOT / "examples" / "example.h", examples)
+    for name in ("example.h", "processes.py"):
+        shutil.copy(ROOT / "examples" / name, examples)
     return examples / "demo"
 
 
