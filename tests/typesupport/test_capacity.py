@@ -13,7 +13,7 @@ from microros_gen.application.limit_tree import PROPOSED_LIMITS
 from microros_gen.application.model import LimitRule
 from microros_gen.diagnostics import Diagnostics, Source, Span, UserError
 from microros_gen.interfaces.msg.parser import parse_msg
-from microros_gen.interfaces.types import Message, TypeName
+from microros_gen.interfaces.types import Field, Message, StringType, TypeName
 from microros_gen.typesupport.plan.capacity import Capacities, Defaults, Entity, Origin, Root, plan_capacities
 from microros_gen.typesupport.plan.size import WireSizes
 from microros_gen.typesupport.plan.types import plan_types
@@ -202,6 +202,20 @@ def test_a_rule_for_an_unused_type_is_a_warning(messages: Mapping[TypeName, Mess
     (found,) = diagnostics
     assert "warning: the limit for 'pkg/msg/Laef' has no effect" in without_id(found.headline())
     assert "Did you mean 'pkg/msg/Leaf'?" in without_id(found.headline())
+
+
+def test_a_rule_for_a_service_is_told_its_messages() -> None:
+    text = Field("text", StringType(None))
+    parts = {
+        name: Message(name, (text,))
+        for name in (TypeName("pkg", "srv", "Ask_Request"), TypeName("pkg", "srv", "Ask_Response"))
+    }
+    diagnostics = Diagnostics()
+    plan_capacities(parts, tuple(map(Root, parts)), (rule("pkg/srv/Ask", string=1),), Defaults(), diagnostics)
+    (found,) = diagnostics
+    assert without_id(found.headline()).endswith(
+        "is not used. Limits are those of pkg/srv/Ask_Request and pkg/srv/Ask_Response"
+    )
 
 
 def test_without_defaults_every_unset_field_is_named(messages: Mapping[TypeName, Message]) -> None:

@@ -44,7 +44,8 @@ class RuleChecker:
                 self._check_field(rule, path, field_type)
 
     def _unknown_type(self, rule: LimitRule, name: str) -> None:
-        suggestion = nearest(name, self._messages)
+        parts = [part for part in (f"{name}_Request", f"{name}_Response") if part in self._messages]
+        suggestion = f"Limits are those of {' and '.join(parts)}" if parts else nearest(name, self._messages)
         self._diagnostics.warning(
             f"the limit for '{name}' has no effect: the type is not used", rule.span, suggestion, id="MG-5001"
         )
