@@ -35,18 +35,29 @@ rcl_lifecycle_state_machine_t rcl_lifecycle_get_zero_initialized_state_machine(v
   return machine;
 }
 
+enum { MACHINE_SERVICES = 5 };
+
+/* The services, in the order in which they are opened. */
+static void machine_list(rcl_lifecycle_com_interface_t * offers, rcl_service_t * services[MACHINE_SERVICES])
+{
+  services[0] = &offers->srv_change_state;
+  services[1] = &offers->srv_get_available_states;
+  services[2] = &offers->srv_get_available_transitions;
+  services[3] = &offers->srv_get_state;
+  services[4] = &offers->srv_get_transition_graph;
+}
+
 /* Closes what is open. Returns the first error. */
 static rcl_ret_t machine_close(rcl_lifecycle_com_interface_t * offers, rcl_node_t * node)
 {
-  rcl_service_t * const services[] = {
-    &offers->srv_change_state, &offers->srv_get_state, &offers->srv_get_available_states,
-    &offers->srv_get_available_transitions, &offers->srv_get_transition_graph};
+  rcl_service_t * services[MACHINE_SERVICES];
   rcl_ret_t first = rcl_publisher_fini(&offers->pub_transition_event, node);
 
   if (rcl_service_is_valid(&offers->srv_change_state)) {
     rmw_lifecycle_answer_large(offers->srv_change_state.impl, false);
   }
-  for (size_t i = 0; i < sizeof(services) / sizeof(services[0]); ++i) {
+  machine_list(offers, services);
+  for (size_t i = 0; i < (size_t)MACHINE_SERVICES; ++i) {
     const rcl_ret_t result = rcl_service_fini(services[i], node);
 
     first = first == RCL_RET_OK ? result : first;
@@ -54,13 +65,25 @@ static rcl_ret_t machine_close(rcl_lifecycle_com_interface_t * offers, rcl_node_
   return first;
 }
 
-/* Opens a service unless an earlier one failed. */
+/* Opens the services of these types. */
 static rcl_ret_t machine_offer(
-  rcl_ret_t before, rcl_service_t * service, const rcl_node_t * node,
-  const rosidl_service_type_support_t * type, const char * name)
+  rcl_lifecycle_com_interface_t * offers, const rosidl_service_type_support_t * const types[MACHINE_SERVICES])
 {
-  return before == RCL_RET_OK ? rcl_service_open(service, node, type, name, &rmw_qos_profile_services_default)
-                              : before;
+  static const char * const names[MACHINE_SERVICES] = {
+    "~/change_state", "~/get_available_states", "~/get_available_transitions", "~/get_state",
+    "~/get_transition_graph"};
+  rcl_service_t * services[MACHINE_SERVICES];
+  rcl_ret_t result = RCL_RET_OK;
+
+  machine_list(offers, services);
+  for (size_t i = 0; i < (size_t)MACHINE_SERVICES && result == RCL_RET_OK; ++i) {
+    result = rcl_service_open(
+      services[i], offers->node_handle, types[i], names[i], &rmw_qos_profile_services_default);
+  }
+  if (result == RCL_RET_OK) {
+    rmw_lifecycle_answer_large(offers->srv_change_state.impl, true);
+  }
+  return result;
 }
 
 /* Returns the state in which a node begins: after a sleep the one before it. */
@@ -112,29 +135,18 @@ rcl_ret_t rcl_lifecycle_state_machine_init(
   offers->node_handle = node_handle;
   result = rcl_publisher_open(
     &offers->pub_transition_event, node_handle, ts_pub_notify, "~/transition_event",
-    &rmw_qos_profile_default);
-  if (state_machine->options.enable_com_interface) {
-    result =
-      machine_offer(result, &offers->srv_change_state, node_handle, ts_srv_change_state, "~/change_state");
-    result = machine_offer(
-      result, &offers->srv_get_available_states, node_handle, ts_srv_get_available_states,
-      "~/get_available_states");
-    result = machine_offer(
-      result, &offers->srv_get_available_transitions, node_handle, &rcl_lifecycle_transitions_type,
-      "~/get_available_transitions");
-    result = machine_offer(result, &offers->srv_get_state, node_handle, ts_srv_get_state, "~/get_state");
-    result = machine_offer(
-      result, &offers->srv_get_transition_graph, node_handle, &rcl_lifecycle_transitions_type,
-      "~/get_transition_graph");
-  }
-  if (result != RCL_RET_OK) {
-    (void)machine_close(offers, node_handle); /* the first error is reported */
+    &rmw_qos_profile_services_default); /* the same values as the default, which would be a second constant */
+  if (result == RCL_RET_OK && state_machine->options.enable_com_interface) {
+    const rosidl_service_type_support_t * const types[MACHINE_SERVICES] = {
+      ts_srv_change_state, ts_srv_get_available_states, &rcl_lifecycle_transitions_type, ts_srv_get_state,
+      &rcl_lifecycle_transitions_type};
+
+    result = machine_offer(offers, types);
   }
   if (result == RCL_RET_OK) {
-    if (state_machine->options.enable_com_interface) {
-      rmw_lifecycle_answer_large(offers->srv_change_state.impl, true);
-    }
     machine_begin(state_machine);
+  } else {
+    (void)machine_close(offers, node_handle); /* the first error is reported */
   }
   return result;
 }
@@ -210,7 +222,7 @@ static rcl_ret_t machine_go(
     }
   }
   if (publish) {
-    rcl_lifecycle_events_add(&machine->com_interface, transition->id);
+    rcl_lifecycle_events_add(&machine->com_interface, transition);
   }
   return RCL_RET_OK;
 }

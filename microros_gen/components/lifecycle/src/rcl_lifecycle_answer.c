@@ -40,36 +40,33 @@ void rcl_lifecycle_leave(const rcl_node_t * node)
   rcl_lifecycle_events_clear(node);
 }
 
-/* Takes a request; false: none has arrived, or it is not of its type. */
+/* Takes a request that can be answered; false: none has arrived, or it is not of its type. */
 static bool answer_take(const rcl_service_t * service, rmw_request_id_t * request)
 {
   lifecycle_msgs__srv__GetAvailableTransitions_Request nothing;
+  bool taken = false;
 
-  if (!rcl_service_is_valid(service) || !rmw_replier_is_ready(service->impl)) {
-    return false;
-  }
-  if (rcl_take_request(service, request, &nothing) != RCL_RET_OK) {
+  if (rcl_service_is_valid(service) && rmw_replier_begin(service->impl, request, &nothing, &taken) != RMW_RET_OK) {
     rcl_reset_error(); /* counted */
-    return false;
   }
-  return true;
+  return taken;
 }
 
 static void answer_requests(rcl_lifecycle_state_machine_t * machine)
 {
   rcl_lifecycle_com_interface_t * offers = &machine->com_interface;
-  rcl_lifecycle_state_t state = *machine->current_state;
   rmw_request_id_t request;
 
   rcl_lifecycle_events_send(offers);
   if (answer_take(&offers->srv_get_available_transitions, &request)) {
-    if (rcl_send_response(&offers->srv_get_available_transitions, &request, &state) != RCL_RET_OK) {
+    if (rmw_replier_end(offers->srv_get_available_transitions.impl, &request, machine->current_state) != RMW_RET_OK) {
       rcl_reset_error(); /* there is room for what was taken; else it is counted */
     }
   }
   if (
     !rmw_lifecycle_is_replying(offers->node_handle->impl) &&
     answer_take(&offers->srv_get_transition_graph, &request)) {
+    rmw_replier_abandon(); /* it takes no slot */
     rmw_lifecycle_reply(offers->srv_get_transition_graph.impl, &request);
   }
 }

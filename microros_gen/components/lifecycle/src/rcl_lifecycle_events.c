@@ -12,7 +12,7 @@
 enum { EVENTS_MAX = 8 };
 
 typedef struct lifecycle_events_t {
-  uint8_t waiting[EVENTS_MAX]; /* ids of transitions */
+  uint8_t waiting[EVENTS_MAX]; /* positions in rcl_lifecycle_transitions */
   uint8_t count;
 } lifecycle_events_t;
 
@@ -26,14 +26,10 @@ static lifecycle_events_t * events_of(const rcl_node_t * node)
 /* Publishes the oldest one and removes it; without room the stream counts it. */
 static void events_publish(rcl_lifecycle_com_interface_t * offers, lifecycle_events_t * events)
 {
-  const unsigned int id = events->waiting[0];
+  const rcl_lifecycle_transition_t * transition = &rcl_lifecycle_transitions[events->waiting[0]];
 
-  for (size_t i = 0; i < RCL_LIFECYCLE_TRANSITIONS; ++i) {
-    if (rcl_lifecycle_transitions[i].id == id) {
-      offers->msg.start_state = rcl_lifecycle_message_of(rcl_lifecycle_transitions[i].start);
-      offers->msg.goal_state = rcl_lifecycle_message_of(rcl_lifecycle_transitions[i].goal);
-    }
-  }
+  offers->msg.start_state = rcl_lifecycle_message_of(transition->start);
+  offers->msg.goal_state = rcl_lifecycle_message_of(transition->goal);
   --events->count;
   for (size_t i = 0; i < events->count; ++i) {
     events->waiting[i] = events->waiting[i + 1u];
@@ -52,14 +48,15 @@ void rcl_lifecycle_events_send(rcl_lifecycle_com_interface_t * offers)
   }
 }
 
-void rcl_lifecycle_events_add(rcl_lifecycle_com_interface_t * offers, unsigned int transition_id)
+void rcl_lifecycle_events_add(
+  rcl_lifecycle_com_interface_t * offers, const rcl_lifecycle_transition_t * transition)
 {
   lifecycle_events_t * events = events_of(offers->node_handle);
 
   if (events->count == (uint8_t)EVENTS_MAX) {
     events_publish(offers, events);
   }
-  events->waiting[events->count] = (uint8_t)transition_id;
+  events->waiting[events->count] = (uint8_t)(transition - rcl_lifecycle_transitions);
   ++events->count;
   rcl_lifecycle_events_send(offers);
 }

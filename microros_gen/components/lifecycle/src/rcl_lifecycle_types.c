@@ -57,17 +57,11 @@ static void types_put_named(types_out_t * out, uint8_t id, const char * label)
   }
 }
 
-static void types_put_transitions(
-  types_out_t * out, const rcl_lifecycle_transition_t * transitions, uint32_t count)
+static void types_put_transition(types_out_t * out, const rcl_lifecycle_transition_t * transition)
 {
-  types_put_4(out, count);
-  for (uint32_t i = 0; i < count; ++i) {
-    const rcl_lifecycle_transition_t * transition = &transitions[i];
-
-    types_put_named(out, (uint8_t)transition->id, transition->label);
-    types_put_named(out, transition->start->id, transition->start->label);
-    types_put_named(out, transition->goal->id, transition->goal->label);
-  }
+  types_put_named(out, (uint8_t)transition->id, transition->label);
+  types_put_named(out, transition->start->id, transition->start->label);
+  types_put_named(out, transition->goal->id, transition->goal->label);
 }
 
 static void types_put_state(types_out_t * out, const lifecycle_msgs__msg__State * state)
@@ -82,7 +76,10 @@ static uint32_t types_encode_transitions(const void * message, uint8_t * body, c
   types_out_t out = {body, 0, UINT32_MAX, 0};
 
   (void)fault;
-  types_put_transitions(&out, state->valid_transitions, state->valid_transition_size);
+  types_put_4(&out, state->valid_transition_size);
+  for (uint32_t i = 0; i < state->valid_transition_size; ++i) {
+    types_put_transition(&out, &state->valid_transitions[i]);
+  }
   return out.position;
 }
 
@@ -181,6 +178,9 @@ uint32_t rcl_lifecycle_write_graph(uint32_t from, uint32_t size, uint8_t * to)
 {
   types_out_t out = {to, from, size, 0};
 
-  types_put_transitions(&out, rcl_lifecycle_transitions, RCL_LIFECYCLE_TRANSITIONS);
+  types_put_4(&out, RCL_LIFECYCLE_TRANSITIONS);
+  for (uint32_t i = 0; i < (uint32_t)RCL_LIFECYCLE_TRANSITIONS; ++i) {
+    types_put_transition(&out, &rcl_lifecycle_transitions[rcl_lifecycle_graph[i]]);
+  }
   return out.position;
 }

@@ -18,7 +18,7 @@ rcl_ret_t rclc_make_node_a_lifecycle_node(
     return microros_error_refuse(
       RCL_RET_INVALID_ARGUMENT, "lifecycle_node, node, state_machine or allocator");
   }
-  options = rcl_lifecycle_get_default_state_machine_options();
+  options.initialize_default_states = true;
   options.enable_com_interface = enable_communication_interface;
   options.allocator = *allocator;
   (void)memset(lifecycle_node, 0, sizeof(*lifecycle_node)); /* it may be uninitialized memory */

@@ -13,35 +13,42 @@
 /* No label of ROS 2 begins with a space. */
 static const char change_unknown[] = " ";
 
-/* Of a request that is too large only this much arrives: the id and its padding. */
-enum { CHANGE_BEGINNING = 4 };
+/* Where the label begins, after its length. Of a request that is too large only the id and its padding arrive. */
+enum { CHANGE_BEGINNING = 4, CHANGE_LABEL_AT = CHANGE_BEGINNING + 4 };
+
+/* Returns the length of the label, with its NUL; 0 if the body ends before it. */
+static uint32_t change_length(const cdr_in_t * in)
+{
+  uint32_t length = 0;
+
+  if (in->size >= (uint32_t)CHANGE_LABEL_AT) {
+    (void)memcpy(&length, &in->body[CHANGE_BEGINNING], sizeof(length));
+  }
+  return in->swap ? length >> 24 | (length >> 8 & 0xff00u) | (length << 8 & 0xff0000u) | length << 24 : length;
+}
 
 static void change_decode(cdr_in_t * in, void * message)
 {
   lifecycle_msgs__srv__ChangeState_Request * request = message;
   rosidl_runtime_c__String * label = &request->transition.label;
-  uint32_t length;
+  const bool is_beginning = in->size == (uint32_t)CHANGE_BEGINNING;
+  uint32_t length = change_length(in);
+  const void * from = change_unknown;
 
-  cdr_get_1(in, &request->transition.id, 1u, "id");
-  if (!in->failed && in->size == (uint32_t)CHANGE_BEGINNING) {
-    in->position = in->size; /* a request that is too large: so is its label */
-    label->size = sizeof(change_unknown) - 1u;
-    (void)memcpy(label->data, change_unknown, sizeof(change_unknown));
+  if (
+    !is_beginning && (in->size < (uint32_t)CHANGE_LABEL_AT || length > in->size - (uint32_t)CHANGE_LABEL_AT)) {
+    cdr_in_refuse(in, CDR_FAULT_END, "label", (uint64_t)length + CHANGE_LABEL_AT, in->size);
     return;
   }
-  length = cdr_in_length(in, 1u, "label");
-  if (in->failed) {
-    return;
+  if (is_beginning || length > label->capacity) {
+    length = sizeof(change_unknown);
+  } else {
+    from = &in->body[CHANGE_LABEL_AT];
   }
+  request->transition.id = in->body[0];
   label->size = length == 0u ? 0u : length - 1u;
-  if (length > label->capacity) {
-    label->size = sizeof(change_unknown) - 1u;
-    (void)memcpy(label->data, change_unknown, sizeof(change_unknown));
-  } else if (length != 0u) {
-    (void)memcpy(label->data, &in->body[in->position], length);
-    label->data[length - 1u] = '\0';
-  }
-  in->position += length;
+  (void)memcpy(label->data, from, length);
+  label->data[label->size] = '\0';
 }
 
 static uint32_t change_encode(const void * message, uint8_t * body, cdr_fault_t * fault)

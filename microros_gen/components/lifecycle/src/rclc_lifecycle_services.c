@@ -6,48 +6,52 @@
 
 #include <stddef.h>
 
-/* Returns the node, or NULL with a text. */
-static rclc_lifecycle_node_t * services_node(const rclc_lifecycle_service_context_t * context)
+/* Adds the service that the callback serves. */
+static rcl_ret_t services_add(
+  rclc_lifecycle_service_context_t * context, rclc_executor_t * executor,
+  rclc_service_callback_with_context_t callback)
 {
-  if (context != NULL && context->lifecycle_node != NULL && context->lifecycle_node->state_machine != NULL) {
-    return context->lifecycle_node;
+  rclc_lifecycle_node_t * node = context != NULL ? context->lifecycle_node : NULL;
+  rcl_lifecycle_com_interface_t * offers;
+  rcl_service_t * service;
+  void * request;
+  void * response;
+
+  if (node == NULL || node->state_machine == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "context");
   }
-  (void)microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "context");
-  return NULL;
+  offers = &node->state_machine->com_interface;
+  service = &offers->srv_change_state;
+  request = &node->cs_req;
+  response = &node->cs_res;
+  if (callback == rclc_lifecycle_get_state_callback) {
+    service = &offers->srv_get_state;
+    request = &node->gs_req;
+    response = &node->gs_res;
+  } else if (callback == rclc_lifecycle_get_available_states_callback) {
+    service = &offers->srv_get_available_states;
+    request = &node->gas_req;
+    response = &node->gas_res;
+  }
+  return rclc_executor_add_service_with_context(executor, service, request, response, callback, context);
 }
 
 rcl_ret_t rclc_lifecycle_init_get_state_server(
   rclc_lifecycle_service_context_t * context, rclc_executor_t * executor)
 {
-  rclc_lifecycle_node_t * node = services_node(context);
-
-  return node == NULL ? RCL_RET_INVALID_ARGUMENT
-                      : rclc_executor_add_service_with_context(
-                          executor, &node->state_machine->com_interface.srv_get_state, &node->gs_req,
-                          &node->gs_res, rclc_lifecycle_get_state_callback, context);
+  return services_add(context, executor, rclc_lifecycle_get_state_callback);
 }
 
 rcl_ret_t rclc_lifecycle_init_get_available_states_server(
   rclc_lifecycle_service_context_t * context, rclc_executor_t * executor)
 {
-  rclc_lifecycle_node_t * node = services_node(context);
-
-  return node == NULL
-           ? RCL_RET_INVALID_ARGUMENT
-           : rclc_executor_add_service_with_context(
-               executor, &node->state_machine->com_interface.srv_get_available_states, &node->gas_req,
-               &node->gas_res, rclc_lifecycle_get_available_states_callback, context);
+  return services_add(context, executor, rclc_lifecycle_get_available_states_callback);
 }
 
 rcl_ret_t rclc_lifecycle_init_change_state_server(
   rclc_lifecycle_service_context_t * context, rclc_executor_t * executor)
 {
-  rclc_lifecycle_node_t * node = services_node(context);
-
-  return node == NULL ? RCL_RET_INVALID_ARGUMENT
-                      : rclc_executor_add_service_with_context(
-                          executor, &node->state_machine->com_interface.srv_change_state, &node->cs_req,
-                          &node->cs_res, rclc_lifecycle_change_state_callback, context);
+  return services_add(context, executor, rclc_lifecycle_change_state_callback);
 }
 
 void rclc_lifecycle_get_state_callback(const void * req, void * res, void * context)
