@@ -8,8 +8,8 @@
 #include "microros/rcl_lifecycle_timers.h"
 #include "microros/rcl_lifecycle_types.h"
 #include "microros/rcl_publisher_open.h"
-#include "microros/rcl_service_open.h"
 #include "microros/rmw_lifecycle.h"
+#include "microros/rmw_service.h"
 #include "microros/text.h"
 
 #include <stddef.h>
@@ -65,7 +65,7 @@ static rcl_ret_t machine_close(rcl_lifecycle_com_interface_t * offers, rcl_node_
   return first;
 }
 
-/* Opens the services of these types. */
+/* Opens the services of these types. Their names are known to be valid, and so is the node, which has a publisher. */
 static rcl_ret_t machine_offer(
   rcl_lifecycle_com_interface_t * offers, const rosidl_service_type_support_t * const types[MACHINE_SERVICES])
 {
@@ -77,8 +77,10 @@ static rcl_ret_t machine_offer(
 
   machine_list(offers, services);
   for (size_t i = 0; i < (size_t)MACHINE_SERVICES && result == RCL_RET_OK; ++i) {
-    result = rcl_service_open(
-      services[i], offers->node_handle, types[i], names[i], &rmw_qos_profile_services_default);
+    result = types[i] != NULL ? rmw_replier_open(
+                                  offers->node_handle->impl, types[i], names[i],
+                                  &rmw_qos_profile_services_default, &services[i]->impl)
+                              : microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "type of a service");
   }
   if (result == RCL_RET_OK) {
     rmw_lifecycle_answer_large(offers->srv_change_state.impl, true);

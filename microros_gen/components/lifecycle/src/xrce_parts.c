@@ -11,16 +11,6 @@ enum {
   HEAD_SIZE = XRCE_WRITE_PREFIX + XRCE_IDENTITY_SIZE
 };
 
-/* Writes the bytes of the submessage before its body. */
-static void parts_head(const xrce_parts_t * parts, uint8_t * head)
-{
-  xrce_put_submessage(
-    head, XRCE_WRITE_DATA, XRCE_FLAG_LITTLE_ENDIAN, (uint16_t)(parts->size - XRCE_SUBMESSAGE_HEADER));
-  xrce_put_be16(&head[4], XRCE_REQUEST_NONE);
-  xrce_put_be16(&head[6], xrce_object_id(parts->endpoint, XRCE_KIND_REPLIER));
-  (void)memcpy(&head[XRCE_WRITE_PREFIX], parts->identity, sizeof(parts->identity));
-}
-
 static uint32_t parts_left(const xrce_parts_t * parts)
 {
   const uint32_t left = parts->size - parts->position;
@@ -28,28 +18,27 @@ static uint32_t parts_left(const xrce_parts_t * parts)
   return left < MICROROS_PART_SIZE ? left : MICROROS_PART_SIZE;
 }
 
-/* Writes the part at `position`, of `size` bytes. */
+/* Writes the part at `position`, of `size` bytes. The first one has all bytes of the submessage before its body. */
 static void parts_write(const xrce_parts_t * parts, uint8_t * to, uint32_t size)
 {
-  uint32_t done = 0;
+  uint32_t at = parts->position;
+  uint32_t head = 0;
 
-  if (parts->position < (uint32_t)HEAD_SIZE) {
-    uint8_t head[HEAD_SIZE];
-    const uint32_t left = (uint32_t)HEAD_SIZE - parts->position;
-
-    done = left < size ? left : size;
-    parts_head(parts, head);
-    (void)memcpy(to, &head[parts->position], done);
+  if (at == 0u) {
+    xrce_put_submessage(
+      to, XRCE_WRITE_DATA, XRCE_FLAG_LITTLE_ENDIAN, (uint16_t)(parts->size - XRCE_SUBMESSAGE_HEADER));
+    xrce_put_be16(&to[4], XRCE_REQUEST_NONE);
+    xrce_put_be16(&to[6], xrce_object_id(parts->endpoint, XRCE_KIND_REPLIER));
+    (void)memcpy(&to[XRCE_WRITE_PREFIX], parts->identity, sizeof(parts->identity));
+    head = HEAD_SIZE;
+    at = HEAD_SIZE;
   }
-  if (done < size) {
-    (void)parts->body(parts->position + done - (uint32_t)HEAD_SIZE, size - done, &to[done]);
-  }
+  (void)parts->body(at - (uint32_t)HEAD_SIZE, size - head, &to[head]);
 }
 
 /* Sends the outstanding part; a repetition has the same bytes. */
-static void parts_send(xrce_client_t * client, uint32_t now)
+static void parts_send(xrce_client_t * client, xrce_parts_t * parts, uint32_t now)
 {
-  xrce_parts_t * parts = &client->parts;
   const uint32_t size = parts->broken ? 0u : parts_left(parts);
   const bool is_last = parts->broken || parts->position + size == parts->size;
   const uint32_t flags =
@@ -71,9 +60,8 @@ static const xrce_object_state_t * parts_state(const xrce_client_t * client)
 }
 
 /* Sends the next part if the agent has the replier. */
-static void parts_go(xrce_client_t * client, uint32_t now)
+static void parts_go(xrce_client_t * client, xrce_parts_t * parts, uint32_t now)
 {
-  xrce_parts_t * parts = &client->parts;
   const xrce_object_state_t * state = parts_state(client);
 
   if (!state->wanted) { /* it was closed */
@@ -82,7 +70,7 @@ static void parts_go(xrce_client_t * client, uint32_t now)
   } else if (!state->stale && state->level == (uint8_t)XRCE_SERVICE_COMPLETE) {
     parts->outstanding = true;
     parts->sent_ms = now;
-    parts_send(client, now);
+    parts_send(client, parts, now);
   }
 }
 
@@ -102,15 +90,15 @@ void xrce_parts_begin(xrce_client_t * client, uint16_t endpoint, const uint8_t *
 
 void xrce_parts_step(xrce_client_t * client, uint32_t now)
 {
-  const xrce_parts_t * parts = &client->parts;
+  xrce_parts_t * parts = &client->parts;
 
   if (!parts->busy || parts->body == NULL || client->session.state != (uint8_t)XRCE_READY) {
     return;
   }
   if (!parts->outstanding) {
-    parts_go(client, now);
+    parts_go(client, parts, now);
   } else if (xrce_is_due(now, parts->due_ms)) {
-    parts_send(client, now);
+    parts_send(client, parts, now);
   }
 }
 

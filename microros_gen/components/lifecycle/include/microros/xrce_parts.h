@@ -34,10 +34,10 @@ typedef struct xrce_parts_t {
   uint32_t size;                        /* bytes of the whole submessage */
   uint16_t sequence;                    /* its number, or the next one's */
   uint16_t endpoint;                    /* index of the replier */
-  uint8_t identity[XRCE_IDENTITY_SIZE]; /* of the request */
   bool busy;
   bool outstanding;
-  bool broken; /* the agent has a part of a reply that does not go on */
+  bool broken;                          /* the agent has a part of a reply that does not go on */
+  uint8_t identity[XRCE_IDENTITY_SIZE]; /* of the request */
 } xrce_parts_t;
 
 /* Begins a reply of the endpoint, unless another one is under way; `parts.body` is set. */
