@@ -193,6 +193,12 @@ class _Peer:
             for t in response.available_transitions
         ]
 
+    def switch(self, service: str, value: bool, timeout: float) -> bool | None:
+        """Call a std_srvs/srv/SetBool; return whether a response came."""
+        from std_srvs.srv import SetBool
+
+        return self._call(SetBool, service, SetBool.Request(data=value), timeout) is not None
+
     def _call(self, kind: Any, name: str, request: Any, timeout: float) -> Any:
         if name not in self._clients:
             self._clients[name] = self._asker.create_client(kind, name)
