@@ -172,6 +172,18 @@ class TimerDecl:
     managed: bool = False
 
 
+Scalar = bool | int | float | str
+"""A value of a parameter, or an element of one."""
+
+
+@dataclass(frozen=True)
+class ParameterRule:
+    """A rule of generate_parameter_library that ROS has not: its name without `<>`, and its arguments in one list."""
+
+    name: str
+    values: tuple[Scalar, ...] = ()
+
+
 @dataclass(frozen=True)
 class ParameterDecl:
     """A parameter of a node. `type` is bool, integer, double or string, or `T[]` of one of them or of byte.
@@ -179,7 +191,7 @@ class ParameterDecl:
     `size` bounds a string, bytes without its terminator, or the elements of an array. `one_of` has the values that
     are accepted, where not all are. `unit` is shown behind the description. `minimum`, `maximum` and `step` are
     the range of rcl_interfaces/msg/ParameterDescriptor; None: no range. `constraints` says in words what nothing else
-    says; nobody checks it.
+    says; nobody checks it. `rules` are checked in this order.
     """
 
     name: str
@@ -195,6 +207,7 @@ class ParameterDecl:
     one_of: tuple[int | float | str, ...] = ()
     unit: str = ""
     constraints: str = ""
+    rules: tuple[ParameterRule, ...] = ()
 
     @property
     def is_array(self) -> bool:

@@ -8,14 +8,15 @@ error at its place, so that no file is accepted with less than it says.
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 from microros_gen.application.model import ParameterDecl
-from microros_gen.application.parameters import Places, check_declaration, scalar_of, value_of
+from microros_gen.application.parameter_maps import MAP, Maps, is_group
+from microros_gen.application.parameter_validation import check_rules, with_rule
+from microros_gen.application.parameters import Places, check_declaration, value_of
 from microros_gen.diagnostics import Diagnostics, Source, Span, reads
-from microros_gen.documents.tree_values import bool_of, child, entries, items, number_of, span_of, text_of
+from microros_gen.documents.tree_values import bool_of, child, entries, items, span_of, text_of
 from microros_gen.documents.yaml_tree import Entry, MappingNode, YamlNode, parse_yaml
 
 _TYPES: Mapping[str, str] = {
@@ -32,9 +33,6 @@ _ONLY_DOCUMENTED = "none"
 _FIXED = re.compile(r"(string|(?:bool|int|double|string)_array)_fixed_([0-9]{1,6})")
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _KEYS = ("type", "default_value", "description", "read_only", "validation", "additional_constraints")
-_NUMBERS = ("integer", "double")
-_ENDS = {"integer": (-(2**63), 2**63 - 1), "double": (-sys.float_info.max, sys.float_info.max)}
-"""Ends of a range that is open at the other one."""
 
 
 @reads
@@ -51,31 +49,34 @@ def parse_parameter_file(source: Source, diagnostics: Diagnostics) -> tuple[Para
             id="MG-3064",
         )
     else:
-        declared = tuple(p for root in roots for p in _group(root.value, "", found))
+        maps = Maps.of(roots[0].value)
+        declared = tuple(p for root in roots for p in _group(root.value, "", maps, found))
     diagnostics.extend(found)
     return () if found.has_errors() else declared
 
 
-def _group(node: YamlNode, prefix: str, diagnostics: Diagnostics) -> Iterator[ParameterDecl]:
+def _group(node: YamlNode, prefix: str, maps: Maps, diagnostics: Diagnostics) -> Iterator[ParameterDecl]:
     for entry in entries(node):
         name = f"{prefix}{entry.key}"
-        if not _NAME.fullmatch(entry.key) or entry.key.startswith("__map_"):
-            message = (
-                f"'{entry.key}' is no name of a parameter: one for each value of another is not supported"
-            )
-            if not entry.key.startswith("__map_"):
-                message = f"'{entry.key}' is no name of a parameter"
-            diagnostics.error(message, entry.key_span, "Write each name out, such as motor_1", id="MG-3065")
+        if entry.key.startswith(MAP) and is_group(entry):
+            within = maps.within(prefix)
+            for index, value in enumerate(within.values(entry, diagnostics)):
+                # What is wrong below is wrong for each value: it is reported once.
+                found = Diagnostics() if index else diagnostics
+                yield from _group(entry.value, f"{prefix}{value}.", within, found)
+        elif not _NAME.fullmatch(entry.key) or entry.key.startswith(MAP):
+            message = f"'{entry.key}' is no name of a parameter"
+            diagnostics.error(message, entry.key_span, "Use letters, digits and underscores", id="MG-3065")
         elif text_of(child(entry.value, "type")) is not None:
-            yield from _leaf(entry, name, diagnostics)
-        elif isinstance(entry.value, MappingNode):
-            yield from _group(entry.value, f"{name}.", diagnostics)
+            yield from _leaf(entry, name, maps, diagnostics)
+        elif is_group(entry):
+            yield from _group(entry.value, f"{name}.", maps, diagnostics)
         else:
             message = f"'{name}' has no type"
             diagnostics.error(message, entry.key_span, f"Write {entry.key}: {{type: int}}", id="MG-3066")
 
 
-def _leaf(entry: Entry, name: str, diagnostics: Diagnostics) -> Iterator[ParameterDecl]:
+def _leaf(entry: Entry, name: str, maps: Maps, diagnostics: Diagnostics) -> Iterator[ParameterDecl]:
     node = entry.value
     _check_keys(node, diagnostics)
     kind_node, default = child(node, "type"), child(node, "default_value")
@@ -98,14 +99,18 @@ def _leaf(entry: Entry, name: str, diagnostics: Diagnostics) -> Iterator[Paramet
         type=kind,
         default=value_of(default),
         description=text_of(child(node, "description")) or "",
-        read_only=bool_of(child(node, "read_only")) or False,
+        read_only=bool_of(child(node, "read_only")) or name in maps.lists,
         span=entry.key_span,
         size=int(fixed.group(2)) if fixed else None,
         constraints=text_of(child(node, "additional_constraints")) or "",
     )
     validation = child(node, "validation")
     for rule in entries(validation):
-        parameter = _ruled(parameter, rule, diagnostics)
+        parameter = with_rule(parameter, rule, diagnostics)
+    if parameter.is_array and not parameter.size and parameter.read_only:
+        # Nothing changes it.
+        default_size = len(parameter.default) if isinstance(parameter.default, tuple) else 0
+        parameter = replace(parameter, size=max(default_size, 1))
     if parameter.is_array and not parameter.size:
         message = f"the array '{name}' has no largest size"
         hint = f"Write type: {type_text}_fixed_8, or validation: {{size_lt<>: [9]}}"
@@ -113,7 +118,10 @@ def _leaf(entry: Entry, name: str, diagnostics: Diagnostics) -> Iterator[Paramet
         return
     bounds = span_of(validation) if parameter.minimum is not None else None
     choices = items(child(validation, "one_of<>"))
+    before = len(tuple(diagnostics))
     check_declaration(parameter, Places(default, bounds, choices[0] if choices else None), diagnostics)
+    if len(tuple(diagnostics)) == before:
+        check_rules(parameter, default, diagnostics)
     yield parameter
 
 
@@ -137,107 +145,3 @@ def _check_kind(
 ) -> None:
     if node is not None and read(node) is None:
         diagnostics.error(f"this value must be {what}", node.span, f"Write {what}", id="MG-3075")
-
-
-def _ruled(parameter: ParameterDecl, rule: Entry, diagnostics: Diagnostics) -> ParameterDecl:
-    """Return the parameter with a rule of its validation."""
-    name = rule.key.removesuffix("<>")
-    apply = _RULES.get(name)
-    if apply is None or not rule.key.endswith("<>"):
-        known = ", ".join(f"{known}<>" for known in _RULES)
-        message = f"a device does not check '{rule.key}'"
-        diagnostics.error(
-            message, rule.key_span, f"Check it in the callback; available: {known}", id="MG-3071"
-        )
-        return parameter
-    ruled = apply(parameter, rule.value)
-    if ruled is None:
-        message = f"'{rule.key}' does not fit '{parameter.name}' of type {parameter.type}"
-        diagnostics.error(message, rule.value.span, _hint(name), id="MG-3072")
-    return ruled or parameter
-
-
-def _hint(name: str) -> str:
-    if name in ("gt", "lt"):
-        return f"Write {name}_eq<>: a range of floating-point numbers has its ends"
-    return "Write bounds<>: [0, 10], gt_eq<>: [0], one_of<>: [[1, 2]] or size_lt<>: [9]"
-
-
-def _numbers(parameter: ParameterDecl, node: YamlNode, count: int) -> list[int | float] | None:
-    """Return the arguments of a rule for numbers; None where they are others."""
-    found = [number_of(item) for item in items(node)]
-    numbers = [n for n in found if n is not None]
-    return numbers if parameter.type in _NUMBERS and len(numbers) == len(found) == count else None
-
-
-def _within(
-    parameter: ParameterDecl, low: int | float | None = None, high: int | float | None = None
-) -> ParameterDecl:
-    """Return the parameter with a range that these ends make narrower."""
-    first, last = _ENDS[parameter.type]
-    lows = [n for n in (parameter.minimum, low) if n is not None]
-    highs = [n for n in (parameter.maximum, high) if n is not None]
-    return replace(parameter, minimum=max(lows, default=first), maximum=min(highs, default=last))
-
-
-def _bounds(parameter: ParameterDecl, node: YamlNode) -> ParameterDecl | None:
-    numbers = _numbers(parameter, node, 2)
-    return None if numbers is None else _within(parameter, *numbers)
-
-
-def _low(parameter: ParameterDecl, node: YamlNode) -> ParameterDecl | None:
-    numbers = _numbers(parameter, node, 1)
-    return None if numbers is None else _within(parameter, low=numbers[0])
-
-
-def _high(parameter: ParameterDecl, node: YamlNode) -> ParameterDecl | None:
-    numbers = _numbers(parameter, node, 1)
-    return None if numbers is None else _within(parameter, high=numbers[0])
-
-
-def _above(parameter: ParameterDecl, node: YamlNode) -> ParameterDecl | None:
-    numbers = _numbers(parameter, node, 1)
-    return (
-        None
-        if numbers is None or parameter.type != "integer"
-        else _within(parameter, low=int(numbers[0]) + 1)
-    )
-
-
-def _below(parameter: ParameterDecl, node: YamlNode) -> ParameterDecl | None:
-    numbers = _numbers(parameter, node, 1)
-    return (
-        None
-        if numbers is None or parameter.type != "integer"
-        else _within(parameter, high=int(numbers[0]) - 1)
-    )
-
-
-def _one_of(parameter: ParameterDecl, node: YamlNode) -> ParameterDecl | None:
-    lists = items(node)
-    values = [v for v in map(scalar_of, items(lists[0]) if len(lists) == 1 else ()) if v is not None]
-    return replace(parameter, one_of=tuple(values)) if values else None
-
-
-def _size_lt(parameter: ParameterDecl, node: YamlNode) -> ParameterDecl | None:
-    numbers = [number_of(item) for item in items(node)]
-    if len(numbers) != 1 or not isinstance(numbers[0], int) or numbers[0] < 2:
-        return None
-    if not (parameter.is_array or parameter.type == "string"):
-        return None
-    sizes = [n for n in (parameter.size, numbers[0] - 1) if n is not None]
-    return replace(parameter, size=min(sizes))
-
-
-_RULES: Mapping[str, Callable[[ParameterDecl, YamlNode], ParameterDecl | None]] = {
-    "bounds": _bounds,
-    "gt": _above,
-    "lt": _below,
-    "gt_eq": _low,
-    "lt_eq": _high,
-    "lower_bounds": _low,
-    "upper_bounds": _high,
-    "one_of": _one_of,
-    "size_lt": _size_lt,
-}
-"""What a device checks: the rule without its `<>`; None: the arguments do not fit the parameter."""

@@ -95,9 +95,21 @@ FAULTS = {
     ),
     "a list": ("- 1\n", "p.yaml:1:1: error: a file of generate_parameter_library has one key"),
     "two roots": ("a: {}\nb: {}\n", "p.yaml:1:1: error: a file of generate_parameter_library has one key"),
-    "mapped": (
+    "mapped without a group": (
         "a:\n  __map_joints: {type: int, default_value: 1}\n",
-        "p.yaml:2:3: error: '__map_joints' is no name of a parameter: one for each value of another is not",
+        "p.yaml:2:3: error: '__map_joints' is no name of a parameter. Use letters, digits and underscores",
+    ),
+    "mapped by nothing": (
+        "a:\n  joints: {type: int, default_value: 1}\n  b:\n    __map_joints: {x: {type: int, default_value: 1}}\n",
+        "p.yaml:4:5: error: '__map_joints' names no list of texts. Declare joints: {type: string_array",
+    ),
+    "mapped by what is no name": (
+        'a:\n  j: {type: string_array, default_value: ["b c"]}\n  __map_j: {x: {type: int, default_value: 1}}\n',
+        "p.yaml:2:43: error: 'b c' is no part of a name. Use letters, digits and underscores",
+    ),
+    "mapped, wrong for each": (
+        "a:\n  j: {type: string_array, default_value: [b, c]}\n  __map_j: {x: {type: float}}\n",
+        "p.yaml:3:23: error: the type 'float' of 'b.x' is not supported",
     ),
     "no type": ("a:\n  x: 3\n", "p.yaml:2:3: error: 'x' has no type. Write x: {type: int}"),
     "unknown type": (
@@ -117,20 +129,25 @@ FAULTS = {
         "p.yaml:2:36: error: 'unit' of a parameter is not supported. Remove it; available: type, default_value",
     ),
     "a rule that is not checked": (
-        "a:\n  x: {type: string, default_value: a, validation: {not_empty<>: []}}\n",
-        "p.yaml:2:52: error: a device does not check 'not_empty<>'. Check it in the callback; available: bounds<>",
+        "a:\n  x: {type: string, default_value: a, validation: {ends_with<>: [b]}}\n",
+        "p.yaml:2:52: error: a device does not check 'ends_with<>'. Check it in the callback of "
+        "rclc_executor_add_parameter_server; available: bounds<>",
+    ),
+    "a rule without its brackets": (
+        "a:\n  x: {type: string, default_value: a, validation: {not_empty: []}}\n",
+        "p.yaml:2:52: error: a device does not check 'not_empty'",
     ),
     "a rule of another program": (
         'a:\n  x: {type: int, default_value: 1, validation: {"own::even": []}}\n',
         "p.yaml:2:49: error: a device does not check 'own::even'",
     ),
-    "above a floating-point number": (
-        "a:\n  x: {type: double, default_value: 1, validation: {gt<>: [0]}}\n",
-        "p.yaml:2:58: error: 'gt<>' does not fit 'x' of type double. Write gt_eq<>: a range of floating-point",
+    "default at an end that is not accepted": (
+        "a:\n  x: {type: double, default_value: 1, validation: {gt<>: [1]}}\n",
+        "p.yaml:2:36: error: the default of the parameter 'x' is not in its range",
     ),
     "bounds of a text": (
         "a:\n  x: {type: string, default_value: a, validation: {bounds<>: [0, 1]}}\n",
-        "p.yaml:2:62: error: 'bounds<>' does not fit 'x' of type string. Write bounds<>: [0, 10]",
+        "p.yaml:2:62: error: 'bounds<>' does not fit 'x' of type string. Write bounds<>: [0, 10], for an int or double",
     ),
     "one bound": (
         "a:\n  x: {type: int, default_value: 1, validation: {bounds<>: [0]}}\n",
@@ -161,6 +178,100 @@ FAULTS = {
         "p.yaml:2:48: error: 'validation' must be a mapping of rules. Write {bounds<>: [0, 10]}",
     ),
 }
+
+RULES = [
+    ("string", '""', "not_empty<>: []", "Parameter 'x' cannot be empty"),
+    ("string", "ab", "fixed_size<>: [1]", None),
+    ("string", "ab", "size_gt<>: [2]", "Length of parameter 'x' is '2' but must be greater than '2'"),
+    ("int_array_fixed_4", "[]", "not_empty<>: null", "Parameter 'x' cannot be empty"),
+    (
+        "int_array_fixed_4",
+        "[1]",
+        "fixed_size<>: 2",
+        "Length of parameter 'x' is '1' but must be equal to '2'",
+    ),
+    ("int_array_fixed_4", "[1, 1]", "unique<>: []", "Parameter 'x' must only contain unique values"),
+    (
+        *("int_array_fixed_4", "[1, 9]", "element_bounds<>: [0, 8]"),
+        "Value '9' in parameter 'x' must be within bounds '[0, 8]'",
+    ),
+    (
+        *("double_array_fixed_4", "[1]", "lower_element_bounds<>: 1.5"),
+        "Value '1' in parameter 'x' must be above lower bound of '1.5'",
+    ),
+    (
+        *("double_array_fixed_4", "[2]", "upper_element_bounds<>: [1]"),
+        "Value '2' in parameter 'x' must be below upper bound of '1'",
+    ),
+    (
+        *("string_array_fixed_4", "[a, c]", "subset_of<>: [[a, b]]"),
+        "Entry 'c' in parameter 'x' is not in the set '{a, b}'",
+    ),
+]
+
+
+@pytest.mark.parametrize(("kind", "default", "rule", "reason"), RULES)
+def test_a_default_follows_the_rules(kind: str, default: str, rule: str, reason: str | None) -> None:
+    """The reason is that which a set request would get; what is too long for the device has another one."""
+    found, faults = parsed(f"a:\n  x: {{type: {kind}, default_value: {default}, validation: {{{rule}}}}}\n")
+    assert found == ()
+    what = "the default of the parameter 'x'"
+    expected = (
+        f"{what} does not follow its validation. Change one of them: {reason}"
+        if reason
+        else f"{what} is longer than its size. Set size: 2"
+    )
+    column = len(f"  x: {{type: {kind}, default_value: ") + 1
+    assert faults == [f"p.yaml:2:{column}: error: {expected}"]
+
+
+MISFITS = [
+    *(
+        ("int", "1", rule)
+        for rule in ("not_empty<>: []", "unique<>: []", "size_gt<>: [1]", "fixed_size<>: 1")
+    ),
+    *(("string", "a", rule) for rule in ("unique<>: []", "subset_of<>: [[a]]", "element_bounds<>: [0, 1]")),
+    ("string_array_fixed_2", "[a]", "lower_element_bounds<>: [0]"),
+    ("int_array_fixed_2", "[1]", "subset_of<>: [[1, b]]"),
+    ("int_array_fixed_2", "[1]", "subset_of<>: [1]"),
+    ("int_array_fixed_2", "[1]", "element_bounds<>: [0, 1.5]"),
+    ("int_array_fixed_2", "[1]", "unique<>: [1]"),
+    ("double_array_fixed_2", "[1]", "upper_element_bounds<>: [.inf]"),
+    ("int_array_fixed_2", "[1]", "size_gt<>: [-1]"),
+    ("int_array_fixed_2", "[1]", "fixed_size<>: [0]"),
+]
+
+
+@pytest.mark.parametrize(("kind", "default", "rule"), MISFITS)
+def test_a_rule_fits_the_type(kind: str, default: str, rule: str) -> None:
+    found, faults = parsed(f"a:\n  x: {{type: {kind}, default_value: {default}, validation: {{{rule}}}}}\n")
+    assert found == ()
+    name = rule.partition(":")[0]
+    assert len(faults) == 1
+    assert f"error: '{name}' does not fit 'x' of type " in faults[0]
+    assert f". Write {name}: [" in faults[0]
+
+
+MAPPED = """\
+a:
+  joints: {type: string_array, default_value: [l, r, l]}
+  pid:
+    __map_joints:
+      gain: {type: double, default_value: 1.0}
+      __map_axes: {limit: {type: int, default_value: 2}}
+    axes: {type: string_array_fixed_3, default_value: [x, y]}
+  axes: {type: string_array_fixed_3, default_value: [z]}
+  __map_axes: {on: {type: bool, default_value: true}}
+"""
+
+
+def test_a_map_has_a_group_for_each_text_of_the_nearest_list() -> None:
+    """By the names that the library gives; the lists are read-only, as a device has what is declared."""
+    found, faults = parsed(MAPPED)
+    assert faults == []
+    names = [f"pid.{joint}.{name}" for joint in "lr" for name in ("gain", "x.limit", "y.limit")]
+    assert [p.name for p in found] == ["joints", *names, "pid.axes", "axes", "z.on"]
+    assert [(p.name, p.size) for p in found if p.read_only] == [("joints", 3), ("pid.axes", 3), ("axes", 3)]
 
 
 @pytest.mark.parametrize("case", FAULTS)

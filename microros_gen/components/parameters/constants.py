@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from microros_gen.application.model import ParameterDecl
+from microros_gen.application.model import ParameterDecl, ParameterRule
+from microros_gen.application.parameter_rules import words_of
 from microros_gen.typesupport.views.text import string
 
 LONGEST_TEXT = 49
@@ -29,6 +30,22 @@ C_TYPES = {
     "double": "double ",
     "string": "char * ",
 }
+
+_RULES = {
+    "element_bounds": "WITHIN",
+    "fixed_size": "SIZE_IS",
+    "gt": "ABOVE",
+    "lower_element_bounds": "FROM",
+    "lt": "BELOW",
+    "not_empty": "SIZE_ABOVE",
+    "one_of": "LISTED",
+    "size_gt": "SIZE_ABOVE",
+    "size_lt": "SIZE_BELOW",
+    "subset_of": "LISTED",
+    "unique": "UNIQUE",
+    "upper_element_bounds": "TO",
+}
+"""Rule of generate_parameter_library → what the device checks."""
 
 
 def string_limit(parameter: ParameterDecl) -> int:
@@ -56,6 +73,7 @@ def tables(parameters: tuple[ParameterDecl, ...], symbol: str) -> Iterator[str]:
             numbers = ", ".join(_literal(end, parameter.type) for end in ends if end is not None)
             member = "integer" if parameter.type == "integer" else "floating_point"
             yield f"static const rclc_parameter_range_t {symbol}_range_{index} = {{.{member} = {{{numbers}}}}};"
+        yield from _rule_tables(parameter, symbol, index)
         if _has_table(parameter):
             yield f"static const {_start(parameter, f'{symbol}_start_{index}')};"
 
@@ -76,6 +94,39 @@ def has_floating_range(parameters: tuple[ParameterDecl, ...]) -> bool:
     return any(_has_range(parameter) and parameter.type == "double" for parameter in parameters)
 
 
+def rules_of(parameters: tuple[ParameterDecl, ...]) -> int:
+    """Return which rules are needed: 2 with those of doubles, 1 without, 0 none."""
+    return max((1 + _compares_doubles(p, rule) for p in parameters for rule in p.rules), default=0)
+
+
+def _compares_doubles(parameter: ParameterDecl, rule: ParameterRule) -> bool:
+    return parameter.type.removesuffix("[]") == "double" and not _RULES[rule.name].startswith("SIZE")
+
+
+def _rule_tables(parameter: ParameterDecl, symbol: str, index: int) -> Iterator[str]:
+    """Yield the values of the rules of a parameter, then the rules."""
+    kind = parameter.type.removesuffix("[]")
+    rows = []
+    for number, rule in enumerate(parameter.rules):
+        name, count = f"{symbol}_rule_{index}_{number}", len(rule.values)
+        if _RULES[rule.name].startswith("SIZE"):
+            values, count = "", int(rule.values[0]) if rule.values else 0
+        elif not rule.values:
+            values = ""
+        elif rule.values == parameter.one_of:
+            values = f", .values = {symbol}_values_{index}"
+        else:
+            literals = ", ".join(_literal(value, kind) for value in rule.values)
+            star = "const " if kind == "string" else ""
+            yield f"static const {C_TYPES[kind]}{star}{name}[] = {{{literals}}};"
+            values = f", .values = {name}"
+        words = _texts(*words_of(rule))
+        kind_name = f"(uint8_t)PARAMETER_RULE_{_RULES[rule.name]}"
+        rows.append(f"{{.words = {words}{values}, .count = {count}u, .kind = {kind_name}}}")
+    if rows:
+        yield f"static const rclc_parameter_rule_t {symbol}_rules_{index}[] = {{{', '.join(rows)}}};"
+
+
 def _has_range(parameter: ParameterDecl) -> bool:
     return parameter.minimum is not None and parameter.maximum is not None
 
@@ -94,6 +145,8 @@ def _about(parameter: ParameterDecl, symbol: str, index: int) -> Iterator[str]:
         yield f".range = &{symbol}_range_{index}"
     if parameter.one_of:
         yield f".one_of = {symbol}_values_{index}, .one_of_count = {len(parameter.one_of)}u"
+    if parameter.rules:
+        yield f".rules = {symbol}_rules_{index}, .rules_count = {len(parameter.rules)}u"
     if parameter.type == "string":
         yield f".string_most = {string_limit(parameter)}u"
     if parameter.is_array:

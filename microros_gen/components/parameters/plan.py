@@ -6,12 +6,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from microros_gen.application.model import Application, LimitRule, ParameterDecl
+from microros_gen.application.parameter_rules import words_of
 from microros_gen.client.plan.declared import pool
 from microros_gen.client.plan.features import PlanContext, refuse_own_limits
 from microros_gen.components.parameters.constants import (
     LONGEST_TEXT,
     entries,
     has_floating_range,
+    rules_of,
     string_limit,
     tables,
     texts_of,
@@ -25,6 +27,8 @@ DEFAULT_PARAMETERS = 4
 """What rclc_parameter_server_init_default of rclc has."""
 _REASON = 104
 """Bytes of the longest words of rclc_parameter_reason.c, the types of two values included."""
+_SHOWN_NUMBER = 20
+"""Bytes of the longest number in a reason: an int64_t with its sign."""
 _SHORTEST_PARAMETER = 48
 """Bytes of an rcl_interfaces/msg/Parameter in CDR at least."""
 _PACKAGE, _HELD = "rcl_interfaces", "microros_parameter_msgs"
@@ -69,6 +73,8 @@ class ParametersPlan:
     `strings_max`, `array_string_size`: of an array of strings.
     `request_size`: the largest request of all services; `outcomes_max`: how many parameters one can have at most.
     `held`: by a server elsewhere. `servers` has one entry for each node.
+    `rules`: of generate_parameter_library: 2 with those of doubles, 1 without, 0 none; `shown_size`: of a text in a
+    reason.
     """
 
     max: int
@@ -83,6 +89,13 @@ class ParametersPlan:
     outcomes_max: int
     held: bool = False
     servers: tuple[ServerPlan, ...] = ()
+    rules: int = 0
+    shown_size: int = 0
+
+    @property
+    def has_rules(self) -> bool:
+        """Whether some parameter has a rule of generate_parameter_library."""
+        return self.rules > 0
 
     @property
     def strings(self) -> str:
@@ -129,6 +142,8 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> ParametersPlan:
         outcomes_max=largest // _SHORTEST_PARAMETER + 1,
         held=held,
         servers=tuple(_servers(application)),
+        rules=rules_of(_parameters(application)),
+        shown_size=_shown_size(application),
     )
 
 
@@ -182,6 +197,7 @@ def record(part: ParametersPlan) -> object:
         "sizes": [part.name_size, part.text_size, part.string_size, part.request_size, part.outcomes_max],
         **({"one_of": True} if part.one_of else {}),
         **({"held": True} if part.held else {}),
+        **({"rules": [part.rules, part.shown_size]} if part.rules else {}),
         **(
             {"arrays": [part.array_size, part.strings_max, part.array_string_size]} if part.array_size else {}
         ),
@@ -207,19 +223,19 @@ def limits(application: Application) -> tuple[LimitRule, ...]:
     if _is_held(application):
         rules += _held_rules(application, name, node, count)
     else:
-        rules += _served_rules(name, node, count)
+        rules += _served_rules(name, node, count, _reason(application))
     configured = {rule.path for rule in application.limits}
     return tuple(rule for rule in rules if rule.path not in configured)
 
 
-def _served_rules(name: int, node: int, count: int) -> tuple[LimitRule, ...]:
+def _served_rules(name: int, node: int, count: int, reason: int) -> tuple[LimitRule, ...]:
     """Return the limits of the six services and of the event."""
     return (
         *(_rule(f"srv/{service}_Request", "names", name, count) for service in _NAMES),
         *(_rule(f"srv/{service}_Response", part, None, count) for service, part in _NAMES.items()),
         *(_rule(f"srv/{service}_Request", "parameters", None, count) for service in _SETS),
         _rule("srv/SetParameters_Response", "results", None, count),
-        _rule("msg/SetParametersResult", "reason", _REASON + name),
+        _rule("msg/SetParametersResult", "reason", reason + name),
         _rule("srv/ListParameters_Request", "prefixes", name, count),
         *(_rule("msg/ListParametersResult", part, name, count) for part in ("names", "prefixes")),
         _rule("msg/ParameterEvent", "node", node),
@@ -228,6 +244,31 @@ def _served_rules(name: int, node: int, count: int) -> tuple[LimitRule, ...]:
         _rule("msg/ParameterEvent", "changed_parameters", None, count),
         _rule("msg/ParameterEvent", "deleted_parameters", None, 1),
     )
+
+
+def _parameters(application: Application) -> tuple[ParameterDecl, ...]:
+    return tuple(p for node in application.nodes for p in node.parameters)
+
+
+def _shown_size(application: Application) -> int:
+    """Return the bytes of the longest text that a reason shows of a value; 0: there are no rules."""
+    declared = _parameters(application)
+    if not any(p.rules for p in declared):
+        return 0
+    strings = [string_limit(p) for p in declared if p.rules and p.type == "string"]
+    arrays = [_array_string(application) for p in declared if p.rules and p.type == "string[]"]
+    return max([_SHOWN_NUMBER, *strings, *arrays])
+
+
+def _reason(application: Application) -> int:
+    """Return the bytes of the longest reason without its name."""
+    shown = _shown_size(application)
+    words = (
+        sum(len(part.encode()) for part in words_of(rule))
+        for p in _parameters(application)
+        for rule in p.rules
+    )
+    return max([_REASON, *(size + shown for size in words)])
 
 
 def _is_held(application: Application) -> bool:
@@ -246,7 +287,7 @@ def _held_rules(application: Application, name: int, node: int, count: int) -> t
     return (
         _rule("srv/Exchange_Request", "parameters", None, count, _HELD),
         _rule("srv/Exchange_Response", "parameters", None, 1, _HELD),
-        _rule("srv/Exchange_Response", "reason", _REASON + name, None, _HELD),
+        _rule("srv/Exchange_Response", "reason", _reason(application) + name, None, _HELD),
         _rule("msg/HeldParameter", "integers", None, most("integer"), _HELD),
         _rule("msg/HeldParameter", "doubles", None, most("double"), _HELD),
         LimitRule((f"{_HELD}/msg/HeldParameter", "strings"), strings, most("string")),

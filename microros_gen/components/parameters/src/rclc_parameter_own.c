@@ -72,6 +72,9 @@ void rclc_parameter_unconstrain(rclc_parameter_about_t * about)
 #if MICROROS_PARAMETER_ONE_OF
   about->one_of = NULL;
 #endif
+#if MICROROS_PARAMETER_RULES > 0u
+  about->rules_count = 0;
+#endif
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
   about->string_most = MICROROS_PARAMETER_STRING_SIZE - 1u;
 #endif

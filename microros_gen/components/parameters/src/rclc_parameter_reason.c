@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rclc_parameter_reason.h"
 
+#include "microros/rclc_parameter_rules.h"
+
 #include <stddef.h>
 
 enum { PARTS_MAX = 7 };
@@ -106,6 +108,12 @@ void rclc_parameter_out_reason(
   parameter_text_t parts[PARTS_MAX];
   uint32_t count = 0;
 
+#if MICROROS_PARAMETER_RULES > 0u
+  if (outcome == (uint8_t)PARAMETER_BREAKS_RULE) {
+    rclc_parameter_out_rule(out, server, requested);
+    return;
+  }
+#endif
   while (*words != '\0' && count < (uint32_t)PARTS_MAX) {
     if (*words == '%') {
       parts[count] = reason_insertion(words[1], server, requested);

@@ -2,6 +2,7 @@
 /* Set requests, by the rules of rclcpp: each change is checked, then the callback decides, then it is made. */
 #include "microros/rclc_parameter_array.h"
 #include "microros/rclc_parameter_one_of.h"
+#include "microros/rclc_parameter_rules.h"
 #include "microros/rclc_parameter_string.h"
 #include "microros/rclc_parameters.h"
 
@@ -50,6 +51,23 @@ static parameter_outcome_t set_check_new(
   return server->undeclared->check(server, requested, created);
 }
 
+/* For a value of the type that the parameter has. */
+static parameter_outcome_t set_check_value(
+  const rclc_parameter_server_t * server, const rclc_parameter_place_t * place,
+  const parameter_requested_t * requested)
+{
+  if (!rclc_parameter_string_fits(place, requested)) {
+    return PARAMETER_STRING_LONG;
+  }
+  if (!rclc_parameter_array_fits(place, requested)) {
+    return PARAMETER_ARRAY_LONG;
+  }
+  if (!rclc_parameter_one_of(place, requested)) {
+    return PARAMETER_NOT_ONE_OF;
+  }
+  return set_check_range(server, place, requested);
+}
+
 /* `place`: the one of that name, or NULL; so it is below. */
 static parameter_outcome_t set_check_parameter(
   const rclc_parameter_server_t * server, const rclc_parameter_place_t * place,
@@ -70,16 +88,7 @@ static parameter_outcome_t set_check_parameter(
   if (requested->type != place->type) {
     return place->dynamic_typing ? set_check_new(server, requested, 0) : PARAMETER_OTHER_TYPE;
   }
-  if (!rclc_parameter_string_fits(place, requested)) {
-    return PARAMETER_STRING_LONG;
-  }
-  if (!rclc_parameter_array_fits(place, requested)) {
-    return PARAMETER_ARRAY_LONG;
-  }
-  if (!rclc_parameter_one_of(place, requested)) {
-    return PARAMETER_NOT_ONE_OF;
-  }
-  return set_check_range(server, place, requested);
+  return rclc_parameter_rules_outcome(place, requested, set_check_value(server, place, requested));
 }
 
 /* Returns whether the callback accepts a checked change. */

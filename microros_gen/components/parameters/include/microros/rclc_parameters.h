@@ -17,6 +17,10 @@
 extern "C" {
 #endif
 
+#if MICROROS_PARAMETER_RULES > 0u
+typedef struct rclc_parameter_rule_t rclc_parameter_rule_t;
+#endif
+
 /* The description and constraints of a parameter. */
 typedef struct rclc_parameter_about_t {
   const char * name;
@@ -26,6 +30,10 @@ typedef struct rclc_parameter_about_t {
 #if MICROROS_PARAMETER_ONE_OF
   const void * one_of; /* the values that are accepted; NULL: all */
   size_t one_of_count;
+#endif
+#if MICROROS_PARAMETER_RULES > 0u
+  const rclc_parameter_rule_t * rules; /* rules_count of them, checked in this order */
+  uint32_t rules_count;
 #endif
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
   uint32_t string_most; /* bytes without the NUL */
@@ -81,6 +89,7 @@ typedef enum parameter_outcome_t {
   PARAMETER_STRING_LONG,
   PARAMETER_ARRAY_LONG,
   PARAMETER_NOT_ONE_OF,  /* a value that is not listed */
+  PARAMETER_BREAKS_RULE, /* of generate_parameter_library */
   PARAMETER_UNSUPPORTED, /* a value of a type that a server cannot hold */
   PARAMETER_CUT,         /* its request was too large to be received */
   PARAMETER_NAME_LONG,   /* this and the last: of a parameter that would be created */
