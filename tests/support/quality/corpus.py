@@ -41,6 +41,17 @@ EVERY_PARAMETER = """\
       - {name: doubles, type: "double[]", size: 4, default: [1, 0.5]}
       - {name: strings, type: "string[]", size: 4, default: [a, ""]}
 """
+PARAMETER_FILE = """\
+probe:
+  label: {type: string_fixed_8, default_value: left, validation: {not_empty<>: [], size_lt<>: [7]}}
+  mode: {type: string, default_value: slow, validation: {one_of<>: [["slow", "fast"]]}}
+  speed: {type: double, default_value: 16.0, validation: {gt<>: [15.0]}}
+  ports: {type: int_array_fixed_4, default_value: [1], validation: {unique<>: [], element_bounds<>: [-5, 9]}}
+  flags: {type: bool_array_fixed_3, default_value: [true], validation: {subset_of<>: [[true]]}}
+  names: {type: string_array_fixed_3, default_value: [a], validation: {subset_of<>: [[a, "50%"]]}}
+  __map_axes: {gains: {type: double_array_fixed_2, default_value: [1, 2], validation: {fixed_size<>: 2}}}
+  axes: {type: string_array, default_value: [x, y]}
+"""
 _NODES = _POOL + "nodes:\n  - name: probe\n    publishers:\n"
 _BEST = "      - {topic: fast, type: std_msgs/msg/Int32, qos: {reliability: best_effort}}\n"
 _SURE = "      - {topic: sure, type: std_msgs/msg/UInt8}\n"
@@ -173,6 +184,8 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "parameters_every": _NODES.replace("    publishers:\n", "")
         + EVERY_PARAMETER
         + "components: [+parameters]\n",
+        "parameters_rules": _NODES.replace("    publishers:\n", "    parameters: {file: parameters.yaml}\n")
+        + "components: [+parameters]\n",
         "parameters_held": _NODES.replace("    publishers:\n", "    parameters: {at: agent}\n")
         + "components: [+parameters]\n",
         "parameters_held_every": _NODES.replace("    publishers:\n", "")
@@ -261,6 +274,7 @@ def make_tree(name: str, folder: Path) -> Tree:
     (place / "microros.yaml").write_text(APPLICATIONS[name], encoding="utf-8")
     if name in TARGETS:
         (place / "own.yaml").write_text(TARGETS[name], encoding="utf-8")
+    (place / "parameters.yaml").write_text(PARAMETER_FILE, encoding="utf-8")
     options = compiler.Options(
         config=place / "microros.yaml", interface_paths=(INTERFACES / "quality_msgs", shipped_folder())
     )

@@ -7,7 +7,6 @@
 #include "microros/rclc_parameter_show.h"
 
 #include <stddef.h>
-#include <string.h>
 
 /* Parts of a reason: a value, the name, and words around them. */
 enum { RULE_PARTS_MAX = 6 };
@@ -132,6 +131,16 @@ static bool rule_is_less(uint8_t type, const rule_element_t * one, const rule_el
   return one->value.integer_value < other->value.integer_value;
 }
 
+static bool rule_is_same_text(const parameter_text_t * one, const parameter_text_t * other)
+{
+  uint32_t i = 0;
+
+  while (i < one->size && i < other->size && one->data[i] == other->data[i]) {
+    ++i;
+  }
+  return i == one->size && i == other->size;
+}
+
 static bool rule_is_same(uint8_t type, const rule_element_t * one, const rule_element_t * other)
 {
   switch (type) {
@@ -145,7 +154,7 @@ static bool rule_is_same(uint8_t type, const rule_element_t * one, const rule_el
              one->value.double_value >= other->value.double_value;
 #endif
     default:
-      return one->text.size == other->text.size && memcmp(one->text.data, other->text.data, one->text.size) == 0;
+      return rule_is_same_text(&one->text, &other->text);
   }
 }
 
@@ -328,10 +337,14 @@ void rclc_parameter_out_rule(
       parts[count] = rule_insertion(words[1], requested, &broken, room);
       words = &words[2];
     } else {
-      parts[count].data = words;
-      for (parts[count].size = 0; *words != '\0' && *words != '%'; ++words) {
-        ++parts[count].size;
+      uint32_t size = 0;
+
+      while (words[size] != '\0' && words[size] != '%') {
+        ++size;
       }
+      parts[count].data = words;
+      parts[count].size = size;
+      words = &words[size];
     }
     ++count;
   }

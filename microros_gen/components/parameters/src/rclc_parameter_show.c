@@ -5,6 +5,11 @@
 
 #if MICROROS_PARAMETER_RULES > 0u
 
+static char show_digit(uint32_t digit)
+{
+  return "0123456789"[digit];
+}
+
 uint32_t rclc_parameter_show_integer(char * to, int64_t value)
 {
   char digits[PARAMETER_SHOWN_MAX];
@@ -16,7 +21,7 @@ uint32_t rclc_parameter_show_integer(char * to, int64_t value)
     uint64_t digit = 0;
 
     rest = rclc_parameter_divide(rest, 10u, &digit);
-    digits[count] = (char)('0' + (int)digit);
+    digits[count] = show_digit((uint32_t)digit);
     ++count;
   } while (rest != 0u);
   if (value < 0) {
@@ -52,10 +57,11 @@ static double show_scaled(double value, int32_t power)
   double factor = 1.0;
   int32_t left = power < 0 ? -power : power;
 
-  for (; left > exact; left -= exact) {
+  while (left > exact) {
     scaled = power < 0 ? scaled / 1e22 : scaled * 1e22;
+    left -= exact;
   }
-  for (; left > 0; --left) {
+  for (int32_t i = 0; i < left; ++i) {
     factor *= 10.0;
   }
   return power < 0 ? scaled / factor : scaled * factor;
@@ -65,12 +71,11 @@ static double show_scaled(double value, int32_t power)
 static int32_t show_exponent_of(double value)
 {
   int32_t exponent = 0;
-  double first = value;
 
-  for (; first >= 10.0; first /= 10.0) {
+  while (show_scaled(value, -exponent) >= 10.0) {
     ++exponent;
   }
-  for (; first < 1.0; first *= 10.0) {
+  while (show_scaled(value, -exponent) < 1.0) {
     --exponent;
   }
   return exponent;
@@ -79,11 +84,14 @@ static int32_t show_exponent_of(double value)
 /* For a finite number above 0; half a digit is rounded to an even one. */
 static show_number_t show_split(double value)
 {
-  show_number_t number = {{0}, SHOW_DIGITS, show_exponent_of(value)};
-  const double scaled = show_scaled(value, SHOW_DIGITS - 1 - number.exponent);
+  const int32_t exponent = show_exponent_of(value);
+  const double scaled = show_scaled(value, SHOW_DIGITS - 1 - exponent);
   uint32_t rounded = (uint32_t)scaled;
   const double rest = scaled - (double)rounded;
+  show_number_t number;
 
+  number.count = SHOW_DIGITS;
+  number.exponent = exponent;
   if (rest > 0.5 || (rest >= 0.5 && rounded % 2u == 1u)) {
     ++rounded;
   }
@@ -92,7 +100,7 @@ static show_number_t show_split(double value)
     ++number.exponent;
   }
   for (int32_t i = SHOW_DIGITS - 1; i >= 0; --i) {
-    number.digits[i] = (char)('0' + (int)(rounded % 10u));
+    number.digits[i] = show_digit(rounded % 10u);
     rounded /= 10u;
   }
   while (number.count > 1 && number.digits[number.count - 1] == '0') {
@@ -143,10 +151,9 @@ static uint32_t show_exponent(char * to, int32_t exponent)
 static uint32_t show_positive(char * to, double value)
 {
   const show_number_t number = show_split(value);
-  uint32_t size;
 
   if (number.exponent < SHOW_LEAST || number.exponent >= SHOW_DIGITS) {
-    size = show_digits(to, &number, 0, 1);
+    const uint32_t size = show_digits(to, &number, 0, 1);
     return size + show_exponent(&to[size], number.exponent);
   }
   return show_digits(to, &number, number.exponent < 0 ? number.exponent : 0, number.exponent + 1);

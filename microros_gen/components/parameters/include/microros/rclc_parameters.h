@@ -89,7 +89,9 @@ typedef enum parameter_outcome_t {
   PARAMETER_STRING_LONG,
   PARAMETER_ARRAY_LONG,
   PARAMETER_NOT_ONE_OF,  /* a value that is not listed */
+#if MICROROS_PARAMETER_RULES > 0u
   PARAMETER_BREAKS_RULE, /* of generate_parameter_library */
+#endif
   PARAMETER_UNSUPPORTED, /* a value of a type that a server cannot hold */
   PARAMETER_CUT,         /* its request was too large to be received */
   PARAMETER_NAME_LONG,   /* this and the last: of a parameter that would be created */
