@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import field
 
+from microros_gen.application.mode_decl import ModeDecl
 from microros_gen.diagnostics import Span
 from microros_gen.documents.named import Named
 from microros_gen.records import dataclass
@@ -263,6 +264,7 @@ class NodeDecl:
     `parameter_file`: one of generate_parameter_library, relative to the folder of the application file; its
     parameters are among `parameters` once it was read, before those of the application file.
     `parameters_at`: who holds their values, `device` or `agent`; None: nothing is said.
+    `modes`: `__DEFAULT__` first.
     `clock_topic`: where a rule of `remap:` puts /clock, to which a node subscribes by itself; empty: no rule.
     """
 
@@ -276,6 +278,7 @@ class NodeDecl:
     parameter_file: Named | None = None
     parameters_at: Named | None = None
     parameter_clients: tuple[ParameterClientDecl, ...] = ()
+    modes: tuple[ModeDecl, ...] = ()
     executors: tuple[ExecutorDecl, ...] = ()
     name_span: Span | None = None
     given_name: str = ""

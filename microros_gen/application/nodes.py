@@ -9,6 +9,7 @@ from dataclasses import replace
 from microros_gen.application.kinds import KIND, KINDS
 from microros_gen.application.limits import endpoint_limits
 from microros_gen.application.model import EndpointDecl, ExecutorDecl, NodeDecl, ParameterDecl, TimerDecl
+from microros_gen.application.modes import parse_modes
 from microros_gen.application.names import (
     absolute,
     expand_topic_name,
@@ -78,6 +79,7 @@ def _node(item: YamlNode, diagnostics: Diagnostics) -> NodeDecl:
         parameters=parse_declarations(child(item, "parameters"), diagnostics),
         parameter_file=named_of(child(child(item, "parameters"), "file")),
         parameters_at=named_of(child(child(item, "parameters"), "at")),
+        modes=parse_modes(child(item, "modes"), diagnostics),
         name_span=span_of(name) or item.span,
     )
     remap = child(item, "remap")
@@ -91,6 +93,8 @@ def _node(item: YamlNode, diagnostics: Diagnostics) -> NodeDecl:
     executors = tuple(_executor(e, node, diagnostics) for e in items(child(item, "executors")))
     for kind, named in (("timer", node.timers), ("parameter", node.parameters), ("executor", executors)):
         check_unique(kind, [(n.name, n.span) for n in named], diagnostics)
+    for mode in node.modes:
+        check_unique("parameter of a mode", [(v.parameter, v.name_span) for v in mode.values], diagnostics)
     check_unique("parameter client", [(c.node, c.span) for c in node.parameter_clients], diagnostics)
     return rename_endpoints(replace(node, executors=executors), remap, diagnostics)
 

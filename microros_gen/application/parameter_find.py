@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the parameter files that the nodes of an application name."""
+"""Reads the parameter files that the nodes of an application name, and checks modes by what the nodes then declare."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from microros_gen.application.model import Application, NodeDecl
+from microros_gen.application.modes import check_modes
 from microros_gen.application.nodes import with_declarations
 from microros_gen.application.parameter_file import parse_parameter_file
 from microros_gen.diagnostics import Diagnostics, Source
@@ -24,9 +25,15 @@ def parameter_paths(application: Application, near: Path) -> Iterator[Path]:
 def with_parameter_files(
     application: Application, near: Path, diagnostics: Diagnostics
 ) -> tuple[Application, tuple[Source, ...]]:
-    """Return the application with what its parameter files declare, and these files as they were read."""
+    """Return the application with what its parameter files declare, and these files as they were read.
+
+    Values in modes that a parameter does not accept are errors at their places.
+    """
     read = [(node, _source(node, near, diagnostics)) for node in application.nodes]
     nodes = tuple(_with_file(node, source, diagnostics) for node, source in read)
+    for node, (_, source) in zip(nodes, read, strict=True):
+        if source is not None or node.parameter_file is None:
+            check_modes(node, diagnostics)
     return replace(application, nodes=nodes), tuple(source for _, source in read if source is not None)
 
 

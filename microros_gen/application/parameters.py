@@ -89,7 +89,8 @@ def check_declaration(parameter: ParameterDecl, places: Places, diagnostics: Dia
         message = f"the parameter '{parameter.name}' is of type {parameter.type}, which has no size"
         diagnostics.error(message, parameter.span, "Remove `size`", id="MG-3055")
     if places.default is not None and parameter.default is not None:
-        _check_default(parameter, places.default, diagnostics)
+        what = f"the default of the parameter '{parameter.name}'"
+        check_value(parameter, parameter.default, places.default.span, what, diagnostics)
     elif len(tuple(diagnostics)) == before:
         diagnostics.extend(_missing_default(parameter))
 
@@ -119,28 +120,35 @@ def _fits(value: _Scalar, kind: str) -> bool:
     return limits is None or limits[0] <= value <= limits[1]  # type: ignore[operator]
 
 
-def _check_default(parameter: ParameterDecl, node: YamlNode, diagnostics: Diagnostics) -> None:
-    value = parameter.default
+def check_value(
+    parameter: ParameterDecl,
+    value: _Scalar | tuple[_Scalar, ...],
+    span: Span,
+    what: str,
+    diagnostics: Diagnostics,
+) -> None:
+    """Report why the parameter does not accept a value; `what` names it at the beginning of a sentence."""
     kind = parameter.type.removesuffix("[]")
     elements = value if isinstance(value, tuple) else (value,)
     fits = all(element is not None and _fits(element, kind) for element in elements)
     if isinstance(value, tuple) != parameter.is_array or not fits:
-        message = f"the default of the parameter '{parameter.name}' is not of type {parameter.type}"
+        message = f"{what} is not of type {parameter.type}"
         hint = "Write true or false" if parameter.type == "bool" else "Change it, or the type"
         hint = f"Write a list of values of type {kind}" if parameter.is_array else hint
-        diagnostics.error(message, node.span, hint, id="MG-3005")
+        diagnostics.error(message, span, hint, id="MG-3005")
         return
     if not all(map(_is_finite, elements)):
-        message = f"the default of the parameter '{parameter.name}' is not a finite number"
-        diagnostics.error(message, node.span, "Set it in the program", id="MG-3063")
+        message = f"{what} is not a finite number"
+        diagnostics.error(message, span, "Set it in the program", id="MG-3063")
         return
-    diagnostics.extend(_refusals(parameter, node.span))
+    diagnostics.extend(_refusals(parameter, value, span, what))
 
 
-def _refusals(parameter: ParameterDecl, span: Span) -> Iterator[Diagnostic]:
-    """Yield why the device would refuse the default."""
-    value, low, high = parameter.default, parameter.minimum, parameter.maximum
-    what = f"the default of the parameter '{parameter.name}'"
+def _refusals(
+    parameter: ParameterDecl, value: _Scalar | tuple[_Scalar, ...], span: Span, what: str
+) -> Iterator[Diagnostic]:
+    """Yield why the device would refuse the value."""
+    low, high = parameter.minimum, parameter.maximum
     if isinstance(value, (int, float)) and low is not None and high is not None:
         if not low <= value <= high:
             hint = f"It goes from {low} to {high}"

@@ -41,6 +41,8 @@ def declared_components(application: Application) -> Iterator[Demand]:
                 yield Demand("lifecycle", "a managed timer", timer.span)
         for parameter in node.parameters:
             yield Demand("parameters", "a parameter", parameter.span)
+        for mode in node.modes[:1]:
+            yield Demand("node_modes", "modes of a node", mode.span)
         for client in node.parameter_clients:
             yield Demand("parameter_client", "a client of parameters", client.span)
             if "watch" in client.operations:

@@ -74,8 +74,7 @@ def tables(parameters: tuple[ParameterDecl, ...], symbol: str) -> Iterator[str]:
             member = "integer" if parameter.type == "integer" else "floating_point"
             yield f"static const rclc_parameter_range_t {symbol}_range_{index} = {{.{member} = {{{numbers}}}}};"
         yield from _rule_tables(parameter, symbol, index)
-        if _has_table(parameter):
-            yield f"static const {_start(parameter, f'{symbol}_start_{index}')};"
+        yield from start_table(parameter, f"{symbol}_start_{index}")
 
 
 def entries(parameters: tuple[ParameterDecl, ...], symbol: str) -> Iterator[str]:
@@ -84,7 +83,7 @@ def entries(parameters: tuple[ParameterDecl, ...], symbol: str) -> Iterator[str]
         about = ", ".join(_about(parameter, symbol, index))
         parts = [f".about = {{{about}}}", f".type = RCLC_PARAMETER_{KINDS[parameter.type].upper()}"]
         if parameter.default not in (None, ()):
-            parts += [".has_value = true", _value(parameter, f"{symbol}_start_{index}")]
+            parts += [".has_value = true", start_value_of(parameter, f"{symbol}_start_{index}")]
         parts += [".read_only = true"] if parameter.read_only else []
         yield f"{{{', '.join(parts)}}}"
 
@@ -131,6 +130,12 @@ def _has_range(parameter: ParameterDecl) -> bool:
     return parameter.minimum is not None and parameter.maximum is not None
 
 
+def start_table(parameter: ParameterDecl, name: str) -> Iterator[str]:
+    """Yield the constant `name` with the default of a parameter, if it is a text or an array with elements."""
+    if _has_table(parameter):
+        yield f"static const {_start(parameter, name)};"
+
+
 def _has_table(parameter: ParameterDecl) -> bool:
     """Return whether the value at the start is no scalar."""
     return parameter.default not in (None, ()) and (parameter.is_array or parameter.type == "string")
@@ -163,7 +168,8 @@ def _start(parameter: ParameterDecl, name: str) -> str:
     return f"{C_TYPES[kind]}{name}[] = {{{', '.join(_literal(element, kind) for element in value)}}}"
 
 
-def _value(parameter: ParameterDecl, start: str) -> str:
+def start_value_of(parameter: ParameterDecl, start: str) -> str:
+    """Return the members of a value with its default, which must be there; `start` names the constant."""
     value = parameter.default
     if _has_table(parameter):
         count = f", .start_count = {len(value)}u" if isinstance(value, tuple) else ""

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from microros_gen.application.model import Application, LimitRule, ParameterDecl
 from microros_gen.application.parameter_rules import words_of
@@ -124,7 +124,8 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> ParametersPlan:
     application = context.application
     refuse_own_limits(context, "parameters", diagnostics)
     _refuse_small_pools(application, 1 if context.selection.has("parameters_held") else 6, diagnostics)
-    diagnostics.extend(_longer_than_limits(application))
+    declared = [parameter for node in application.nodes for parameter in node.parameters]
+    diagnostics.extend(longer_than_limits(application, declared, "the default"))
     held = context.selection.has("parameters_held")
     requests = [TypeName(_PACKAGE, "srv", f"{name}_Request") for name in (*_NAMES, *_SETS, "ListParameters")]
     requests = [TypeName(_HELD, "srv", "Exchange_Request")] if held else requests
@@ -147,9 +148,11 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> ParametersPlan:
     )
 
 
-def _longer_than_limits(application: Application) -> Iterator[Diagnostic]:
-    """Yield the defaults that the application's own limits of a value do not hold."""
-    for parameter in (p for node in application.nodes for p in node.parameters):
+def longer_than_limits(
+    application: Application, parameters: Iterable[ParameterDecl], what: str
+) -> Iterator[Diagnostic]:
+    """Yield the defaults that the application's own limits of a value do not hold; `what` they are called."""
+    for parameter in parameters:
         default = parameter.default
         texts = default if isinstance(default, tuple) else (default,)
         longest = max((len(text.encode()) for text in texts if isinstance(text, str)), default=0)
@@ -157,18 +160,20 @@ def _longer_than_limits(application: Application) -> Iterator[Diagnostic]:
         if parameter.type == "string[]":
             member, most = _STRINGS[1], _array_string(application)
         if longest > most and parameter.type in ("string", "string[]"):
-            yield _too_long(parameter, f"a text of {longest} bytes", member, most, f"{{string: {longest}}}")
+            yield _too_long(
+                parameter, what, f"a text of {longest} bytes", member, most, f"{{string: {longest}}}"
+            )
         elements = _elements(application, parameter.type) if parameter.is_array else 0
         if isinstance(default, tuple) and len(default) > elements:
             member = _ARRAYS[parameter.type][0] if parameter.type in _ARRAYS else member
             count = len(default)
-            yield _too_long(parameter, f"{count} elements", member, elements, f"{{sequence: {count}}}")
+            yield _too_long(parameter, what, f"{count} elements", member, elements, f"{{sequence: {count}}}")
 
 
-def _too_long(parameter: ParameterDecl, has: str, member: str, most: int, limit: str) -> Diagnostic:
-    message = (
-        f"the default of the parameter '{parameter.name}' has {has}, and the limit of {member} is {most}"
-    )
+def _too_long(
+    parameter: ParameterDecl, what: str, has: str, member: str, most: int, limit: str
+) -> Diagnostic:
+    message = f"{what} of the parameter '{parameter.name}' has {has}, and the limit of {member} is {most}"
     hint = f"Raise it: `limits: {{{_PACKAGE}/msg/ParameterValue: {{{member}: {limit}}}}}`"
     return Diagnostic(message, parameter.span, hint, id="MG-3098")
 
