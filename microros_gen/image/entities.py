@@ -167,12 +167,30 @@ def _own_use(manifest: Mapping[str, Any], owner: str, symbol: str, kind: str, pa
     for component, feature in manifest.get("features", {}).items():
         text = path.removeprefix(".") if is_client else f"{symbol}{path}" if owner == component else ""
         for variable, use in feature.get("size", {}).items():
-            name = re.escape(variable.removesuffix("[]"))
-            index = r"\[(\d+)\]" if variable.endswith("[]") else ""
-            match = re.match(rf"{name}{index}(?!\w)", text)
+            match = re.match(_pattern(variable), text)
             if match:
-                return str(use).replace("{}", match[1]) if index else str(use)
+                return str(use).replace("{}", match[1]) if match.groups() else str(use)
     return ""
+
+
+def _pattern(variable: str) -> str:
+    """Return the expression for a name: `x[]` is each element, `x*` each name that begins so, up to `__`."""
+    name = re.escape(variable.removesuffix("[]").removesuffix("*"))
+    if variable.endswith("*"):
+        return rf"{name}(\w+?)(?:__\w*)?(?!\w)"
+    return rf"{name}\[(\d+)\](?!\w)" if variable.endswith("[]") else rf"{name}(?!\w)"
+
+
+def constant_uses(folder: Folder, chunks: Iterable[Chunk]) -> dict[tuple[str, str], int]:
+    """Return the bytes of constants in flash by component and by what it says that they are for."""
+    found: dict[tuple[str, str], int] = {}
+    for chunk in chunks:
+        if chunk.owner.group == "component" and chunk.flash and not chunk.ram and chunk.symbol:
+            owner, symbol = chunk.owner.name, chunk.symbol.split(".")[0]
+            use = "" if chunk.function else _own_use(folder.manifest, owner, symbol, "", "")
+            if use:
+                found[owner, use] = found.get((owner, use), 0) + chunk.flash
+    return found
 
 
 def _endpoint(manifest: Mapping[str, Any], index: int, first: str = "publisher") -> str:

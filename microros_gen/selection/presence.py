@@ -52,9 +52,10 @@ class ReportRow(Conditional):
 
 @dataclass(frozen=True, kw_only=True)
 class MemoryUse(Conditional):
-    """What `size` says that a variable, or a member of the client, is for.
+    """What `size` says that a variable, a constant, or a member of the client, is for.
 
-    `variable` may end with `[]`: then `use` can have `{}`, which becomes the number of the element.
+    `variable` may end with `[]` or `*`: then `use` can have `{}`, which becomes the number of the element, or the rest
+    of the name up to `__`.
     """
 
     variable: str

@@ -54,6 +54,7 @@ SHARED = (
 )
 """Files outside its folder that name `parameters`: the keys of the application file, and the list of D1.4."""
 _OTHER_FILES = {
+    "application/modes.py",
     "application/parameter_clients.py",
     "components/parameter_client/plan.py",
     "documents/schema_words.py",
@@ -64,7 +65,7 @@ _OTHER_FILES = {
     "parameter_server/file.py",
     "parameter_server/served.py",
 }
-"""Have a key `parameters` of clients or a proposal, parameters of C functions, or those in messages and in a file."""
+"""Values in modes; files with a key `parameters` of clients or a proposal, parameters of C functions, or those in messages and in a file."""
 MENTIONS = {
     "cdr": 1,
     "cdr_decode": 1,
@@ -79,6 +80,7 @@ MENTIONS = {
     "micro_ros_utilities": 1,
     "multithread": 3,
     "node": 1,
+    "node_modes": 1,
     "parameter_client": 1,
     "parameters": 1,
     "parameters_held": 1,

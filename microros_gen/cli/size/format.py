@@ -11,7 +11,7 @@ from typing import Any
 from microros_gen.cli.tables import format_table
 from microros_gen.image.attribution import GROUPS, Chunk
 from microros_gen.image.budget import BudgetLine
-from microros_gen.image.entities import Entity
+from microros_gen.image.entities import Entity, constant_uses
 from microros_gen.image.report import SizeReport
 from microros_gen.image.stack import Bound, StackReport, shown_name
 
@@ -70,6 +70,7 @@ def size_table(report: SizeReport, every: bool) -> str:
         _headline(report),
         format_table(("GROUP", "NAME", "FLASH", "RAM"), _owner_rows(report)),
         format_table(("RAM OF", "USE", "BYTES"), [(g, u, str(s)) for g, u, s in ram_uses(report)]),
+        _constant_table(report),
         _entity_table(report.entities),
         _stack_table(report.stack),
         _budget_table(report.budgets),
@@ -107,6 +108,7 @@ def size_data(report: SizeReport) -> dict[str, Any]:
             {"symbol": shown_name(p.symbol), "path": p.path, "bytes": p.size, "group": p.group, "use": p.use}
             for p in report.ram
         ],
+        "constants": [{"owner": owner, "use": use, "bytes": size} for owner, use, size in constants(report)],
         "entities": [_entity_data(e) for e in report.entities],
         "stack": _stack_data(report.stack),
         "budgets": [budget_data(line) for line in report.budgets],
@@ -143,6 +145,18 @@ def _owner_rows(report: SizeReport) -> list[tuple[str, str, str, str]]:
     rows = [(g, n, str(f), str(r)) for g, n, f, r in owner_sizes(report.chunks)]
     flash, ram = sum(p.flash for p in report.chunks), sum(p.ram for p in report.chunks)
     return [*rows, ("total", "", str(flash), str(ram))]
+
+
+def constants(report: SizeReport) -> list[tuple[str, str, int]]:
+    """Return what components say that their constants are for: component, use, bytes of flash."""
+    return sorted(
+        (owner, use, size) for (owner, use), size in constant_uses(report.folder, report.chunks).items()
+    )
+
+
+def _constant_table(report: SizeReport) -> str:
+    rows = [(owner, use, str(size)) for owner, use, size in constants(report)]
+    return format_table(("FLASH OF", "USE", "BYTES"), rows) if rows else ""
 
 
 def _entity_table(entities: Iterable[Entity]) -> str:

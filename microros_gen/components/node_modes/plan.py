@@ -44,12 +44,12 @@ class ModePlan:
 
 @dataclass(frozen=True)
 class NodePlan:
-    """A node with modes as C: `index` of the node, `symbol` begins the names, `parameters` are what modes set."""
+    """A node with modes as C: `index` of the node, `symbol` begins the names, `entries` are the parameters that modes set."""
 
     index: int
     name: str
     symbol: str
-    parameters: tuple[str, ...]
+    entries: tuple[str, ...]
     modes: tuple[ModePlan, ...]
 
 
@@ -91,7 +91,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> NodeModesPlan:
 
 def _written(node: NodeDecl) -> Iterator[ParameterDecl]:
     """Yield each parameter with each value that a mode writes, at the place of the value."""
-    declared = {parameter.name: parameter for parameter in node.parameters}
+    declared = {parameter.name: parameter for parameter in set_parameters(node)}
     for mode in node.modes:
         for value in mode.values:
             if value.value is not None and value.parameter in declared:
@@ -100,7 +100,7 @@ def _written(node: NodeDecl) -> Iterator[ParameterDecl]:
 
 def _check_texts(node: NodeDecl, diagnostics: Diagnostics) -> None:
     """Report texts that are longer than the storage of a parameter without `size`."""
-    declared = {parameter.name: parameter for parameter in node.parameters}
+    declared = {parameter.name: parameter for parameter in set_parameters(node)}
     for having in _written(node):
         size = len(having.default.encode()) if isinstance(having.default, str) else 0
         most = string_limit(declared[having.name])
@@ -125,11 +125,11 @@ def _nodes(application: Application) -> Iterator[NodePlan]:
 
 def _modes(node: NodeDecl, symbol: str, parameters: tuple[ParameterDecl, ...]) -> Iterator[ModePlan]:
     constants, symbols = Identifiers(), Identifiers()
-    default = symbols.take(f"modes_{symbol}_DEFAULT")
+    default = symbols.take(f"mode_of_{symbol}_DEFAULT")
     for mode in node.modes:
         is_default = mode.name == DEFAULT_MODE
         constant = constants.take(f"{symbol}_mode_{'DEFAULT' if is_default else mode.name}")
-        own = default if is_default else symbols.take(f"modes_{symbol}_{mode.name}")
+        own = default if is_default else symbols.take(f"mode_of_{symbol}_{mode.name}")
         yield _mode(node, mode, parameters, _Names(constant, own, default))
 
 
@@ -144,7 +144,7 @@ def _mode(node: NodeDecl, mode: ModeDecl, parameters: tuple[ParameterDecl, ...],
     """Return a mode; a text or array that it inherits is the constant of `__DEFAULT__`."""
     tables: list[str] = []
     values: list[str] = []
-    given: list[bool] = []
+    is_set: list[bool] = []
     for index, parameter in enumerate(parameters):
         value = value_in(node, mode, parameter)
         is_given = value is None or not value.parent
@@ -155,11 +155,11 @@ def _mode(node: NodeDecl, mode: ModeDecl, parameters: tuple[ParameterDecl, ...],
         if is_given and is_own:
             tables += start_table(having, name)
         values.append(f"{{{_members(having, name) if is_given else _NOTHING}}}")
-        given.append(is_given)
-    if not all(given):
-        elements = ", ".join("true" if g else "false" for g in given)
+        is_set.append(is_given)
+    if not all(is_set):
+        elements = ", ".join("true" if item else "false" for item in is_set)
         tables.append(f"static const bool {names.symbol}__given[] = {{{elements}}};")
-    entry = f"{string(mode.name)}, {names.symbol}, {'NULL' if all(given) else f'{names.symbol}__given'}"
+    entry = f"{string(mode.name)}, {names.symbol}, {'NULL' if all(is_set) else f'{names.symbol}__given'}"
     return ModePlan(mode.name, names.constant, names.symbol, tuple(tables), tuple(values), entry)
 
 
@@ -169,7 +169,7 @@ def _members(parameter: ParameterDecl, start: str) -> str:
 
 def record(part: NodeModesPlan) -> object:
     """Return what the plan id is made of: how many modes each node has."""
-    return [[node.index, len(node.modes), len(node.parameters)] for node in part.nodes]
+    return [[node.index, len(node.modes), len(node.entries)] for node in part.nodes]
 
 
 def endpoints(node: NodeDecl) -> Iterator[EndpointDecl]:

@@ -653,6 +653,14 @@ _NODES = {
         "3:46",
         "'nodes[0].timers[0].managed' must be ",
     ),
+    "nodes[].modes": KeyCase(
+        _in_node("modes: {SLOW: {gain: 0.5, gains: {p: $(parent p)}}}"),
+        lambda a: [(m.name, [(v.parameter, v.value, v.parent) for v in m.values]) for m in _node(a).modes],
+        [("__DEFAULT__", []), ("SLOW", [("gain", 0.5, ""), ("gains.p", None, "p")])],
+        _in_node("modes: {SLOW: 0.5}"),
+        "3:19",
+        "'nodes[0].modes.SLOW' must be a mapping such as {speed: 0.2}; it is 0.5",
+    ),
     "nodes[].timers[].period": KeyCase(
         _in_node("timers: [{name: t, period: 50us}]"),
         lambda a: _node(a).timers[0].period_us,
@@ -919,11 +927,6 @@ RESERVED = {
         "nodes: [{name: n, action_clients: []}]",
         "1:19",
         "the key 'action_clients' is reserved for actions",
-    ),
-    "nodes[].modes": (
-        "nodes: [{name: n, modes: {}}]",
-        "1:19",
-        "the key 'modes' is reserved for system modes",
     ),
     "modes": (
         "modes: {}",

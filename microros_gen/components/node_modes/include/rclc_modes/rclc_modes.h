@@ -84,7 +84,7 @@ rcl_ret_t rclc_executor_add_modes(
 /* Returns the position of the mode that the node is in when it is active; RCLC_MODES_NONE: not initialized. */
 uint8_t rclc_modes_get(const rclc_modes_t * modes);
 
-/* Returns the name of a mode, a constant; NULL: there is none at that position. */
+/* Returns the name of a mode, a constant; NULL: the node has no mode at that position. */
 const char * rclc_modes_name(const rclc_modes_t * modes, uint8_t mode);
 
 /* Returns the position of a mode; RCLC_MODES_NONE: it has none of that name. */
