@@ -3,19 +3,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 
 from microros_gen.diagnostics import Diagnostics, Source, reads
 from microros_gen.documents.files import read_text, reason_of
 from microros_gen.documents.tree_read import check_keys, expect_mapping
 from microros_gen.documents.yaml_tree import parse_yaml
 from microros_gen.modes.hierarchy import check_start_order, find_parents
+from microros_gen.modes.leaflets import check_twins
 from microros_gen.modes.model import DEFAULT, Mode, Model, Part
 from microros_gen.modes.outline import PARAMETERS, Outline, parse_outlines
 from microros_gen.modes.part_names import parse_parts
+from microros_gen.modes.statuses import Subject
 from microros_gen.modes.systems import parse_system
 from microros_gen.modes.templates import check_templates
 from microros_gen.modes.values import inherit, parse_values
+
+NO_LEAFLETS: Mapping[str, Part] = MappingProxyType({})
 
 
 def read_model(path: Path) -> Model:
@@ -40,8 +46,12 @@ def read_source(path: Path, diagnostics: Diagnostics) -> Source | None:
 
 
 @reads
-def parse_model(source: Source, diagnostics: Diagnostics) -> Model | None:
+def parse_model(
+    source: Source, diagnostics: Diagnostics, leaflets: Mapping[str, Part] = NO_LEAFLETS
+) -> Model | None:
     """Return the model that `source` describes; None where `diagnostics` got errors from it.
+
+    `leaflets` are nodes that have their modes in application files: they are parts as if the file had them.
 
     Every mistake is reported in one run, in the order of the lines.
     """
@@ -51,16 +61,19 @@ def parse_model(source: Source, diagnostics: Diagnostics) -> Model | None:
         found.error(f"'{source.name}' has no parts", hint="Write at least one node", id="MG-8802")
     mapping = expect_mapping(tree, "a model file", found)
     outlines, unreadable = parse_outlines(mapping, found) if mapping is not None else ({}, frozenset())
-    lists = {o.name: parse_parts(o, outlines, unreadable, found) for o in outlines.values() if o.is_system}
+    subjects = {name: Subject(name, False, tuple(part.modes)) for name, part in leaflets.items()}
+    subjects |= {name: outline.subject for name, outline in outlines.items()}
+    lists = {o.name: parse_parts(o, subjects, unreadable, found) for o in outlines.values() if o.is_system}
     parents = find_parents({name: listed.parts for name, listed in lists.items()}, found)
     has_structure = not found.has_errors()
     parts = {
-        name: parse_system(outline, lists[name], outlines, found)
+        name: parse_system(outline, lists[name], subjects, found)
         if outline.is_system
         else Part(name, False, outline.span, _node_modes(outline, found))
         for name, outline in outlines.items()
     }
-    model = Model(source, parts, parents)
+    check_twins(parts, leaflets, found)
+    model = Model(source, {**leaflets, **parts}, parents)
     for system in parts.values():
         check_start_order(system, found)
     if has_structure:

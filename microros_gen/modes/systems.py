@@ -13,7 +13,7 @@ from microros_gen.documents.yaml_tree import Entry, MappingNode, SequenceNode, Y
 from microros_gen.modes.model import DEFAULT, Command, Mode, Part, Rule, Value
 from microros_gen.modes.outline import PARAMETERS, Outline, plain_name
 from microros_gen.modes.part_names import PartList, parse_names
-from microros_gen.modes.statuses import parse_status, parse_target
+from microros_gen.modes.statuses import Subject, parse_status, parse_target
 from microros_gen.modes.values import inherit, parse_values
 from microros_gen.records import dataclass
 
@@ -24,15 +24,15 @@ _RULE_KEYS = ("if_target", "if_part", "new_target")
 class _Parts:
     """The parts of a system by name; `is_complete` false: names that are not among them were reported before."""
 
-    outlines: Mapping[str, Outline]
+    subjects: Mapping[str, Subject]
     is_complete: bool
 
 
 def parse_system(
-    outline: Outline, listed: PartList, outlines: Mapping[str, Outline], diagnostics: Diagnostics
+    outline: Outline, listed: PartList, subjects: Mapping[str, Subject], diagnostics: Diagnostics
 ) -> Part:
     """Return the system with the parts of `listed`; what is wrong with it is reported and left out."""
-    own = _Parts({part.name: outlines[part.name] for part in listed.parts}, listed.is_complete)
+    own = _Parts({part.name: subjects[part.name] for part in listed.parts}, listed.is_complete)
     return Part(
         outline.name,
         True,
@@ -74,13 +74,13 @@ def _commands(
         if entry.key == PARAMETERS:
             continue
         name = plain_name(entry.key)
-        if name not in parts.outlines:
+        if name not in parts.subjects:
             if parts.is_complete:
-                hint = nearest(name, parts.outlines) or f"Add it to the parts: {', '.join(parts.outlines)}"
+                hint = nearest(name, parts.subjects) or f"Add it to the parts: {', '.join(parts.subjects)}"
                 message = f"unknown part '{name}' in the mode '{mode}'"
                 diagnostics.error(message, entry.key_span, hint, id="MG-8813")
             continue
-        target = parse_target(entry.value, parts.outlines[name].subject, diagnostics)
+        target = parse_target(entry.value, parts.subjects[name], diagnostics)
         if target is not None:
             found[name] = Command(target, entry.value.span)
     return found
@@ -88,7 +88,7 @@ def _commands(
 
 def _check_complete(outline: Outline, mode: MappingNode, parts: _Parts, diagnostics: Diagnostics) -> None:
     named = {plain_name(entry.key) for entry in mode}
-    for name in parts.outlines:
+    for name in parts.subjects:
         if name not in named:
             message = f"{DEFAULT} of '{outline.name}' gives no state of the part '{name}'"
             hint = f"Add `{name}: inactive`, or active"
@@ -116,7 +116,7 @@ def _rule(entry: Entry, outline: Outline, parts: _Parts, diagnostics: Diagnostic
     if target is None or goal is None or pair is None:
         return None
     part, status = pair
-    parsed = parse_status(status, parts.outlines[part].subject, diagnostics)
+    parsed = parse_status(status, parts.subjects[part], diagnostics)
     return Rule(entry.key, target, part, parsed, goal, entry.key_span) if parsed else None
 
 
@@ -130,9 +130,9 @@ def _part_status(
         diagnostics.error(message, node.span, "Write if_part: [part, inactive]", id="MG-8830")
         return None
     name = plain_name(text_of(found[0]) or "")
-    if name not in parts.outlines:
+    if name not in parts.subjects:
         if parts.is_complete:
-            hint = nearest(name, parts.outlines) or f"Known: {', '.join(parts.outlines)}"
+            hint = nearest(name, parts.subjects) or f"Known: {', '.join(parts.subjects)}"
             message = f"'{name}' is no part of '{outline.name}', whose rule names it"
             diagnostics.error(message, found[0].span, hint, id="MG-8831")
         return None
@@ -147,9 +147,9 @@ def _start_after(outline: Outline, parts: _Parts, diagnostics: Diagnostics) -> d
         followers = (Named(plain_name(entry.key), entry.key_span),)
         named = parse_names(entry.value, diagnostics)
         for name in (*followers, *named):
-            if name.name not in parts.outlines and parts.is_complete:
-                hint = nearest(name.name, parts.outlines) or f"Known: {', '.join(parts.outlines)}"
+            if name.name not in parts.subjects and parts.is_complete:
+                hint = nearest(name.name, parts.subjects) or f"Known: {', '.join(parts.subjects)}"
                 message = f"'start_after' of '{outline.name}' names '{name.name}', which is no part of it"
                 diagnostics.error(message, name.span, hint, id="MG-8826")
-        found[followers[0].name] = tuple(name for name in named if name.name in parts.outlines)
-    return {name: before for name, before in found.items() if name in parts.outlines}
+        found[followers[0].name] = tuple(name for name in named if name.name in parts.subjects)
+    return {name: before for name, before in found.items() if name in parts.subjects}

@@ -12,6 +12,7 @@ from microros_gen.application.parameter_find import with_parameter_files
 from microros_gen.application.parser import parse_application
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.modes.leaf_parameters import check_parameters
+from microros_gen.modes.leaflets import parts_of
 from microros_gen.modes.model import Model
 from microros_gen.modes.properties import (
     check_commands,
@@ -27,13 +28,16 @@ from microros_gen.modes.stability import MOST_COMBINATIONS, check_stability
 def check(path: Path, applications: Sequence[Path] = (), most: int = MOST_COMBINATIONS) -> Report:
     """Return what is proven of the model of a file, and everything that is wrong with it.
 
-    `applications` are application files whose nodes declare the parameters that modes set. `most` bounds the
+    `applications` are application files whose nodes declare the parameters that modes set; nodes with modes there are
+    parts of the model, which need not repeat them. `most` bounds the
     different combinations of failures that are kept of a system; if they are more, its stability is not proven.
     """
     diagnostics = Diagnostics()
     source = read_source(path, diagnostics)
-    model = parse_model(source, diagnostics) if source is not None else None
     nodes = [node for application in applications for node in read_nodes(application, diagnostics)]
+    has_nodes = not diagnostics.has_errors()
+    leaflets = parts_of(nodes) if has_nodes else {}
+    model = parse_model(source, diagnostics, leaflets) if source is not None and has_nodes else None
     if model is None or diagnostics.has_errors():
         return Report(str(path), (), tuple(diagnostics))
     return check_model(model, nodes, most)

@@ -65,7 +65,8 @@ _OTHER_FILES = {
     "parameter_server/file.py",
     "parameter_server/served.py",
 }
-"""Values in modes; files with a key `parameters` of clients or a proposal, parameters of C functions, or those in messages and in a file."""
+"""Values in modes; files with a key `parameters` of clients or a proposal; parameters of C functions, or those in
+messages and in a file."""
 MENTIONS = {
     "cdr": 1,
     "cdr_decode": 1,
@@ -171,7 +172,7 @@ def test_a_file_that_names_a_component_is_found(tmp_path: Path) -> None:
 
 
 def test_most_components_are_named_by_few() -> None:
-    assert sum(MENTIONS.values()) <= 56
+    assert sum(MENTIONS.values()) <= 57
     assert max(MENTIONS.values()) <= 6
 
 

@@ -20,7 +20,7 @@ from microros_gen.modes.verification import check
     multiple=True,
     type=click.Path(path_type=Path),
     metavar="FILE",
-    help="Application file whose nodes declare the parameters that modes set; can be repeated.",
+    help="Application file whose nodes declare the parameters that modes set, or have modes; can be repeated.",
 )
 @click.option(
     "--limit",

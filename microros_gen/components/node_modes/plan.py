@@ -44,7 +44,10 @@ class ModePlan:
 
 @dataclass(frozen=True)
 class NodePlan:
-    """A node with modes as C: `index` of the node, `symbol` begins the names, `entries` are the parameters that modes set."""
+    """A node with modes as C: `index` of the node, `symbol` begins the names.
+
+    `entries` are the parameters that modes set.
+    """
 
     index: int
     name: str
