@@ -42,7 +42,7 @@ def declared_components(application: Application) -> Iterator[Demand]:
         for parameter in node.parameters:
             yield Demand("parameters", "a parameter", parameter.span)
         for mode in node.modes[:1]:
-            yield Demand("node_modes", "modes of a node", mode.span)
+            yield Demand("node_modes", "a mode", mode.span)
         for client in node.parameter_clients:
             yield Demand("parameter_client", "a client of parameters", client.span)
             if "watch" in client.operations:
