@@ -38,6 +38,18 @@ class Step:
         return f"{self.kind} {self.part} {self.status}"
 
 
+def rule_of(system: Part, target: Status | None, statuses: Mapping[str, Status]) -> Rule | None:
+    """Return the rule that changes the target of a system next; `statuses` are those of the system and its parts."""
+    if target is None or statuses[system.name].is_same(target):
+        return None
+    holding = [
+        rule
+        for rule in system.rules
+        if rule.if_target.is_same(target) and statuses[rule.if_part].is_same(rule.if_status)
+    ]
+    return holding[-1] if holding else None
+
+
 class Manager:
     """The targets of all parts and the status of each node; all nodes are unconfigured at first."""
 
@@ -92,22 +104,11 @@ class Manager:
         """Return the steps of the rule that is applied next, else of repeated commands; empty: it is stable."""
         statuses = self.statuses()
         for system in self.model.systems:
-            rule = self._holding(system, statuses)
+            rule = rule_of(system, self.targets.get(system.name), statuses)
             if rule is not None:
                 step = Step(RULE, system.name, rule.new_target, rule.name)
                 return [step, *self._command(system, rule.new_target, by_rule=True)]
         return list(self._repeat())
-
-    def _holding(self, system: Part, statuses: Mapping[str, Status]) -> Rule | None:
-        target = self.targets.get(system.name)
-        if target is None or statuses[system.name].is_same(target):
-            return None
-        holding = [
-            rule
-            for rule in system.rules
-            if rule.if_target.is_same(target) and statuses[rule.if_part].is_same(rule.if_status)
-        ]
-        return holding[-1] if holding else None
 
     def _repeat(self) -> Iterator[Step]:
         for name, status in self.nodes.items():

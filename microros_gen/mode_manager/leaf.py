@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is known of one node, or of a system of another manager, and the next call on the way to its target."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from microros_gen.mode_manager.calls import (
+    ACTIVATE,
+    CLEANUP,
+    CONFIGURE,
+    DEACTIVATE,
+    Call,
+    Kind,
+    Link,
+    Values,
+)
+from microros_gen.modes.inference import fulfills
+from microros_gen.modes.model import (
+    ACTIVE,
+    DEFAULT,
+    ERROR,
+    FINALIZED,
+    INACTIVE,
+    UNCONFIGURED,
+    UNKNOWN,
+    Part,
+    Scalar,
+    Status,
+)
+
+RESTING = (UNCONFIGURED, INACTIVE)
+_FINAL = (ERROR, FINALIZED)
+Step = tuple[Kind, int, str, Values]
+"""The members of a call."""
+
+
+@dataclass
+class Leaf:
+    """`failure`: why it is not commanded any longer; empty: it is. Times are those of the clock of the manager."""
+
+    part: Part
+    link: Link = Link.ABSENT
+    state: str = UNKNOWN
+    mode: str = ""
+    values: dict[str, Scalar | tuple[Scalar, ...]] = field(default_factory=dict)
+    stale: set[Kind] = field(default_factory=set)
+    """What is to be asked before anything is decided."""
+    target: Status | None = None
+    must_configure: bool = False
+    """Unconfigured does not count as inactive."""
+    call: Call | None = None
+    late_at: float = 0.0
+    attempts: int = 0
+    retries: int = 0
+    """How many calls were repeated since the start, for the diagnosis."""
+    wait_until: float = 0.0
+    failure: str = ""
+    deviates: bool = False
+    """It had its target, and somebody else changed it."""
+    deviations: list[float] = field(default_factory=list)
+    reconfigures: bool = False
+    """It was active and is inactive only until it has the parameters of its mode."""
+    restores: bool = False
+    """The new parameters were refused while it was inactive: it gets active again as it was."""
+    polled: float = 0.0
+    commanded: float = -1e9
+    """When the last own command ended."""
+    expected: set[str] = field(default_factory=set)
+    """States that the own commands lead through: late events of them say nothing new."""
+    settle_until: float = 0.0
+    """A system of another manager has accepted a command and is on its way until then."""
+    passing_since: float = 0.0
+    """Since when it is between two states; 0: it is not."""
+    unanswered: int = 0
+    problem: str = ""
+    """An error that the part's diagnosis reports."""
+
+    @property
+    def name(self) -> str:
+        """Return the name of the part."""
+        return self.part.name
+
+    @property
+    def queries(self) -> set[Kind]:
+        """Return what is asked of the part to know its status."""
+        if self.link is Link.PLAIN:
+            return {Kind.GET_PARAMETERS}
+        own = Kind.GET_PARAMETERS if self.link is Link.PARAMETERS else Kind.GET_MODE
+        return {Kind.GET_STATE, own}
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Return the names of the parameters of its modes."""
+        return tuple(dict.fromkeys(name for mode in self.part.modes.values() for name in mode.parameters))
+
+    def is_settled(self, status: Status) -> bool:
+        """Return whether it has its target, or none."""
+        if self.target is None:
+            return True
+        return status.is_same(self.target) if self.must_configure else fulfills(status, self.target)
+
+    def step(self, status: Status, wanted: Values, inactive_first: bool) -> Step | str:
+        """Return the next call on the way from `status` to the target, or why there is none.
+
+        `wanted` are the parameter values of the target's mode.
+        """
+        target = self.target
+        assert target is not None
+        if self.link is Link.SYSTEM:
+            return _mode(target.mode or DEFAULT) if target.state == ACTIVE else _change(DEACTIVATE)
+        if status.state in _FINAL:
+            return f"it is {status.state}"
+        if self.link is Link.PLAIN and target.state != ACTIVE:
+            return "it has no life cycle and is always active"
+        if target.state != ACTIVE:
+            return self._stop(status, target)
+        if status.state == UNCONFIGURED:
+            return _change(CONFIGURE)
+        by_parameters = self.link in (Link.PARAMETERS, Link.PLAIN)
+        if status.state == INACTIVE:
+            if by_parameters and not self.restores and not self._has(wanted):
+                return _set(wanted)
+            return _change(ACTIVATE)
+        if not by_parameters:
+            return _mode(target.mode)
+        if self.restores:
+            return "it refuses the parameters of the mode, and is active as before"
+        if inactive_first and self.link is Link.PARAMETERS:
+            return _change(DEACTIVATE)
+        return _set(wanted)
+
+    def _stop(self, status: Status, target: Status) -> Step:
+        if status.state == ACTIVE:
+            return _change(DEACTIVATE)
+        return _change(CONFIGURE if target.state == INACTIVE else CLEANUP)
+
+    def _has(self, wanted: Values) -> bool:
+        return has_values(self.values, wanted)
+
+
+def has_values(values: Mapping[str, Scalar | tuple[Scalar, ...]], wanted: Values) -> bool:
+    """Return whether all wanted values are there, with their types."""
+    return all(
+        name in values and type(values[name]) is type(value) and values[name] == value
+        for name, value in wanted.items()
+    )
+
+
+def _change(transition: int) -> Step:
+    return Kind.CHANGE_STATE, transition, "", {}
+
+
+def _mode(mode: str) -> Step:
+    return Kind.CHANGE_MODE, 0, mode, {}
+
+
+def _set(values: Values) -> Step:
+    return Kind.SET_PARAMETERS, 0, "", values

@@ -1,0 +1,415 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Brings the parts of a scope to their targets, in start order, and applies rules. No ROS, and the clock is given.
+
+Each part has at most one call at a time. What a part does next follows from what is known of it and from its target
+alone, so that lost responses, restarts and changes by others need no cases of their own. A part that cannot get its
+target fails after some attempts; then, when no part of its system is on its way, the system's rules decide.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from microros_gen.mode_manager.calls import (
+    DEACTIVATE,
+    Announcement,
+    Call,
+    Kind,
+    Link,
+    Settings,
+    Topic,
+)
+from microros_gen.mode_manager.hearing import (
+    SILENT,
+    expect,
+    hear_link,
+    hear_mode,
+    hear_parameters,
+    hear_refusal,
+    hear_silence,
+    hear_state,
+    hear_success,
+)
+from microros_gen.mode_manager.leaf import Leaf
+from microros_gen.mode_manager.progress import Progress
+from microros_gen.mode_manager.scope import Scope
+from microros_gen.mode_manager.targets import find_mode, spread
+from microros_gen.modes.inference import Inference, fulfills
+from microros_gen.modes.manager import rule_of
+from microros_gen.modes.model import (
+    ACTIVE,
+    DEFAULT,
+    ERROR,
+    FINALIZED,
+    INACTIVE,
+    UNCONFIGURED,
+    UNKNOWN,
+    Model,
+    Part,
+    Scalar,
+    Status,
+)
+from microros_gen.modes.templates import resolve
+
+
+_STAYING = (UNCONFIGURED, INACTIVE, ACTIVE, FINALIZED, ERROR)
+
+
+class Orchestrator:
+    """Not thread-safe. Call `turn` after each event and when time has passed; it returns the calls to be sent."""
+
+    def __init__(
+        self,
+        model: Model,
+        scope: Scope,
+        clock: Callable[[], float],
+        settings: Settings | None = None,
+        log: Callable[[str], object] = lambda _: None,
+    ) -> None:
+        """`clock` gives seconds and never goes back; `log` gets a line about each failure, rule and deviation."""
+        self.model = model
+        self.scope = scope
+        self.settings = settings or Settings()
+        self.targets: dict[str, Status] = {}
+        self.leaves = {part.name: Leaf(part) for part in scope.leaves}
+        self.rules: dict[str, str] = {}
+        """The rule that was applied last to a system since its last request."""
+        self.oscillating: set[str] = set()
+        self._applied: dict[str, int] = {}
+        self._clock = clock
+        self._log = log
+        self._inference = Inference(model)
+        self._number = 0
+        self._started = clock()
+        self._adopted = False
+        self._announced: list[Announcement] = []
+        self.progress = Progress(model, scope, self.leaves, self.targets, self.status)
+        self._shown: Mapping[str, Status] = self.statuses()
+
+    # What happens
+
+    def request(self, name: str, target: Status, must_configure: bool = False) -> None:
+        """Command a part to be `target`. `must_configure`: unconfigured nodes do not count as inactive."""
+        self._forget_rules()
+        self._set_target(self.model.parts[name], target, must_configure)
+
+    def clean_up(self, name: str) -> None:
+        """Command all nodes of a system to be unconfigured; the system is inactive then."""
+        self.request(name, Status(INACTIVE))
+        for leaf in self.leaves.values():
+            if (
+                leaf.target is not None
+                and name in self.progress.systems_of(leaf.name)
+                and leaf.link is not Link.SYSTEM
+            ):
+                leaf.target = self.targets[leaf.name] = Status(UNCONFIGURED)
+
+    def link(self, name: str, link: Link) -> None:
+        """Note how a leaf is reached from now on."""
+        leaf = self.leaves[name]
+        if link is leaf.link:
+            return
+        if link is Link.ABSENT:
+            self._log(f"{name}: it has left")
+        hear_link(leaf, link)
+        leaf.failure = "it is not there" if link is Link.ABSENT else ""
+        if leaf.target is not None and link is not Link.ABSENT:
+            self._deviate(leaf)
+
+    def hear_state(self, name: str, state: str) -> None:
+        """Note the goal of a transition event."""
+        self._hear(name, lambda leaf, now: hear_state(leaf, state, now, self.settings, True))
+
+    def hear_mode(self, name: str, mode: str) -> None:
+        """Note the goal of a mode event of a part with mode services."""
+        self._hear(name, lambda leaf, now: hear_mode(leaf, mode, now, self.settings, True))
+
+    def hear_parameters(self, name: str, values: Mapping[str, Scalar | tuple[Scalar, ...] | None]) -> None:
+        """Note a parameter event; None: the parameter was deleted."""
+        self._hear(name, lambda leaf, now: hear_parameters(leaf, values, now, self.settings, True))
+
+    def hear_problem(self, name: str, text: str) -> None:
+        """Note an error that is known of a part from elsewhere; empty: it is over.
+
+        For inference and rules the part is in error processing meanwhile. Commands go on.
+        """
+        leaf = self.leaves[name]
+        if text and not leaf.problem:
+            self._log(f"{name}: {text}")
+        leaf.problem = text
+
+    def answer(self, call: Call, success: bool, reason: str = "", **facts: object) -> None:
+        """Note a response. `facts` of a query: state, mode, or values."""
+        leaf = self.leaves[call.part]
+        if leaf.call is None or leaf.call.number != call.number:
+            return
+        leaf.call, leaf.unanswered, now = None, 0, self._clock()
+        if call.kind in (Kind.GET_STATE, Kind.GET_MODE, Kind.GET_PARAMETERS):
+            self._hear(call.part, lambda known, at: self._query(known, call, at, success, facts))
+            return
+        leaf.commanded = now
+        if success:
+            hear_success(leaf, call, now, self.settings)
+            if leaf.is_settled(self.status(leaf)):
+                leaf.attempts = 0
+        else:
+            hear_refusal(leaf, call, reason, now, self.settings)
+            self._log(f"{call.part}: {leaf.failure or f'refused {call} {reason}'.rstrip()}")
+
+    # What follows
+
+    def turn(self) -> list[Call]:
+        """Return the calls that are due now."""
+        now = self._clock()
+        for leaf in self.leaves.values():
+            self._expire(leaf, now)
+        self._adopt(now)
+        self._settle()
+        calls = [call for leaf in self.leaves.values() if (call := self._next(leaf, now)) is not None]
+        self._compare()
+        return calls
+
+    def announcements(self) -> list[Announcement]:
+        """Return what is to be published since the last call."""
+        announced, self._announced = self._announced, []
+        return announced
+
+    def statuses(self) -> dict[str, Status]:
+        """Return the status of each part of the scope; a part with a known problem is in error processing."""
+        found = {n: Status(ERROR) if leaf.problem else self.status(leaf) for n, leaf in self.leaves.items()}
+        for system in self.scope.systems:
+            target = self.targets.get(system.name)
+            found[system.name] = self._inference.infer_system(system, target, found)
+        return found
+
+    def status(self, leaf: Leaf) -> Status:
+        """Return the status of a leaf as it was last known."""
+        if leaf.state != ACTIVE:
+            return Status(leaf.state)
+        if leaf.link in (Link.MODES, Link.SYSTEM):
+            return Status(ACTIVE, leaf.mode)
+        if Kind.GET_PARAMETERS in leaf.stale and not leaf.values:
+            return Status(UNKNOWN) if leaf.parameters else Status(ACTIVE, DEFAULT)
+        return self._inference.infer_node(leaf.part, leaf.values, self.targets)
+
+    # Inside
+
+    def _hear(self, name: str, take: Callable[[Leaf, float], object]) -> None:
+        """Take something that is known of a leaf; find out whether somebody else changed it."""
+        leaf = self.leaves[name]
+        if leaf.link is Link.ABSENT:
+            return
+        before, was_settled = self.status(leaf), leaf.is_settled(self.status(leaf))
+        take(leaf, self._clock())
+        after = self.status(leaf)
+        if leaf.target is None or after == before or leaf.is_settled(after):
+            if leaf.is_settled(after) and leaf.failure != SILENT:
+                leaf.failure, leaf.deviates, leaf.settle_until = "", False, 0.0
+            return
+        if was_settled and leaf.link is Link.SYSTEM:
+            leaf.failure = f"it left {leaf.target} for {after} by itself"
+            self._log(f"{name}: {leaf.failure}")
+        elif was_settled and before.state != UNKNOWN or self._is_foreign(leaf):
+            self._log(f"{name}: others changed it from {before} to {after}")
+            self._deviate(leaf)
+
+    def _is_foreign(self, leaf: Leaf) -> bool:
+        """Return whether a failed leaf changed although nothing was commanded."""
+        return bool(leaf.failure) and self._clock() - leaf.commanded >= self.settings.grace_s
+
+    def _deviate(self, leaf: Leaf) -> None:
+        """Command a leaf to its target again if no rule decides otherwise; not again and again."""
+        now = self._clock()
+        since = now - self.settings.window_s
+        leaf.deviations = [*(t for t in leaf.deviations if t > since), now]
+        leaf.attempts, leaf.failure = 0, ""
+        if len(leaf.deviations) > self.settings.attempts:
+            leaf.failure = "others change it again and again"
+            self._log(f"{leaf.name}: {leaf.failure}")
+            return
+        self._applied.clear()
+        leaf.deviates = not leaf.is_settled(self.status(leaf))
+
+    def _query(self, leaf: Leaf, call: Call, now: float, success: bool, facts: Mapping[str, object]) -> None:
+        leaf.stale.discard(call.kind)
+        if leaf.failure == SILENT:
+            leaf.failure, leaf.attempts = "", 0
+        if not success:
+            return
+        if call.kind is Kind.GET_STATE:
+            hear_state(leaf, str(facts["state"]), now, self.settings, False)
+        elif call.kind is Kind.GET_MODE:
+            hear_mode(leaf, str(facts["mode"]), now, self.settings, False)
+        else:
+            values = facts["values"]
+            assert isinstance(values, Mapping)
+            hear_parameters(leaf, values, now, self.settings, False)
+
+    def _expire(self, leaf: Leaf, now: float) -> None:
+        call = leaf.call
+        if call is not None and now >= leaf.late_at:
+            leaf.call = None
+            before = leaf.failure
+            hear_silence(leaf, call, now, self.settings)
+            if leaf.failure and leaf.failure != before:
+                self._log(f"{leaf.name}: {leaf.failure}")
+        if leaf.settle_until and now >= leaf.settle_until:
+            leaf.settle_until = 0.0
+            leaf.failure = "it does not get its target in time"
+            self._log(f"{leaf.name}: {leaf.failure}")
+
+    def _adopt(self, now: float) -> None:
+        """Take over the modes that systems are in when the manager starts."""
+        if self._adopted:
+            return
+        is_known = all(leaf.state != UNKNOWN and not leaf.stale for leaf in self.leaves.values())
+        if not is_known and now - self._started < self.settings.start_s:
+            return
+        self._adopted = True
+        for system in reversed(self.scope.systems):
+            if system.name not in self.targets:
+                found = find_mode(self.model, self.scope, system, self._fits)
+                for name, target in (found or {}).items():
+                    self.targets.setdefault(name, target)
+                    if name in self.leaves and self.leaves[name].target is None:
+                        self.leaves[name].target = target
+                if found:
+                    self._log(f"{system.name}: is {found[system.name]} and stays so")
+
+    def _fits(self, targets: Mapping[str, Status]) -> bool:
+        """Return whether all leaves are what these targets command, and one of them is active."""
+        statuses = []
+        for name, target in targets.items():
+            leaf = self.leaves.get(name)
+            if leaf is None:
+                continue
+            status = self.status(leaf)
+            if status.state == ACTIVE and leaf.link in (Link.PARAMETERS, Link.PLAIN):
+                status = self._inference.infer_node(leaf.part, leaf.values, targets)
+            if not fulfills(status, target):
+                return False
+            statuses.append(status)
+        return any(status.state == ACTIVE for status in statuses)
+
+    def _settle(self) -> None:
+        """Apply rules bottom up; where none holds, command again what others changed."""
+        for system in self.scope.systems:
+            if self.progress.is_moving(system.name) or system.name in self.oscillating:
+                continue
+            rule = rule_of(system, self.targets.get(system.name), self.statuses())
+            if rule is None:
+                continue
+            self._applied[system.name] = self._applied.get(system.name, 0) + 1
+            if self._applied[system.name] > 2 * len(self.model.targets(system)):
+                self.oscillating.add(system.name)
+                self._log(f"{system.name}: its rules oscillate, and are not applied until the next request")
+                continue
+            self._log(f"{system.name}: rule {rule.name}: {rule.new_target}")
+            self.rules[system.name] = rule.name
+            self._set_target(system, rule.new_target)
+        for leaf in self.leaves.values():
+            is_known = leaf.call is None and not leaf.stale
+            if (
+                leaf.deviates
+                and is_known
+                and not any(self.progress.is_moving(name) for name in self.progress.systems_of(leaf.name))
+            ):
+                leaf.deviates = False
+                leaf.retries += 1
+
+    def _next(self, leaf: Leaf, now: float) -> Call | None:
+        if leaf.link is Link.ABSENT or leaf.call is not None or now < leaf.wait_until:
+            return None
+        status = self.status(leaf)
+        is_done = bool(leaf.failure) or leaf.is_settled(status)
+        if (is_done or leaf.settle_until) and now - leaf.polled >= self.settings.poll_s:
+            leaf.polled = now
+            leaf.stale |= leaf.queries
+        for kind in Kind:
+            if kind in leaf.stale:
+                return self._call(leaf, now, kind)
+        if is_done or leaf.deviates or leaf.settle_until or self.progress.blocker(leaf.name):
+            return None
+        if self._is_passing(leaf, status, now):
+            return None
+        assert leaf.target is not None
+        by_parameters = leaf.target.state == ACTIVE and not leaf.part.is_system
+        mode = leaf.part.modes[leaf.target.mode] if by_parameters else None
+        wanted = resolve(self.model, leaf.part, mode, self.targets) if mode else {}
+        step = leaf.step(status, wanted, leaf.name in self.settings.reconfigured)
+        if isinstance(step, str):
+            leaf.failure = step
+            self._log(f"{leaf.name}: {step}")
+            return None
+        kind, transition, mode_name, values = step
+        leaf.reconfigures |= transition == DEACTIVATE and leaf.target.state == ACTIVE
+        return self._call(leaf, now, kind, transition, mode_name, values)
+
+    def _is_passing(self, leaf: Leaf, status: Status, now: float) -> bool:
+        """Return whether a node is between two states; if it stays there, it fails."""
+        if leaf.link is Link.SYSTEM or status.state in _STAYING:
+            leaf.passing_since = 0.0
+            return False
+        leaf.passing_since = leaf.passing_since or now
+        leaf.stale.add(Kind.GET_STATE)
+        leaf.wait_until = now + self.settings.pause_s
+        if now - leaf.passing_since > self.settings.attempts * self.settings.call_s:
+            leaf.failure = f"it stays {status.state}"
+            self._log(f"{leaf.name}: {leaf.failure}")
+        return True
+
+    def _call(
+        self,
+        leaf: Leaf,
+        now: float,
+        kind: Kind,
+        transition: int = 0,
+        mode: str = "",
+        values: Mapping[str, Scalar | tuple[Scalar, ...] | None] | None = None,
+    ) -> Call:
+        self._number += 1
+        call = Call(self._number, leaf.name, kind, transition, mode, values or {})
+        leaf.call, leaf.late_at = call, now + self.settings.call_s
+        if now - leaf.commanded >= self.settings.grace_s:
+            leaf.expected.clear()
+        expect(leaf, call)
+        return call
+
+    def _set_target(self, part: Part, target: Status, must_configure: bool = False) -> None:
+        statuses = self.statuses()
+        for below, goal in spread(self.model, self.scope, part, target):
+            self._announce_request(below, statuses[below.name], goal)
+            self.targets[below.name] = goal
+            leaf = self.leaves.get(below.name)
+            if leaf is not None:
+                leaf.target, leaf.must_configure = goal, must_configure
+                leaf.attempts, leaf.settle_until, leaf.wait_until = 0, 0.0, 0.0
+                leaf.deviates = leaf.restores = leaf.reconfigures = False
+                if leaf.link is not Link.ABSENT and leaf.failure != SILENT:
+                    leaf.failure = ""
+
+    def _announce_request(self, part: Part, actual: Status, goal: Status) -> None:
+        if self.scope.is_external(part.name):
+            return
+        if actual.state != goal.state:
+            self._announced.append(Announcement(Topic.TRANSITION_REQUEST, part.name, actual, goal))
+        if goal.state == ACTIVE and not actual.is_same(goal):
+            self._announced.append(Announcement(Topic.MODE_REQUEST, part.name, actual, goal))
+
+    def _compare(self) -> None:
+        """Announce what has changed since the last turn."""
+        statuses = self.statuses()
+        for name in self.scope.names:
+            before, after = self._shown[name], statuses[name]
+            leaf = self.leaves.get(name)
+            if leaf is None and before.state != after.state:
+                self._announced.append(Announcement(Topic.TRANSITION_EVENT, name, before, after))
+            is_own = leaf is None or leaf.link in (Link.PARAMETERS, Link.PLAIN)
+            if is_own and after.state == ACTIVE and before != after:
+                self._announced.append(Announcement(Topic.MODE_EVENT, name, before, after))
+        self._shown = statuses
+
+    def _forget_rules(self) -> None:
+        self._applied.clear()
+        self.rules.clear()
+        self.oscillating.clear()
