@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from microros_gen.mode_manager.adoption import adopted
 from microros_gen.mode_manager.calls import (
     DEACTIVATE,
     Announcement,
@@ -33,8 +34,8 @@ from microros_gen.mode_manager.hearing import (
 from microros_gen.mode_manager.leaf import Leaf
 from microros_gen.mode_manager.progress import Progress
 from microros_gen.mode_manager.scope import Scope
-from microros_gen.mode_manager.targets import find_mode, spread
-from microros_gen.modes.inference import Inference, fulfills
+from microros_gen.mode_manager.targets import spread
+from microros_gen.modes.inference import Inference
 from microros_gen.modes.manager import rule_of
 from microros_gen.modes.model import (
     ACTIVE,
@@ -266,30 +267,15 @@ class Orchestrator:
         if not is_known and now - self._started < self.settings.start_s:
             return
         self._adopted = True
-        for system in reversed(self.scope.systems):
-            if system.name not in self.targets:
-                found = find_mode(self.model, self.scope, system, self._fits)
-                for name, target in (found or {}).items():
-                    self.targets.setdefault(name, target)
-                    if name in self.leaves and self.leaves[name].target is None:
-                        self.leaves[name].target = target
-                if found:
-                    self._log(f"{system.name}: is {found[system.name]} and stays so")
-
-    def _fits(self, targets: Mapping[str, Status]) -> bool:
-        """Return whether all leaves are what these targets command, and one of them is active."""
-        statuses = []
-        for name, target in targets.items():
-            leaf = self.leaves.get(name)
-            if leaf is None:
-                continue
-            status = self.status(leaf)
-            if status.state == ACTIVE and leaf.link in (Link.PARAMETERS, Link.PLAIN):
-                status = self._inference.infer_node(leaf.part, leaf.values, targets)
-            if not fulfills(status, target):
-                return False
-            statuses.append(status)
-        return any(status.state == ACTIVE for status in statuses)
+        statuses = {name: self.status(leaf) for name, leaf in self.leaves.items()}
+        for targets in adopted(self.model, self.scope, self.leaves, statuses):
+            if any(name in self.targets for name in targets):
+                continue  # somebody has requested something meanwhile
+            self.targets.update(targets)
+            for name in targets.keys() & self.leaves.keys():
+                self.leaves[name].target = targets[name]
+            top = next(iter(targets))
+            self._log(f"{top}: it is {targets[top]}, and stays so")
 
     def _settle(self) -> None:
         """Apply rules bottom up; where none holds, command again what others changed."""
@@ -322,7 +308,8 @@ class Orchestrator:
             return None
         status = self.status(leaf)
         is_done = bool(leaf.failure) or leaf.is_settled(status)
-        if (is_done or leaf.settle_until) and now - leaf.polled >= self.settings.poll_s:
+        interval_s = self.settings.pause_s if leaf.settle_until else self.settings.poll_s
+        if (is_done or leaf.settle_until) and now - leaf.polled >= interval_s:
             leaf.polled = now
             leaf.stale |= leaf.queries
         for kind in Kind:

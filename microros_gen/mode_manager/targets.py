@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 
 from microros_gen.mode_manager.scope import Scope
 from microros_gen.modes.model import ACTIVE, Model, Part, Status, start_sequence
@@ -30,17 +30,3 @@ def predecessors(system: Part, name: str, targets: Mapping[str, Status]) -> tupl
     needed = [a.name for a in system.start_after.get(name, ()) if a.name in targets]
     needed = [p for p in needed if p not in stopping]
     return [*stopping, *needed], needed
-
-
-def find_mode(
-    model: Model,
-    scope: Scope,
-    system: Part,
-    fits: Callable[[Mapping[str, Status]], bool],
-) -> Mapping[str, Status] | None:
-    """Return the targets of a system and all below it in its first mode by name for which `fits`; None: none."""
-    for mode in sorted(system.modes):
-        targets = {p.name: t for p, t in spread(model, scope, system, Status(ACTIVE, mode))}
-        if fits(targets):
-            return targets
-    return None
