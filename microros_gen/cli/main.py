@@ -29,7 +29,7 @@ _COMMANDS = {
     "targets": "List the targets, or show one of them.",
     "init": "Write a new application folder, from a profile or from existing sources.",
     "run": "Start a built image together with an agent.",
-    "modes": "Check, simulate and draw systems of nodes with modes.",
+    "modes": "Check, simulate, draw and manage systems of nodes with modes.",
     "agent": "Connect XRCE clients to ROS 2.",
     "graph-server": "Answer queries of the ROS graph for firmware.",
     "parameter-server": "Hold the parameters of firmware.",

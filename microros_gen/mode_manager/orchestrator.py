@@ -52,7 +52,6 @@ from microros_gen.modes.model import (
 )
 from microros_gen.modes.templates import resolve
 
-
 _STAYING = (UNCONFIGURED, INACTIVE, ACTIVE, FINALIZED, ERROR)
 
 
@@ -210,7 +209,7 @@ class Orchestrator:
         if was_settled and leaf.link is Link.SYSTEM:
             leaf.failure = f"it left {leaf.target} for {after} by itself"
             self._log(f"{name}: {leaf.failure}")
-        elif was_settled and before.state != UNKNOWN or self._is_foreign(leaf):
+        elif (was_settled and before.state != UNKNOWN) or self._is_foreign(leaf):
             self._log(f"{name}: others changed it from {before} to {after}")
             self._deviate(leaf)
 

@@ -65,3 +65,14 @@ def _walk(model: Model, part: Part, excluded: set[str]) -> Iterator[Part]:
         for name in part.part_names:
             yield from _walk(model, model.parts[name], excluded)
     yield part
+
+
+def select_nodes(model: Model, scope: Scope, names: Sequence[str]) -> frozenset[str]:
+    """Return the names of nodes of the scope. Raises UserError for others."""
+    found = frozenset(_known(model, name) for name in names)
+    nodes = [leaf.name for leaf in scope.leaves if not leaf.is_system]
+    for name in found:
+        if name not in nodes:
+            hint = f"Nodes: {', '.join(nodes)}"
+            raise UserError([Diagnostic(f"'{name}' is no node of the scope", hint=hint, id="MG-8873")])
+    return found

@@ -126,6 +126,14 @@ class Peer:
         self._waited.append(server)
         return server
 
+    def remove(self, waited: Subscription | Client | Server) -> None:
+        """Destroy a subscription, client or server, which cannot be used afterwards. Raises RosError in a callback."""
+        if self._spinning:
+            raise RosError("a callback cannot remove an entity: do it after `spin_once`")
+        self._waited.remove(waited)
+        self._entities.remove(waited.handle)
+        waited.handle.destroy_when_not_in_use()
+
     def graph(self) -> Graph:
         """Return what queries the ROS graph; it works until the peer is closed."""
         return Graph(self._handles, self._node)

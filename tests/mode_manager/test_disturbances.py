@@ -8,7 +8,6 @@ import random
 import pytest
 
 from microros_gen.mode_manager.calls import Call, Kind, Link, Settings
-from microros_gen.modes import Status
 from microros_gen.modes.model import active
 from tests.support.mode_manager.world import Node, World
 from tests.support.modes.models import model_of, model_text

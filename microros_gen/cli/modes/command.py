@@ -7,6 +7,7 @@ import click
 
 from microros_gen.cli.modes.check import check_command
 from microros_gen.cli.modes.graph import graph_command
+from microros_gen.cli.modes.manage import manage_command
 from microros_gen.cli.modes.simulate import simulate_command
 from microros_gen.diagnostics import nearest
 
@@ -25,7 +26,7 @@ class _Commands(click.Group):
 
 @click.group(cls=_Commands)
 def command() -> None:
-    """Check, simulate and draw a system of nodes with modes.
+    """Check, simulate, draw and manage a system of nodes with modes.
 
     SYSTEM.yaml is a model file of the package system_modes.
 
@@ -33,9 +34,11 @@ def command() -> None:
     microros-gen modes check robot.yaml
     microros-gen modes simulate robot.yaml faults.yaml
     microros-gen modes graph robot.yaml -o robot.svg
+    microros-gen modes manage robot.yaml
     """
 
 
 command.add_command(check_command, "check")
 command.add_command(simulate_command, "simulate")
 command.add_command(graph_command, "graph")
+command.add_command(manage_command, "manage")

@@ -9,6 +9,10 @@ from typing import Any
 
 import click
 
+from microros_gen.cli.ros_node import node_of
+from microros_gen.diagnostics import Diagnostic
+from microros_gen.ros.peer import Peer
+
 model_argument = click.argument("model", metavar="SYSTEM.yaml", type=click.Path(path_type=Path))
 
 format_option = click.option(
@@ -24,3 +28,17 @@ format_option = click.option(
 def json_text(data: dict[str, Any]) -> str:
     """Return data as JSON with a line end."""
     return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+
+
+domain_option = click.option(
+    "--domain", type=click.IntRange(0, 232), metavar="ID", help="ROS domain. Default: ROS_DOMAIN_ID, else 0."
+)
+
+
+def modes_peer(name: str, domain: int | None) -> Peer:
+    """Return a node; UserError without a usable ROS 2."""
+    return node_of(
+        name,
+        domain,
+        lambda error: Diagnostic(f"this command {error.reason}", hint=error.hint, id="MG-8874"),
+    )

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`microros-gen modes manage`: the mode manager."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from microros_gen.agent.server import stopped_by_signals
+from microros_gen.cli.modes.options import domain_option, model_argument, modes_peer
+from microros_gen.mode_manager.calls import Settings
+from microros_gen.mode_manager.scope import Scope, select_nodes, select_scope
+from microros_gen.mode_manager.server import ModeManager
+from microros_gen.mode_manager.turns import ManagerInTurn
+from microros_gen.modes.reader import read_model
+
+
+@click.command()
+@model_argument
+@click.option(
+    "--scope",
+    "roots",
+    multiple=True,
+    metavar="PART",
+    help="Manage this system and all below it; can be repeated. Default: all of the file.",
+)
+@click.option(
+    "--without",
+    multiple=True,
+    metavar="SYSTEM",
+    help="Subsystem that another manager manages: it is used by its services; can be repeated.",
+)
+@click.option(
+    "--reconfigure",
+    multiple=True,
+    metavar="NODE",
+    help="Node that takes parameters only while it is inactive: it is deactivated, gets those of the mode and is"
+    " activated again; can be repeated.",
+)
+@click.option(
+    "--timeout",
+    type=click.FloatRange(min=0.1),
+    default=Settings().call_s,
+    show_default=True,
+    metavar="S",
+    help="Seconds after which a response is late.",
+)
+@domain_option
+def manage_command(
+    model: Path,
+    roots: tuple[str, ...],
+    without: tuple[str, ...],
+    reconfigure: tuple[str, ...],
+    timeout: float,
+    domain: int | None,
+) -> None:
+    """Bring the nodes of a system into the states and modes that somebody requests, and apply rules.
+
+    A ROS node that serves ~/change_state, ~/change_mode, ~/get_state, ~/get_mode and more for each system, and
+    publishes on /diagnostics. Nodes are reached by their life cycle and mode services; the modes of nodes without
+    mode services are set and inferred by their parameters. If another manager has one of the parts, this one waits.
+
+    \b
+    microros-gen modes manage robot.yaml
+    microros-gen modes manage robot.yaml --scope base
+    microros-gen modes manage robot.yaml --without base
+
+    Prints 'mode manager ready: PARTS' on stdout, and failures, rules and changes by others on stderr. SIGINT and
+    SIGTERM end it with status 0.
+    """
+    system = read_model(model)
+    scope = select_scope(system, roots, without)
+    settings = Settings(call_s=timeout, reconfigured=select_nodes(system, scope, reconfigure))
+    turn = ManagerInTurn(
+        scope,
+        lambda name: modes_peer(name, domain),
+        lambda peer: ModeManager(peer, system, scope, _log, settings),
+        _Report(scope),
+    )
+    with stopped_by_signals(turn):
+        turn.run()
+
+
+def _log(line: str) -> None:
+    click.echo(line, err=True)
+
+
+class _Report:
+    """Prints who manages."""
+
+    def __init__(self, scope: Scope) -> None:
+        self._scope = scope
+
+    def waits(self, other: str, part: str) -> None:
+        """Print that another one manages."""
+        _log(f"'{part}' is managed by another node ({other}): this manager waits")
+
+    def ready(self) -> None:
+        """Print that this one manages."""
+        click.echo(f"mode manager ready: {', '.join(self._scope.roots)}")

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a manager knows of its parts as diagnostic_msgs/msg/DiagnosticArray, and what it reads of such messages."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Collection, Iterator, Mapping
+from typing import Any
+
+from microros_gen.mode_manager.orchestrator import Orchestrator
+from microros_gen.modes.model import ERROR, UNKNOWN, Status
+from microros_gen.records import dataclass
+
+TOPIC = "/diagnostics"
+TYPE = "diagnostic_msgs/msg/DiagnosticArray"
+HARDWARE = "mode manager"
+"""`hardware_id` of the messages of managers."""
+PREFIX = "modes: "
+OK, WARN, FAILED, STALE = range(4)
+"""Levels of diagnostic_msgs/msg/DiagnosticStatus."""
+LEVELS = ("ok", "warning", "error", "stale")
+_NS = 1_000_000_000
+
+
+@dataclass(frozen=True)
+class Row:
+    """One part. Texts of statuses are `state` or `state.MODE`; `target` is empty if nothing was requested."""
+
+    part: str
+    kind: str
+    target: str
+    actual: str
+    level: int
+    message: str
+    retries: int = 0
+    rule: str = ""
+
+
+def rows_of(manager: Orchestrator) -> tuple[Row, ...]:
+    """Return a row for each part of the scope."""
+    statuses = manager.statuses()
+    return tuple(_row(manager, name, statuses[name]) for name in manager.scope.names)
+
+
+def _row(manager: Orchestrator, name: str, actual: Status) -> Row:
+    target = manager.targets.get(name)
+    leaf = manager.leaves.get(name)
+    level, message = OK, ""
+    if leaf is not None and (leaf.problem or (leaf.failure and target is not None)):
+        level, message = FAILED, leaf.problem or leaf.failure
+    elif leaf is not None and actual.state == UNKNOWN:
+        level, message = STALE, leaf.failure or "it is not known yet"
+    elif actual.state == ERROR or name in manager.oscillating:
+        level = FAILED
+        message = "its rules oscillate" if name in manager.oscillating else "a part of it has an error"
+    elif target is not None and manager.progress.is_moving(name):
+        blocker = manager.progress.blocker(name) if leaf is not None else ""
+        level, message = WARN, f"it waits for {blocker}" if blocker else "it is on its way"
+    elif target is not None and not _is_reached(manager, name, actual, target):
+        blocker = manager.progress.blocker(name) if leaf is not None else ""
+        level, message = FAILED, f"it waits for {blocker}" if blocker else "it is not in its target"
+    kind = "node" if leaf is not None and not leaf.part.is_system else "system"
+    return Row(
+        name,
+        kind,
+        str(target) if target is not None else "",
+        str(actual),
+        level,
+        message,
+        leaf.retries if leaf is not None else 0,
+        manager.rules.get(name, ""),
+    )
+
+
+def _is_reached(manager: Orchestrator, name: str, actual: Status, target: Status) -> bool:
+    leaf = manager.leaves.get(name)
+    return leaf.is_settled(actual) if leaf is not None else actual.is_same(target)
+
+
+def array_of(rows: Collection[Row]) -> dict[str, Any]:
+    """Return the rows as a message."""
+    seconds, nanoseconds = divmod(time.time_ns(), _NS)
+    return {
+        "header": {"stamp": {"sec": seconds, "nanosec": nanoseconds}},
+        "status": [
+            {
+                "level": row.level,
+                "name": f"{PREFIX}{row.part}",
+                "message": row.message or LEVELS[OK],
+                "hardware_id": HARDWARE,
+                "values": [
+                    {"key": key, "value": str(value)}
+                    for key, value in (
+                        ("kind", row.kind),
+                        ("target", row.target),
+                        ("actual", row.actual),
+                        ("retries", row.retries),
+                        ("rule", row.rule),
+                    )
+                ],
+            }
+            for row in rows
+        ],
+    }
+
+
+def read_rows(message: Mapping[str, Any]) -> Iterator[Row]:
+    """Yield the rows of a message of a manager; what others publish is passed over."""
+    for status in message["status"]:
+        if status["hardware_id"] != HARDWARE or not status["name"].startswith(PREFIX):
+            continue
+        values = {pair["key"]: pair["value"] for pair in status["values"]}
+        retries = values.get("retries", "")
+        yield Row(
+            status["name"][len(PREFIX) :],
+            values.get("kind", ""),
+            values.get("target", ""),
+            values.get("actual", ""),
+            int(status["level"]),
+            "" if status["level"] == OK else status["message"],
+            int(retries) if retries.isdecimal() else 0,
+            values.get("rule", ""),
+        )
+
+
+def read_problems(message: Mapping[str, Any], parts: Collection[str]) -> Iterator[tuple[str, str, str]]:
+    """Yield part, name of the status and error (empty: none) for what is said about `parts`.
+
+    A status belongs to a part if its name is that of the node, or begins with it and a colon, as diagnostic_updater
+    writes it. Errors count; warnings and stale values do not.
+    """
+    for status in message["status"]:
+        name = status["name"].lstrip("/")
+        part = next((p for p in parts if name == p or name.startswith(f"{p}:")), None)
+        if part is None or status["hardware_id"] == HARDWARE:
+            continue
+        yield part, name, (status["message"] or "error") if status["level"] == FAILED else ""

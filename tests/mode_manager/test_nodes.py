@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The manager as a process, with life cycle nodes of rclpy in processes."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Iterator
+from contextlib import ExitStack
+from typing import Any
+
+import pytest
+
+from microros_gen.ros.peer import Peer
+from tests.support.agent.process import environment, own_domain
+from tests.support.mode_manager.processes import Asking, Running, manager, node
+from tests.support.modes.models import MODELS
+from tests.support.patience import seconds
+
+pytestmark = pytest.mark.ros
+ARM = str(MODELS / "arm.yaml")
+GRIPPER = {"force": 0.5}
+JOINT = {"speed": 0.1, "law": "TORQUE"}
+
+
+@pytest.fixture
+def domain(monkeypatch: pytest.MonkeyPatch) -> int:
+    number = own_domain()
+    for name, value in environment(number).items():
+        monkeypatch.setenv(name, value)
+    return number
+
+
+@pytest.fixture
+def stack() -> Iterator[ExitStack]:
+    with ExitStack() as opened:
+        yield opened
+
+
+def start(stack: ExitStack, domain: int, *arguments: str, **nodes: dict[str, Any]) -> tuple[Asking, Running]:
+    """Start nodes, a manager and one that asks; wait until the manager knows the nodes."""
+    for name, values in nodes.items():
+        stack.enter_context(node(domain, name, **values))
+    managing = stack.enter_context(manager(domain, *arguments))
+    managing.wait_for("mode manager ready")
+    asking = Asking(stack.enter_context(Peer("asking")))
+    asking.until(lambda: all(n in asking.rows and asking.rows[n].actual != "unknown" for n in nodes))
+    return asking, managing
+
+
+def test_a_system_of_two_nodes(stack: ExitStack, domain: int) -> None:
+    asking, managing = start(stack, domain, ARM, gripper=GRIPPER, joint=JOINT)
+    events: list[dict[str, Any]] = []
+    asking.peer.subscribe("/arm/mode_event", "system_modes_msgs/msg/ModeEvent", events.append)
+    requests: list[dict[str, Any]] = []
+    asking.peer.subscribe("/joint/mode_request_info", "system_modes_msgs/msg/ModeEvent", requests.append)
+    modes = asking.call("/arm/get_available_modes", "system_modes_msgs/srv/GetAvailableModes")
+    assert modes == {"available_modes": ["__DEFAULT__", "GENTLE", "QUICK"]}
+    states = asking.call("/arm/get_available_states", "lifecycle_msgs/srv/GetAvailableStates")
+    assert [state["label"] for state in states["available_states"]] == ["inactive", "active"]
+    assert asking.state("arm") == "unconfigured"
+    assert not asking.change_mode("arm", "FAST")
+    assert asking.change_state("arm", 1)
+    asking.until_row("arm", "inactive")
+    asking.until(lambda: asking.rows["joint"].actual == "inactive")
+    assert asking.change_mode("arm", "QUICK")
+    asking.until_row("arm", "active.QUICK")
+    assert (asking.state("arm"), asking.mode("arm")) == ("active", "QUICK")
+    assert (asking.state("joint"), asking.mode("joint")) == ("active", "RUSH")
+    (transition,) = asking.call(
+        "/arm/get_available_transitions", "lifecycle_msgs/srv/GetAvailableTransitions"
+    )["available_transitions"]
+    assert transition["transition"] == {"id": 4, "label": "deactivate"}
+    asking.until(lambda: [e["goal_mode"]["label"] for e in events] == ["QUICK"])
+    asking.until(lambda: [e["goal_mode"]["label"] for e in requests] == ["RUSH"])
+    assert asking.change_mode("joint", "CRAWL")
+    asking.until_row("joint", "active.CRAWL")
+    assert asking.change_state("arm", 4)
+    asking.until_row("arm", "inactive")
+    assert asking.state("gripper") == "inactive"
+    managing.process.send_signal(signal.SIGTERM)
+    assert managing.process.wait(seconds(10)) == 0
+
+
+def test_a_node_that_cannot_be_activated_degrades_the_arm(stack: ExitStack, domain: int) -> None:
+    faulty = {**GRIPPER, "refuse_activation": True}
+    asking, managing = start(stack, domain, ARM, gripper=faulty, joint=JOINT)
+    assert asking.change_mode("arm", "QUICK")
+    asking.until_row("arm", "active.__DEFAULT__", 60)
+    assert asking.rows["arm"].rule == "without_gripper_quick"
+    assert managing.says("gripper: it refuses change_state activate")
+    assert asking.state("gripper") == "inactive"
+
+
+def test_changes_by_others_are_noticed(stack: ExitStack, domain: int) -> None:
+    asking, managing = start(stack, domain, ARM, gripper=GRIPPER, joint=JOINT)
+    assert asking.change_mode("arm", "QUICK")
+    asking.until_row("arm", "active.QUICK")
+    asking.set("joint", speed=0.7)
+    managing.wait_for("joint: others changed it from active.RUSH to active")
+    asking.until_row("arm", "active.QUICK")
+    assert asking.change_state("gripper", 4)
+    managing.wait_for("rule without_gripper_quick")
+    asking.until_row("arm", "active.__DEFAULT__")
+
+
+def test_a_manager_that_is_killed_and_one_that_takes_over(stack: ExitStack, domain: int) -> None:
+    """The second one waits while the first one manages; killed, it leaves the arm in its mode, which the second has."""
+    asking, managing = start(stack, domain, ARM, gripper=GRIPPER, joint=JOINT)
+    second = stack.enter_context(manager(domain, ARM))
+    second.wait_for("'arm' is managed by another node (/mode_manager_")
+    assert asking.change_mode("arm", "GENTLE")
+    asking.until_row("arm", "active.GENTLE")
+    assert not second.says("mode manager ready")
+    managing.process.kill()
+    managing.process.wait()
+    second.wait_for("mode manager ready", 60)
+    second.wait_for("arm: it is active.GENTLE, and stays so")
+    asking.rows.clear()
+    asking.until_row("arm", "active.GENTLE")
+    assert asking.rows["arm"].target == "active.GENTLE"
+
+
+def test_two_managers_of_one_hierarchy(stack: ExitStack, domain: int) -> None:
+    """The lower one manages the base with its nodes in a namespace; the upper one uses it by its services."""
+    robot = str(MODELS / "robot.yaml")
+    wheels = {f"wheels/{side}": {"speed": 0.0} for side in ("left", "right")}
+    for name, values in wheels.items():
+        extra = {"pid.p": 1.0, "pid.i": 0.1} if "left" in name else {}
+        stack.enter_context(node(domain, name, **values, **extra))
+    lower = stack.enter_context(manager(domain, robot, "--scope", "base"))
+    lower.wait_for("mode manager ready: base")
+    camera = {"rate": 10, "topics": ["front", "rear"]}
+    asking, upper = start(stack, domain, robot, "--without", "base", camera=camera)
+    asking.until(lambda: "base" in asking.rows and "wheels/left" in asking.rows)
+    asking.until(lambda: asking.rows["wheels/left"].actual != "unknown")
+    assert asking.change_mode("robot", "FAST")
+    asking.until_row("robot", "active.FAST", 60)
+    assert asking.mode("base") == "DRIVE"
+    assert asking.state("wheels/left") == "active"
+    assert asking.change_state("robot", 4)
+    asking.until_row("robot", "inactive", 60)
+    assert asking.state("wheels/right") == "inactive"
+    assert not upper.says("waits")
+    assert not lower.says("waits")
