@@ -18,6 +18,8 @@ HARDWARE = "mode manager"
 PREFIX = "modes: "
 OK, WARN, FAILED, STALE = range(4)
 """Levels of diagnostic_msgs/msg/DiagnosticStatus."""
+NODE, SYSTEM, SUBSYSTEM = "node", "system", "subsystem"
+"""What a row is about; a subsystem has another manager."""
 LEVELS = ("ok", "warning", "error", "stale")
 _NS = 1_000_000_000
 
@@ -59,7 +61,7 @@ def _row(manager: Orchestrator, name: str, actual: Status) -> Row:
     elif target is not None and not _is_reached(manager, name, actual, target):
         blocker = manager.progress.blocker(name) if leaf is not None else ""
         level, message = FAILED, f"it waits for {blocker}" if blocker else "it is not in its target"
-    kind = "node" if leaf is not None and not leaf.part.is_system else "system"
+    kind = SYSTEM if leaf is None else SUBSYSTEM if leaf.part.is_system else NODE
     return Row(
         name,
         kind,

@@ -24,6 +24,11 @@ class Serving(ABC):
         while not self._stop:
             self.turn()
 
+    @property
+    def is_stopped(self) -> bool:
+        """Return whether `stop` was called."""
+        return self._stop
+
     def stop(self) -> None:
         """Let `run` end after its turn; any thread may call it."""
         self._stop = True

@@ -8,6 +8,7 @@ import click
 from microros_gen.cli.modes.check import check_command
 from microros_gen.cli.modes.graph import graph_command
 from microros_gen.cli.modes.manage import manage_command
+from microros_gen.cli.modes.monitor import monitor_command
 from microros_gen.cli.modes.simulate import simulate_command
 from microros_gen.diagnostics import nearest
 
@@ -26,7 +27,7 @@ class _Commands(click.Group):
 
 @click.group(cls=_Commands)
 def command() -> None:
-    """Check, simulate, draw and manage a system of nodes with modes.
+    """Check, simulate, draw, manage and monitor a system of nodes with modes.
 
     SYSTEM.yaml is a model file of the package system_modes.
 
@@ -35,6 +36,7 @@ def command() -> None:
     microros-gen modes simulate robot.yaml faults.yaml
     microros-gen modes graph robot.yaml -o robot.svg
     microros-gen modes manage robot.yaml
+    microros-gen modes monitor robot.yaml
     """
 
 
@@ -42,3 +44,4 @@ command.add_command(check_command, "check")
 command.add_command(simulate_command, "simulate")
 command.add_command(graph_command, "graph")
 command.add_command(manage_command, "manage")
+command.add_command(monitor_command, "monitor")
