@@ -20,10 +20,10 @@ from microros_gen.ros.peer import Peer
 
 NAME = "mode_manager_"
 """Nodes of managers are called so, with a number of 8 hexadecimal digits."""
-DISCOVERY_S = 1.5
+DISCOVERY_S = 3.0
 """Managers that there are already are known by then."""
 LOOK_S = 1.0
-SILENCE_S = 3.0
+SILENCE_S = 5.0
 """A manager that does not answer for so long has been killed."""
 LEASE_S = 30.0
 """By then DDS knows that too."""
@@ -85,6 +85,7 @@ class ManagerInTurn:
         self._observer = observer
         self._name = f"{NAME}{random.getrandbits(32):08x}"
         self._stopped = False
+        self._reported = ""
 
     def stop(self) -> None:
         """Let `run` end within a second."""
@@ -100,15 +101,13 @@ class ManagerInTurn:
                     self._manage(peer, claims)
 
     def _wait(self, peer: Peer, claims: Claims) -> None:
-        graph, reported, free_since = peer.graph(), "", time.monotonic()
+        graph, free_since = peer.graph(), time.monotonic()
         while not self._stopped and time.monotonic() - free_since < DISCOVERY_S:
             peer.spin(lambda: self._stopped, 0.2)
             other, part = claims.other(graph, is_managing=False)
             if not other:
                 continue
-            if other != reported:
-                self._observer.waits(other, part)
-                reported = other
+            self._wait_for(other, part)
             if self._answers(peer, part):
                 free_since = time.monotonic()
             else:
@@ -128,11 +127,17 @@ class ManagerInTurn:
         manager = self._make_manager(peer)
         graph, looked = peer.graph(), time.monotonic()
         self._observer.ready()
+        self._reported = ""
         while not self._stopped:
             manager.turn()
             if time.monotonic() - looked >= LOOK_S:
                 looked = time.monotonic()
                 other, part = claims.other(graph, is_managing=True)
                 if other:
-                    self._observer.waits(other, part)
+                    self._wait_for(other, part)
                     return
+
+    def _wait_for(self, other: str, part: str) -> None:
+        if other != self._reported:
+            self._observer.waits(other, part)
+            self._reported = other

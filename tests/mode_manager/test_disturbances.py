@@ -10,7 +10,7 @@ import pytest
 from microros_gen.mode_manager.calls import Call, Kind, Link, Settings
 from microros_gen.modes.model import active
 from tests.support.mode_manager.world import Node, World
-from tests.support.modes.models import model_of, model_text
+from tests.support.modes.models import changed, model_of, model_text
 
 ARM = model_text("arm")
 ROBOT = model_text("robot")
@@ -192,7 +192,8 @@ def test_a_reported_error_degrades_and_does_not_stop_commands() -> None:
 
 
 def test_a_follower_of_a_failed_part_is_not_started() -> None:
-    model = model_of(ROBOT)
+    """The wheels start after the camera."""
+    model = model_of(changed(ROBOT, "if_target: active.FAST", "if_target: active"))
     nodes = {node.name: Node() for node in model.nodes}
     nodes["camera"].refuses = activates
     world = World(model, nodes)

@@ -22,7 +22,7 @@ from microros_gen.mode_manager.page import served_page
 from microros_gen.mode_manager.problems import Problem, Problems
 from microros_gen.modes.model import active
 from tests.support.mode_manager.world import Node, World
-from tests.support.modes.models import model_of, model_text
+from tests.support.modes.models import changed, model_of, model_text
 from tests.support.patience import seconds
 
 ARM = model_text("arm")
@@ -68,12 +68,12 @@ def test_a_failed_part_and_one_on_its_way() -> None:
     assert rows["joint"].retries > 0
     world.run(5)
     rows = {row.part: row for row in rows_of(world.manager)}
-    assert (rows["joint"].level, rows["joint"].message) == (2, "it refuses change_mode RUSH")
+    assert (rows["joint"].level, rows["joint"].message) == (2, "it refuses change_mode RUSH: no")
     assert (rows["arm"].level, rows["arm"].message) == (2, "it is not in its target")
 
 
 def test_a_part_that_waits_for_a_failed_one() -> None:
-    model = model_of(ROBOT)
+    model = model_of(changed(ROBOT, "if_target: active.FAST", "if_target: active"))
     nodes = {node.name: Node() for node in model.nodes}
     nodes["camera"].refuses = activates
     world = World(model, nodes)
