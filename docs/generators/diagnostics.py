@@ -31,6 +31,7 @@ _SUBJECTS = {
     "ros": "ROS 2",
     "parameter_server": "The parameter server",
     "modes": "System modes",
+    "mode_manager": "The mode manager",
     "agent": "The agent",
     "components": "Components",
     "cli": "The command line",

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
-from microros_gen.mode_manager.diagnosis import LEVELS, STALE, SUBSYSTEM, TOPIC, TYPE, Row, read_rows
+from microros_gen.mode_manager.diagnosis import LEVELS, STALE, SUBSYSTEM, TOPIC, TYPE, WARN, Row, read_rows
 from microros_gen.modes.model import Model
 from microros_gen.ros.peer import Peer
 from microros_gen.ros.qos import Qos
@@ -90,9 +90,9 @@ class Overview:
         }
 
     @property
-    def is_complete(self) -> bool:
-        """Return whether a manager reports each part."""
-        return all(row.message != UNMANAGED for row in self.rows())
+    def is_at_rest(self) -> bool:
+        """Return whether the status of each part is known, and none is on its way."""
+        return all(row.level not in (WARN, STALE) for row in self.rows())
 
 
 class Monitor(Serving):

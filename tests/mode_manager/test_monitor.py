@@ -52,7 +52,7 @@ arm        active.__DEFAULT__  active.__DEFAULT__  ok     rule without_gripper_q
   joint    active.__DEFAULT__  active.__DEFAULT__  ok
 """
     )
-    assert overview.is_complete
+    assert overview.is_at_rest
 
 
 def test_a_failed_part_and_one_on_its_way() -> None:
@@ -94,7 +94,7 @@ def test_a_manager_that_is_silent_is_none() -> None:
     overview.hear(array_of(rows_of(world.manager)))
     now[0] = OLD_S + 0.1
     assert {row.message for row in overview.rows()} == {UNMANAGED}
-    assert not overview.is_complete
+    assert not overview.is_at_rest
 
 
 def test_the_manager_of_a_subsystem_counts_more_than_the_one_above() -> None:

@@ -30,6 +30,7 @@ ORDER = (
     "graph_server",
     "parameter_server",
     "modes",
+    "mode_manager",
     "agent",
     "cli",
 )
@@ -37,6 +38,7 @@ MAY = {
     "graph_server": {"graph_server", "ros"},
     "parameter_server": {"diagnostics", "parameter_server", "records", "ros"},
     "modes": {"application", "diagnostics", "documents", "modes"},
+    "mode_manager": {"diagnostics", "mode_manager", "modes", "parameter_server", "ros"},
     "agent": {"agent", "diagnostics", "documents", "interfaces", "ros"},
     "cli": set(ORDER),
 }

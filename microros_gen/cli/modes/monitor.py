@@ -23,14 +23,16 @@ _CLEAR = "\x1b[2J\x1b[H"
 
 @click.command()
 @model_argument
-@click.option("--once", is_flag=True, help="Print the parts when all are known, and end.")
+@click.option(
+    "--once", is_flag=True, help="Print the parts when all are known and none is on its way, and end."
+)
 @click.option(
     "--wait",
     type=click.FloatRange(min=0),
     default=5.0,
     show_default=True,
     metavar="S",
-    help="With --once: seconds after which parts that no manager reports are printed as such.",
+    help="With --once: seconds after which the parts are printed as they are.",
 )
 @click.option(
     "--page",
@@ -62,7 +64,7 @@ def monitor_command(
             click.echo(f"page: {address}", err=True)
         if once:
             end = time.monotonic() + wait
-            while not monitor.overview.is_complete and time.monotonic() < end:
+            while not monitor.overview.is_at_rest and time.monotonic() < end:
                 monitor.turn()
             click.echo(_shown(monitor.overview, kind, once), nl=False)
             return int(any(row.level != OK for row in monitor.overview.rows()))
