@@ -12,10 +12,6 @@ from hypothesis import settings
 
 pytest.register_assert_rewrite("tests.support")
 pytest_plugins = ["tests.support.command_line", "tests.support.trees"]
-settings.register_profile("repeatable", derandomize=True)
-settings.load_profile(
-    os.environ.get("HYPOTHESIS_PROFILE", "repeatable")
-)  # `default` draws new examples each time
 
 
 def pytest_configure() -> None:
@@ -23,9 +19,13 @@ def pytest_configure() -> None:
 
     The suite starts the tool some thousand times: without bytecode, that takes longer than most tests.
     """
+    from tests.support.examples import examples
     from tests.support.objects.cache import put_into_path
     from tests.support.sharing import share_components
 
+    settings.register_profile("repeatable", derandomize=True, max_examples=examples(100))
+    # `default` draws new examples each time.
+    settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     sys.dont_write_bytecode = False
     put_into_path()

@@ -23,6 +23,7 @@ from tests.support.agent.fakes import Bench
 from tests.support.agent.readers import FOREVER, reader_entities, sample
 from tests.support.agent.storm import bench_with_everything, check
 from tests.support.agent.strategies import BY_NAME
+from tests.support.examples import examples
 
 IDS = st.sampled_from((0x11, 0x12, 0x13, 0x14, 0x15, 0x16, 0x17, 0x18, 0x1B, 0x1C, 0x26, 0xFFFE))
 STREAMS = st.sampled_from((0, 1, 2, 0x80, 0x81, 0xFF))
@@ -82,7 +83,7 @@ ACTIONS = st.one_of(
 )
 
 
-@settings(max_examples=120, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(120), deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.lists(ACTIONS, max_size=20))
 def test_any_conversation_of_one_that_reads(actions: list[Callable[[Bench], object]]) -> None:
     bench = bench_with_everything()

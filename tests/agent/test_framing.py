@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from microros_gen.agent.framing import FrameDecoder, crc16, encode_frame
 from tests.support.agent.captured_frames import CREATE_CLIENT_FRAME, STATUS_AGENT_FRAME
 from tests.support.agent.serial_link import crc_arc, frame
+from tests.support.examples import examples
 
 CREATE_CLIENT = "80 00 00 00 00 01 10 00 58 52 43 45 01 00 01 0f a1 7e c3 7d 81 00 fc 01"
 STATUS_AGENT = "81 00 00 00 04 01 0b 00 00 00 58 52 43 45 01 00 01 0f 00"
@@ -150,7 +151,7 @@ def test_memory_is_bounded() -> None:
         tracemalloc.stop()
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300), deadline=None)
 @given(st.lists(st.binary(max_size=60) | st.just(GOOD) | st.just(b"\x7e") | st.just(b"\x7d"), max_size=20))
 def test_any_stream(chunks: list[bytes]) -> None:
     listener = Listener(largest=200)

@@ -21,6 +21,7 @@ from tests.support.agent.client import int32_body
 from tests.support.agent.dialogue import entities, message
 from tests.support.agent.fakes import Bench
 from tests.support.agent.strategies import BY_NAME
+from tests.support.examples import examples
 
 LIMITS = Limits(
     clients=20, objects=30, streams=4, message_bytes=20_000, backlog_bytes=4_000, client_timeout_s=5
@@ -70,7 +71,9 @@ conversation = st.lists(st.tuples(messages, st.sampled_from("abc")), max_size=12
 
 
 @settings(
-    max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large]
+    max_examples=examples(300),
+    deadline=None,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )
 @given(conversation)
 def test_any_conversation(datagrams: list[tuple[bytes, str]]) -> None:

@@ -27,6 +27,7 @@ from microros_gen.agent.wire.constants import Format, ObjectKind
 from microros_gen.agent.wire.entity_messages import Create
 from microros_gen.agent.wire.errors import MalformedError
 from tests.support.agent import captured
+from tests.support.examples import examples
 
 STRING = "std_msgs::msg::dds_::String_"
 CHATTER = Topic("rt/chatter", STRING)
@@ -176,7 +177,7 @@ def test_references_are_defined_at_the_agent() -> None:
         describe(create, References())
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300), deadline=None)
 @given(st.sampled_from(range(1, 9)), st.binary(max_size=60), st.booleans())
 def test_any_blob_is_described_or_malformed(kind: int, blob: bytes, little: bool) -> None:
     with contextlib.suppress(MalformedError):

@@ -26,6 +26,7 @@ from tests.support.agent.objects import (
     make,
     tree,
 )
+from tests.support.examples import examples
 
 INT32 = dds_type("std_msgs/msg/Int32")
 TYPES = """<types><module name="MyModule"><struct name="Inner" nested="true"/>
@@ -218,14 +219,14 @@ chunks = st.sampled_from(
 )  # fmt: skip
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300), deadline=None)
 @given(st.sampled_from((1, 2, 3, 5, 6, 10, 11, 12)), st.lists(chunks, max_size=20))
 def test_any_text_is_described_or_refused(kind: int, words: list[str]) -> None:
     with contextlib.suppress(MalformedError, UnknownNameError):
         from_xml(kind, "".join(words), 0)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200), deadline=None)
 @given(st.sampled_from([TYPES, QOS, MODIFIED, APPLICATION]), st.data())
 def test_any_damaged_text_is_described_or_refused(text: str, data: st.DataObject) -> None:
     at = data.draw(st.integers(0, len(text)))

@@ -19,6 +19,7 @@ from microros_gen.agent.wire.session_messages import AgentActivity, CreateClient
 from microros_gen.agent.wire.submessages import Submessage, decode, encode
 from tests.support.agent import captured
 from tests.support.agent.strategies import BY_NAME
+from tests.support.examples import examples
 
 
 def read(data: bytes) -> Submessage:
@@ -64,7 +65,7 @@ def test_every_submessage_has_a_strategy_and_captured_bytes() -> None:
 
 @pytest.mark.parametrize("name", BY_NAME)
 @pytest.mark.parametrize("little", [True, False], ids=["little", "big"])
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(st.data())
 def test_round_trip(name: str, little: bool, data: st.DataObject) -> None:
     submessage: Submessage = data.draw(BY_NAME[name])
@@ -79,7 +80,7 @@ def test_round_trip(name: str, little: bool, data: st.DataObject) -> None:
 
 
 @pytest.mark.parametrize("name", [n for n in BY_NAME if n not in ("WRITE_DATA", "DATA", "FRAGMENT", "RESET")])
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(st.data())
 def test_a_truncated_payload_is_malformed(name: str, data: st.DataObject) -> None:
     drawn: Submessage = data.draw(BY_NAME[name])
@@ -155,7 +156,7 @@ def test_malformed_payloads_name_their_kind(submessage: str, kind: str) -> None:
     assert caught.value.kind == kind
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300), deadline=None)
 @given(st.binary(max_size=80), st.booleans())
 def test_any_bytes_decode_or_are_malformed(data: bytes, whole: bool) -> None:
     with contextlib.suppress(MalformedError):

@@ -17,6 +17,7 @@ from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.samples import Sample, SampleInfo, overhead, packs, read_samples, write_samples
 from tests.support.agent.dialogue import GRAPH, message, publishing
 from tests.support.agent.readers import FOREVER, LABEL, Listener, put, sample, subscribing
+from tests.support.examples import examples
 
 u32 = st.integers(0, 0xFFFFFFFF)
 info = st.builds(SampleInfo, st.integers(0, 15), st.none() | u32, st.none() | u32)
@@ -61,7 +62,7 @@ def test_the_examples_of_annex_b(form: int, data: str, wanted: list[Sample]) -> 
 @pytest.mark.parametrize(
     "form", [DataFormat.DATA_SEQ, DataFormat.SAMPLE_SEQ, DataFormat.SAMPLE, DataFormat.DATA]
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(items=samples)
 def test_there_and_back(form: int, little: bool, items: list[Sample]) -> None:
     if form in (DataFormat.SAMPLE, DataFormat.DATA):
@@ -73,7 +74,7 @@ def test_there_and_back(form: int, little: bool, items: list[Sample]) -> None:
     assert len(data) <= bound(form, items)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(
     st.integers(0, 1 << 31),
     st.lists(st.tuples(st.binary(max_size=20), st.integers(0, 255), st.integers(0, 0xFFFF)), max_size=5),
@@ -116,7 +117,7 @@ def test_what_cannot_be_cut_is_malformed(form: int, data: str, kind: str) -> Non
     assert caught.value.kind == kind
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300), deadline=None)
 @given(st.sampled_from(list(DataFormat)), st.binary(max_size=60), st.booleans())
 def test_any_bytes_are_samples_or_malformed(form: int, data: bytes, little: bool) -> None:
     with contextlib.suppress(MalformedError):

@@ -18,6 +18,7 @@ from microros_gen.application.names import (
     topic_fault,
 )
 from tests.support.application.names import NAMES, accepted
+from tests.support.examples import examples
 
 pytestmark = pytest.mark.ros
 
@@ -41,7 +42,7 @@ def is_stricter_here(name: str) -> bool:
 
 
 @given(name=NAMES)
-@settings(max_examples=400)
+@settings(max_examples=examples(400))
 def test_topics_are_what_ros_takes(ros: Any, name: str) -> None:
     def judge(text: str) -> None:
         ros.validate_topic_name.validate_topic_name(text)
@@ -56,7 +57,7 @@ def test_topics_are_what_ros_takes(ros: Any, name: str) -> None:
 
 
 @given(name=NAMES, namespace=st.sampled_from(["/", "/ns", "/a/b"]))
-@settings(max_examples=200)
+@settings(max_examples=examples(200))
 def test_topics_expand_as_in_ros(ros: Any, name: str, namespace: str) -> None:
     if topic_fault(name) is None:
         full = expand_topic_name(name, "node", namespace)
@@ -64,13 +65,13 @@ def test_topics_expand_as_in_ros(ros: Any, name: str, namespace: str) -> None:
 
 
 @given(name=NAMES)
-@settings(max_examples=300)
+@settings(max_examples=examples(300))
 def test_node_names_are_what_ros_takes(ros: Any, name: str) -> None:
     assert (node_name_fault(name) is None) == accepted(ros.validate_node_name.validate_node_name, name)
 
 
 @given(name=NAMES)
-@settings(max_examples=300)
+@settings(max_examples=examples(300))
 def test_namespaces_are_what_ros_takes(ros: Any, name: str) -> None:
     """rcl puts a slash before a namespace that lacks one, and takes an empty one as the root."""
     given_name = absolute(name)
@@ -79,7 +80,7 @@ def test_namespaces_are_what_ros_takes(ros: Any, name: str) -> None:
 
 
 @given(name=NAMES)
-@settings(max_examples=200)
+@settings(max_examples=examples(200))
 def test_the_place_of_a_fault_is_the_one_ros_names(ros: Any, name: str) -> None:
     """Where both blame the same character class, they name the same character."""
     fault = topic_fault(name)

@@ -23,6 +23,7 @@ from microros_gen.interfaces.types import (
     StringType,
     TypeName,
 )
+from tests.support.examples import examples
 from tests.support.ids import without_id
 from tests.support.interfaces.idl_corpus import BAD, BAD_PARTS, GOOD, const, default, msg, parts
 from tests.support.interfaces.idl_strategies import NAME, messages
@@ -195,7 +196,7 @@ def test_every_refusal_has_a_message(text: str) -> None:
     assert any("error:" in line for line in found(text))
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300), deadline=None)
 @given(
     text=st.sampled_from([*GOOD, *BAD]),
     place=st.floats(0, 1),
@@ -237,7 +238,7 @@ def without_places(declared: Message) -> Message:
     )
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200), deadline=None)
 @given(declared=messages())
 def test_a_struct_made_at_random_is_read_back_from_its_text(declared: Message) -> None:
     assert without_places(message(idl_text(declared))) == declared

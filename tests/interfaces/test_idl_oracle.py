@@ -18,6 +18,7 @@ from microros_gen.interfaces.omg_idl.parser import IdlFile, read_idl
 from microros_gen.interfaces.omg_idl.text import idl_text
 from microros_gen.interfaces.type_description import individual_type_description
 from microros_gen.interfaces.types import Message
+from tests.support.examples import examples
 from tests.support.interfaces.idl_corpus import (
     BAD,
     BAD_PARTS,
@@ -153,7 +154,9 @@ def test_the_oracle_of_c_takes_what_is_right(text: str, tmp_path: Path) -> None:
     assert ros_c_compiles(tmp_path, tmp_path / "c")
 
 
-@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=examples(40), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 @given(declared=messages())
 @pytest.mark.system
 def test_a_struct_made_at_random_is_to_ros_what_it_is_here(declared: Message, tmp_path: Path) -> None:
@@ -221,7 +224,9 @@ ENDS = [";", ";", "; // c", "; /* c */", "", ";;", "};"]
 members = st.tuples(*map(st.sampled_from, (ANNOTATIONS, TYPES, DECLARATORS, ENDS))).map(" ".join)
 
 
-@settings(max_examples=120, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=examples(120), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 @given(before=st.sampled_from(BEFORE), member=members)
 @pytest.mark.system
 def test_members_made_at_random_are_taken_or_refused_as_by_ros(

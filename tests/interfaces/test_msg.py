@@ -27,6 +27,7 @@ from microros_gen.interfaces.types import (
     StringType,
     TypeName,
 )
+from tests.support.examples import examples
 from tests.support.ids import without_id
 from tests.support.interfaces.msg_corpus import BAD, GOOD
 from tests.support.interfaces.msg_model import (
@@ -186,7 +187,7 @@ def test_what_is_taken_has_no_error_and_what_is_refused_has_one() -> None:
 # --- round trip: model → text → the same model
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300), deadline=None)
 @given(messages())
 def test_a_printed_message_reads_as_the_same_message(message: Message) -> None:
     text = message_text(message)
@@ -195,7 +196,7 @@ def test_a_printed_message_reads_as_the_same_message(message: Message) -> None:
     assert without_places(again) == message
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300), deadline=None)
 @given(st.text(st.sampled_from("int8 strg<=[]#\"'\\,=\n\taAB/_5é.-"), max_size=60))
 def test_no_text_makes_the_reader_fail(text: str) -> None:
     message, messages = read(text)

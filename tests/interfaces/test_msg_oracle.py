@@ -16,6 +16,7 @@ from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.interfaces.msg.parser import parse_msg
 from microros_gen.interfaces.type_description import individual_type_description
 from microros_gen.interfaces.types import Message, TypeName
+from tests.support.examples import examples
 from tests.support.ids import without_id
 from tests.support.interfaces.msg_corpus import BAD, DIFFERENCES, GOOD, RIGHT_NAMES, WRONG_NAMES, Difference
 from tests.support.interfaces.rosidl_pipeline import adapter_message, ros_message
@@ -116,7 +117,9 @@ lines = st.tuples(*map(st.sampled_from, (TYPES, EXTENTS, GAPS, NAMES, EQUALS, VA
 )
 
 
-@settings(max_examples=1500, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=examples(1500), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 @given(line=lines)
 def test_lines_made_at_random_are_taken_or_refused_as_by_ros(line: str, tmp_path: Path) -> None:
     ours, theirs = read(line), ros_message(line, tmp_path)

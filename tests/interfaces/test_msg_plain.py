@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from microros_gen.interfaces.msg import grammar
 from microros_gen.interfaces.msg.syntax import Node, Word, plain_declaration
+from tests.support.examples import examples
 from tests.support.interfaces.msg_corpus import BAD, GOOD
 from tests.support.paths import ROOT
 
@@ -79,7 +80,7 @@ def test_what_is_plain(line: str, plain: bool) -> None:
     assert agree(line) is plain
 
 
-@settings(max_examples=600, deadline=None)
+@settings(max_examples=examples(600), deadline=None)
 @given(st.lists(st.sampled_from(PARTS), max_size=9).map("".join).map(str.rstrip))
 def test_any_line(line: str) -> None:
     agree(line)
@@ -93,7 +94,7 @@ ENDS = st.sampled_from(
 )
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=examples(400), deadline=None)
 @given(
     st.tuples(WORDS, EXTENTS, GAPS, st.sampled_from(("x", "MAX", "x1é", "_x")), ENDS)
     .map("".join)

@@ -21,6 +21,7 @@ from microros_gen.interfaces.msg.srv import parse_srv
 from microros_gen.interfaces.msg.text import declaration_text
 from microros_gen.interfaces.type_description import type_description
 from microros_gen.interfaces.types import Action, Message, NamedType, Primitive, Service, TypeName, element_of
+from tests.support.examples import examples
 from tests.support.ids import without_id
 from tests.support.interfaces.msg_model import messages, without_places
 from tests.support.interfaces.rosidl_pipeline import adapter_parts, ros_declaration
@@ -212,7 +213,7 @@ def declarations(draw: st.DrawFn) -> Service | Action:
     return make_declaration(name, drawn, drawn[0].comment)
 
 
-@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=examples(100), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(declarations())
 def test_a_printed_declaration_reads_as_the_same(declaration: Service | Action) -> None:
     again, messages = read(declaration_text(declaration), declaration.name.kind)
@@ -221,7 +222,7 @@ def test_a_printed_declaration_reads_as_the_same(declaration: Service | Action) 
         assert without_places(read_again) == ours
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200), deadline=None)
 @given(st.text(st.sampled_from("-----\n\n\nint8 ab=#"), max_size=60), st.sampled_from(["srv", "action"]))
 def test_no_text_makes_the_reader_fail(text: str, kind: str) -> None:
     found, messages = read(text, kind)

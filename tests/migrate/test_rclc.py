@@ -14,6 +14,7 @@ from microros_gen.migrate.draft import DraftEndpoint
 from microros_gen.migrate.rclc_draft import Adopted, rclc_draft
 from microros_gen.selection.component import Catalogue
 from microros_gen.selection.find_components import declared_functions, load_catalogue
+from tests.support.examples import examples
 
 NODE = 'rclc_node_init_default(&node, "n", "", &support);'
 INT32 = "ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32)"
@@ -385,7 +386,7 @@ FRAGMENTS_PER_SAMPLE = st.sampled_from(
 
 
 @given(st.lists(FRAGMENTS_PER_SAMPLE, max_size=60))
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(150), deadline=None)
 def test_any_text_is_read_to_its_end(chunks: list[str]) -> None:
     found = adopted(program("") + " ".join(chunks))
     assert found.draft.nodes[0].name == "n"

@@ -12,10 +12,11 @@ from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.modes import Event, Manager, Model, Status, parse_model, simulate
 from microros_gen.modes.behavior import settle_all
 from microros_gen.modes.stability import MOST_COMBINATIONS, trace
+from tests.support.examples import examples
 from tests.support.modes.oracle import STUCK, OscillatesError, PlainModel, settle
 from tests.support.modes.random_models import plain_models
 
-_FEW = settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+_FEW = settings(max_examples=examples(40), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 
 
 def parsed(plain: PlainModel) -> Model:
@@ -106,7 +107,7 @@ def histories(draw: st.DrawFn) -> tuple[PlainModel, tuple[Event, ...]]:
     return plain, tuple(events)
 
 
-@settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=examples(300), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(histories())
 def test_what_is_proven_is_stable_whatever_happens(history: tuple[PlainModel, tuple[Event, ...]]) -> None:
     """Requests, failures, repairs and changes by others, in any order and one after another."""

@@ -10,6 +10,7 @@ from microros_gen.diagnostics import Diagnostics, Source, UserError
 from microros_gen.modes import draw, parse_model, simulate
 from microros_gen.modes.script import parse_script
 from microros_gen.modes.verification import check_model
+from tests.support.examples import examples
 from tests.support.modes.models import model_of, model_text
 
 TEXTS = [model_text(name) for name in ("arm", "robot", "two_arms")]
@@ -41,7 +42,7 @@ def damaged(draw: st.DrawFn, text: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=examples(150), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.sampled_from(TEXTS).flatmap(damaged))
 def test_a_damaged_model_is_read_or_reported(text: str) -> None:
     diagnostics = Diagnostics()
@@ -55,7 +56,7 @@ def test_a_damaged_model_is_read_or_reported(text: str) -> None:
     assert draw(model).endswith("</svg>\n")
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(damaged(SCRIPT))
 def test_a_damaged_script_is_played_or_reported(text: str) -> None:
     diagnostics, model = Diagnostics(), model_of(TEXTS[0])

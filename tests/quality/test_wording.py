@@ -12,6 +12,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from tests.support.examples import examples
 from tests.support.paths import ROOT
 from tests.support.quality.wording import (
     TYPE_SUPPORT,
@@ -70,7 +71,7 @@ def test_the_list_finds_a_phrase_across_lines(text: str) -> None:
     assert refused(text)
 
 
-@settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=examples(300), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.data())
 def test_the_quick_patterns_find_every_match(data: st.DataObject) -> None:
     number = data.draw(st.integers(0, len(phrases()) - 1))

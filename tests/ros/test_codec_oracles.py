@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from microros_gen.interfaces.closure import InterfaceSet
 from microros_gen.interfaces.types import TypeName
 from microros_gen.ros.codec import Codec
+from tests.support.examples import examples
 from tests.support.ros.values import random_value, without_bytes
 from tests.support.typesupport.padding import padding
 from tests.support.typesupport.values import from_ros, ros_class, to_ros
@@ -52,7 +53,7 @@ def test_random_messages_as_rclpy_writes_and_reads_them(installed: InterfaceSet)
     names = [name for name in installed.messages if name.package in ("test_msgs", "rcl_interfaces")]
 
     @given(name=st.sampled_from(names), source=st.randoms(use_true_random=False))
-    @settings(max_examples=100, deadline=None, suppress_health_check=list(HealthCheck))
+    @settings(max_examples=examples(100), deadline=None, suppress_health_check=list(HealthCheck))
     def check(name: TypeName, source: random.Random) -> None:
         check_with_rclpy(installed, codec, name, source)
 

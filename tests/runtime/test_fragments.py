@@ -11,6 +11,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from tests.support.examples import examples
 from tests.support.plans import POOL, changed
 from tests.support.runtime.bench import Bench, ProgramFactory
 from tests.support.runtime.driver import Client
@@ -230,7 +231,7 @@ OPERATIONS = st.lists(
     max_size=40,
 )
 PROPERTY = settings(
-    max_examples=15,
+    max_examples=examples(15),
     deadline=None,
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )

@@ -13,6 +13,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from microros_gen.selection.find_components import components_folder
+from tests.support.examples import examples
 from tests.support.patience import seconds
 from tests.support.plans import POOL, changed
 from tests.support.runtime.frames import CLIENT, Event, crc16, events, frame, stuffed
@@ -93,7 +94,7 @@ def framing(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
     running.end()
 
 
-QUICK = settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+QUICK = settings(max_examples=examples(150), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 SPECIAL = st.sampled_from([0x00, 0x01, 0x5D, 0x5E, 0x7D, 0x7E])
 BYTES = st.lists(SPECIAL | st.integers(0, 255), max_size=90).map(bytes)
 MESSAGES = BYTES.filter(bool)

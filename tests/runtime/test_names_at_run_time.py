@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.support.application.names import NAMES, accepted
+from tests.support.examples import examples
 from tests.support.plans import POOL, changed
 from tests.support.runtime.harness import components, render
 
@@ -183,7 +184,7 @@ def ros() -> Any:
 
 
 @given(name=NAMES, namespace=st.sampled_from(["/", "/ns", "/a/b"]))
-@settings(max_examples=400)
+@settings(max_examples=examples(400))
 def test_topics(names: Names, ros: Any, name: str, namespace: str) -> None:
     """Without `name_substitutions`: no substitutions, and no `~x`, which rcl accepts with a single character.
 
@@ -208,7 +209,7 @@ def test_topics(names: Names, ros: Any, name: str, namespace: str) -> None:
 
 
 @given(name=NAMES)
-@settings(max_examples=300)
+@settings(max_examples=examples(300))
 def test_nodes_and_namespaces(names: Names, ros: Any, name: str) -> None:
     if len(name) > 200:
         return
@@ -218,7 +219,7 @@ def test_nodes_and_namespaces(names: Names, ros: Any, name: str) -> None:
 
 
 @given(name=st.one_of(NAMES, MORE_NAMES), scope=SCOPES)
-@settings(max_examples=600)
+@settings(max_examples=examples(600))
 def test_names_with_substitutions(names: Names, ros: Any, name: str, scope: tuple[str, str]) -> None:
     """What is passed to rcl_publisher_init, and what rcl_expand_topic_name gives."""
     node, namespace = scope
@@ -242,7 +243,7 @@ def test_names_with_substitutions(names: Names, ros: Any, name: str, scope: tupl
 
 
 @given(name=st.one_of(NAMES, MORE_NAMES))
-@settings(max_examples=600)
+@settings(max_examples=examples(600))
 def test_where_a_topic_is_wrong(names: Names, ros: Any, name: str) -> None:
     from rclpy.impl.implementation_singleton import rclpy_implementation
 

@@ -12,6 +12,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from tests.support.examples import EXAMPLES
 from tests.support.paths import ROOT, TESTS
 from tests.support.runtime.harness import EVERYWHERE
 from tests.tools.concerned import changed, concerned, imports
@@ -45,17 +46,20 @@ class Run:
     of_change: bool = False
     """Of the folders, those that the change in the working tree concerns."""
     environment: Mapping[str, str] = field(default_factory=dict)
+    without: tuple[str, ...] = ()
+    """Folders below tests/ that this run leaves out: another has them."""
 
 
 DEFAULT = "not long and not lint and not system"
+SANITIZED = ("runtime", "components", "e2e")
+"""Folders whose programs `make test` compiles without sanitizers."""
+EVERYTHING = {EXAMPLES: "all", EVERYWHERE: "all"}
 RUNS: Mapping[str, tuple[Run, ...]] = {
     "test": (Run(DEFAULT),),
     "quick": (Run(f"{DEFAULT} and not ros and not builds", UNITS, 0, of_change=True),),
     "system": (
-        Run("system and not long"),
-        Run(
-            DEFAULT, ("runtime", "components", "e2e"), environment={EVERYWHERE: "all"}
-        ),  # what make test compiles without
+        Run("(system or hypothesis) and not long and not lint", without=SANITIZED, environment=EVERYTHING),
+        Run("not long and not lint", SANITIZED, environment=EVERYTHING),
     ),
     "lint": (Run("lint and not long"),),
 }
@@ -70,7 +74,8 @@ def command(run: Run, options: Sequence[str]) -> list[str]:
         chosen = concerned(paths, imports(), run.folders)
         print(f"{len(paths)} files changed: unit tests of {', '.join(chosen)}", flush=True)
     folders = [f"tests/{folder}" for folder in chosen if (TESTS / folder).is_dir()]
-    return [*call, "-m", run.markers, *folders, *options]
+    ignored = [f"--ignore=tests/{folder}" for folder in run.without]
+    return [*call, "-m", run.markers, *folders, *ignored, *options]
 
 
 def main(arguments: Sequence[str]) -> int:

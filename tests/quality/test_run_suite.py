@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What `make test` leaves out runs in `make system` or `make lint`, and what it does in part runs there in full."""
+
+from __future__ import annotations
+
+from itertools import chain, combinations
+
+import pytest
+from _pytest.mark.expression import Expression
+
+from tests.support.examples import EXAMPLES, LEAST, examples
+from tests.support.paths import TESTS
+from tests.support.runtime.harness import EVERYWHERE
+from tests.tools.run_suite import RUNS, SANITIZED, Run, command
+
+FOLDERS = sorted(path.parent.name for path in TESTS.glob("*/__init__.py"))
+MARKERS = ("ros", "builds", "lint", "system", "hypothesis")
+SETS = [frozenset(chosen) for n in range(len(MARKERS) + 1) for chosen in combinations(MARKERS, n)]
+
+
+def has(run: Run, folder: str, markers: frozenset[str]) -> bool:
+    """Return whether a run has the tests of a folder with these markers."""
+    if folder in run.without or (run.folders and folder not in run.folders):
+        return False
+    return Expression.compile(run.markers).evaluate(lambda name, **_: name in markers)
+
+
+def runs(name: str, folder: str, markers: frozenset[str]) -> list[Run]:
+    return [run for run in RUNS[name] if has(run, folder, markers)]
+
+
+@pytest.mark.parametrize("folder", FOLDERS)
+def test_every_test_that_is_not_long_runs_in_ci(folder: str) -> None:
+    in_ci = ("test", "system", "lint")
+    missing = [markers for markers in SETS if not any(runs(name, folder, markers) for name in in_ci)]
+    assert missing == []
+
+
+@pytest.mark.parametrize("folder", FOLDERS)
+def test_make_system_runs_no_test_twice(folder: str) -> None:
+    assert [markers for markers in SETS if len(runs("system", folder, markers)) > 1] == []
+
+
+def test_make_system_has_all_examples_and_all_sanitizers() -> None:
+    assert all(run.environment == {EXAMPLES: "all", EVERYWHERE: "all"} for run in RUNS["system"])
+    drawn = frozenset({"hypothesis"})
+    assert all(runs("system", folder, drawn) for folder in FOLDERS)
+    assert all(runs("system", folder, frozenset()) for folder in SANITIZED)
+
+
+def test_long_runs_are_in_no_target() -> None:
+    for run in chain.from_iterable(RUNS.values()):
+        assert not any(has(run, folder, markers | {"long"}) for folder in FOLDERS for markers in SETS)
+
+
+def test_a_folder_that_another_run_has_is_left_out() -> None:
+    call = command(Run("system", without=("runtime",)), ())
+    assert "--ignore=tests/runtime" in call
+
+
+@pytest.mark.parametrize(("full", "drawn"), [(1500, 300), (200, 40), (100, LEAST), (15, 15)])
+def test_how_many_examples_are_drawn(monkeypatch: pytest.MonkeyPatch, full: int, drawn: int) -> None:
+    monkeypatch.delenv(EXAMPLES, raising=False)
+    assert examples(full) == drawn
+    monkeypatch.setenv(EXAMPLES, "all")
+    assert examples(full) == full
