@@ -20,6 +20,7 @@ memory: {arena: 4096}
 WHEELS = Path(sys.prefix)
 
 
+@pytest.mark.system
 @pytest.mark.ros
 def test_messages_are_formatted_as_by_librcutils(tmp_path: Path) -> None:
     source, libraries = UNITS / "log_messages.c", WHEELS / "lib"

@@ -42,6 +42,7 @@ def unit(out: Path, name: str, folder: Path, *flags: str) -> str:
     return run(program)
 
 
+@pytest.mark.system
 def test_formats_are_those_of_the_c_library(verbose: Path) -> None:
     assert int(run(program_of(verbose, "unit_log_format.c")).split()[0]) > 100_000
 

@@ -26,6 +26,7 @@ WRAPPED = 700
 """Bytes of a ring in which a dozen of lines do not fit."""
 
 
+@pytest.mark.system
 def test_lines_after_a_reset_at_every_access(tmp_path: Path) -> None:
     out = rendered(tmp_path, APPLICATION % WRAPPED)
     program, (by, flags) = tmp_path / "unit", quick()

@@ -33,6 +33,7 @@ def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return rendered(tmp_path_factory.mktemp("storage"), APPLICATION)
 
 
+@pytest.mark.system
 def test_power_is_lost_at_every_unit(out: Path) -> None:
     """The unit's memory stands in for that of the port, whose file is left out."""
     program = program_of(out, "unit_parameter_storage.c", without=["port_posix_storage.c"])

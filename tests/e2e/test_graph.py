@@ -109,6 +109,7 @@ def test_what_rclpy_sees(program: Path, agent: object, domain: int) -> None:
         assert device.lines("count available") == ["1"]
 
 
+@pytest.mark.system
 def test_a_short_script_instead_of_the_server(program: Path, agent: object, domain: int) -> None:
     """It has the contract of the page, and nothing else of this tool's server: queries, changes, matched counts."""
     with graph_peer(domain) as peer, graph_server(domain, SHORT), running(program) as device:
@@ -127,6 +128,7 @@ def test_a_short_script_instead_of_the_server(program: Path, agent: object, doma
         alike(lambda: device.lines("count matched_subscriptions"), lambda: [str(before)])
 
 
+@pytest.mark.system
 def test_changes_and_matched_counts(program: Path, agent: object, domain: int) -> None:
     with graph_peer(domain) as peer, graph_server(domain), running(program) as device:
         served(device)
@@ -144,6 +146,7 @@ def test_changes_and_matched_counts(program: Path, agent: object, domain: int) -
             assert time.monotonic() < end
 
 
+@pytest.mark.system
 def test_a_server_inside_the_agent(program: Path, relay: Relay, domain: int) -> None:
     options = ("--domain", str(domain), "--graph-server")
     with running_agent(domain, *options) as agent:
@@ -162,6 +165,7 @@ def test_a_server_inside_the_agent(program: Path, relay: Relay, domain: int) -> 
         assert agent.stop() == 0
 
 
+@pytest.mark.system
 def test_a_server_that_restarts(program: Path, agent: object, domain: int) -> None:
     with graph_server(domain) as server, running(program) as device:
         served(device)

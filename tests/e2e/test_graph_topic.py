@@ -83,6 +83,7 @@ def test_what_rclpy_sees(program: Path, agent: object, domain: int) -> None:
         assert device.lines("count matched_subscriptions") == ["1"]
 
 
+@pytest.mark.system
 def test_changes(program: Path, agent: object, domain: int) -> None:
     with graph_peer(domain) as peer, running(program) as device:
         counted(device, peer, "subscriptions", "/arm/count", "0")
@@ -97,6 +98,7 @@ def test_changes(program: Path, agent: object, domain: int) -> None:
             assert time.monotonic() < end
 
 
+@pytest.mark.system
 def test_an_agent_that_restarts(program: Path, relay: Relay, domain: int) -> None:
     with graph_peer(domain) as peer:
         peer.ask(do="subscribe", topic="/arm/count")

@@ -124,6 +124,7 @@ def test_nothing_is_lost_over_a_bad_network(
     over_udp(images, observer, agent, relay, 400, 60)
 
 
+@pytest.mark.system
 def test_nothing_is_lost_over_a_bad_line(
     images: Images, observer: Observer, domain: int, tmp_path: Path
 ) -> None:

@@ -132,6 +132,7 @@ def test_values_of_every_type(device: Device, peer: LineProcess) -> None:
         assert peer.ask(do="value", name=arguments.split()[1]) == content
 
 
+@pytest.mark.system
 def test_what_the_node_refuses(device: Device, peer: LineProcess) -> None:
     reached(device)
     code, error, _ = device.call("set 2 limited 11")
@@ -150,6 +151,7 @@ def test_what_the_node_refuses(device: Device, peer: LineProcess) -> None:
     assert device.call("get 3 gain")[0] == MISMATCH
 
 
+@pytest.mark.system
 def test_what_the_node_says_of_its_parameters(device: Device, peer: LineProcess) -> None:
     device.until("types gain labels", "type 2", "type 9")
     device.until("describe gain", "descriptor 'gain' 2 '' '' 0 0")
@@ -167,6 +169,7 @@ def test_what_the_node_says_of_its_parameters(device: Device, peer: LineProcess)
     assert device.call("types nothing gain")[0] == UNKNOWN
 
 
+@pytest.mark.system
 def test_changes_and_a_restart_of_the_node(device: Device, peer: LineProcess) -> None:
     device.lines("watch")
     reached(device)
@@ -192,6 +195,7 @@ def test_changes_and_a_restart_of_the_node(device: Device, peer: LineProcess) ->
     device.until("names gain", "value 2 3")
 
 
+@pytest.mark.system
 def test_asynchronous_calls(device: Device, peer: LineProcess) -> None:
     reached(device)
     device.lines("async_names gain label")

@@ -32,6 +32,7 @@ MOST = 1.1
 """Of the round trip of a service."""
 
 
+@pytest.mark.system
 def test_a_set_reaches_the_callback_within_a_round_trip(
     images: Images, image_port: Relay, agent: AgentProcess, domain: int, tmp_path: Path
 ) -> None:

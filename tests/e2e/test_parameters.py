@@ -126,6 +126,7 @@ def typed(kind: str, value: list[Any]) -> dict[str, Any]:
     return {"type": kind, "value": value}
 
 
+@pytest.mark.system
 def test_arrays_as_of_an_rclpy_node(
     images: Images, image_port: Relay, agent: AgentProcess, domain: int, tmp_path: Path
 ) -> None:
@@ -178,6 +179,7 @@ def test_arrays_as_of_an_rclpy_node(
         ends_well(process)
 
 
+@pytest.mark.system
 def test_values_that_are_not_listed(
     images: Images, image_port: Relay, agent: AgentProcess, domain: int, tmp_path: Path
 ) -> None:
@@ -199,6 +201,7 @@ def test_values_that_are_not_listed(
         ends_well(process)
 
 
+@pytest.mark.system
 def test_after_a_restart_of_the_agent(images: Images, relay: Relay, domain: int, tmp_path: Path) -> None:
     """The device keeps its values; the new agent has its services, and events go on."""
     program = program_of(images, relay.port, tmp_path)
@@ -225,6 +228,7 @@ def test_after_a_restart_of_the_agent(images: Images, relay: Relay, domain: int,
             ends_well(process, 60)
 
 
+@pytest.mark.system
 def test_the_example_of_the_profile_with_diagnostics(
     images: Images, image_port: Relay, agent: AgentProcess, domain: int, observer: Observer
 ) -> None:

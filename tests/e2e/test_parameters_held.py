@@ -132,6 +132,7 @@ def test_as_an_rclpy_node_and_without_the_board(
                 ends_well(process)
 
 
+@pytest.mark.system
 def test_a_server_of_its_own_that_restarts(program: Path, relay: Relay, domain: int, tmp_path: Path) -> None:
     """The agent leaves it the parameters; while it is away nothing is lost."""
     file = tmp_path / "own.json"
@@ -171,6 +172,7 @@ def replaced(program: Path, relay: Relay, domain: int, folder: Path, *script: st
             until(lambda: values(peer, "motor.steps"), [30])
 
 
+@pytest.mark.system
 def test_a_short_script_instead_of_the_server(
     program: Path, relay: Relay, domain: int, tmp_path: Path
 ) -> None:

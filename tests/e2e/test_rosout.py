@@ -75,6 +75,7 @@ def test_lines_as_those_of_an_rclpy_node(
     assert all(began - 1 <= line["stamp"]["sec"] <= time.time() for line in found)
 
 
+@pytest.mark.system
 def test_nothing_is_lost_with_the_agent(
     images: Images, relay: Relay, domain: int, observer: Observer, tmp_path: Path
 ) -> None:

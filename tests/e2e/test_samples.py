@@ -129,6 +129,7 @@ def check_measurements(measurements: list[Any]) -> None:
     assert stamps == sorted(stamps)
 
 
+@pytest.mark.system
 def test_an_image_that_is_killed_leaves_the_graph_and_returns(
     profile_image: Image, agent: AgentProcess, observer: Observer
 ) -> None:

@@ -30,6 +30,7 @@ CYCLES, EACH = 6, 10
 CREATE_CLIENT, CREATE, GET_INFO, DELETE = range(4)
 
 
+@pytest.mark.system
 def test_samples_go_on_over_sleeps(
     images: Images, relay: Relay, observer: Observer, domain: int, tmp_path: Path
 ) -> None:

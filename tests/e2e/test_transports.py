@@ -14,6 +14,7 @@ from tests.support.agent.process import running_agent
 from tests.support.e2e.images import QUICK, Images, ends_well, started
 from tests.support.e2e.programs import run_to, until
 from tests.support.patience import seconds
+from tests.support.slices import first
 
 pytestmark = pytest.mark.ros
 
@@ -35,7 +36,7 @@ SAMPLES = 3 * LAST
 """Samples of a program with one session: nine seconds, since DDS discovery takes some on a busy machine."""
 
 
-@pytest.mark.parametrize("way", ["udp", "line"])
+@pytest.mark.parametrize("way", first(["line", "udp"]))
 def test_functions_of_an_application(
     images: Images, observer: Observer, domain: int, way: str, tmp_path: Path
 ) -> None:
@@ -90,6 +91,7 @@ def test_tcp_and_an_agent_that_restarts(images: Images, observer: Observer, doma
     shutil.rmtree(image.out.parent)  # its port is this test's
 
 
+@pytest.mark.system
 def test_an_agent_that_is_searched_for(images: Images, observer: Observer, domain: int) -> None:
     """The image knows a port of the multicast group alone; the agent, and one after it, listen wherever they like."""
     port = _free_port()

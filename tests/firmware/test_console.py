@@ -127,6 +127,7 @@ def stalled_line(folder: Path) -> Iterator[StalledLine]:
         line.close()
 
 
+@pytest.mark.system
 @pytest.mark.parametrize("way", first(CONSOLES))
 def test_a_burst_on_a_stalled_line_fits_or_is_reported(tmp_path: Path, way: str) -> None:
     need(way.split()[0], emulator=True)

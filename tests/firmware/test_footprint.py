@@ -23,7 +23,7 @@ CEILINGS = load()
 
 
 SLICE = f"{CORTEX_M4} pure_sender binary reliable code"
-"""What the default suite measures."""
+"""What `make system` measures."""
 MORE = (
     f"{CORTEX_M4} pure_sender binary best_effort code",
     "qemu-microbit pure_sender binary reliable code",
@@ -36,7 +36,7 @@ def _params() -> Iterator[ParameterSet]:
     for name, sender in cases():
         label = f"{name} {sender.label}"
         others = [pytest.mark.lint if label in MORE else pytest.mark.long]
-        yield pytest.param(name, sender, id=label, marks=[] if label == SLICE else others)
+        yield pytest.param(name, sender, id=label, marks=[pytest.mark.system] if label == SLICE else others)
 
 
 @pytest.mark.parametrize(("name", "sender"), list(_params()))
@@ -66,6 +66,7 @@ def test_the_promise_for_the_cortex_m4(builds: Builds) -> None:
     assert best_effort["publish"] <= 350
 
 
+@pytest.mark.system
 def test_the_measured_stack_is_within_the_proven_bound(builds: Builds) -> None:
     """What an image used in the emulator, against the bound over its call graph and the goal of 700 bytes."""
     need(CORTEX_M4, emulator=True)

@@ -41,6 +41,7 @@ def seen_by_rclpy(peer: LineProcess) -> list[int]:
     ]
 
 
+@pytest.mark.system
 @pytest.mark.ros
 @pytest.mark.parametrize("component", first(["graph", "graph_topic"]))
 def test_the_firmware_sees_what_rclpy_sees(builds: Builds, domain: int, component: str) -> None:

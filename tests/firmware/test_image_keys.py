@@ -71,6 +71,7 @@ def built(home: Path, text: str) -> Built:
     return firmware
 
 
+@pytest.mark.system
 def test_an_image_after_a_bootloader_has_its_vectors_hooks_and_memories(tmp_path: Path) -> None:
     need("qemu-mps2-an386", emulator=True)
     boot = tmp_path / "boot.bin"
@@ -97,6 +98,7 @@ def test_an_image_after_a_bootloader_has_its_vectors_hooks_and_memories(tmp_path
     } == {True}
 
 
+@pytest.mark.system
 def test_a_hook_missing_in_the_application_is_named(tmp_path: Path) -> None:
     need("cortex-m3")
     firmware = built(tmp_path, "target: mine\nextends: qemu-mps2-an385\nhooks: {watchdog: feed_the_dog}\n")
@@ -106,6 +108,7 @@ def test_a_hook_missing_in_the_application_is_named(tmp_path: Path) -> None:
     assert "feed_the_dog" in str(error.value)
 
 
+@pytest.mark.system
 @pytest.mark.parametrize("way", only(SHORT, PRINTING))
 def test_printf_goes_where_the_target_file_says(tmp_path: Path, way: str) -> None:
     name, stdio = PRINTING[way]

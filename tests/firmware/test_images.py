@@ -165,6 +165,7 @@ def test_a_missing_compiler_is_named_with_its_package(
     assert "apt-get install gcc-arm-none-eabi libnewlib-arm-none-eabi" in done.stderr
 
 
+@pytest.mark.system
 def test_what_does_not_fit_into_ram_says_how_much_too_large_it_is(tmp_path: Path) -> None:
     need("cortex-m3")
     board = USER_BOARD.replace("8 KiB", "2304") + "uart: {driver: cmsdk, base: 0x40004000, irq: 0}\n"

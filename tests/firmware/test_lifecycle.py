@@ -28,6 +28,7 @@ SIZES = {
 SIZES_OF_ENTITIES = {"xml": (21_860, 4_268), "reference": (20_904, 3_140), "preconfigured": (19_336, 3_020)}
 
 
+@pytest.mark.system
 @pytest.mark.ros
 def test_rclpy_drives_it(builds: Builds, domain: int) -> None:
     """The states, callbacks and lists are those of rclpy's node; the whole graph comes in fragments over the line."""
@@ -66,6 +67,7 @@ def test_rclpy_drives_it(builds: Builds, domain: int) -> None:
     assert report == [4, 2, 1, 1, 1]
 
 
+@pytest.mark.system
 @pytest.mark.parametrize(("name", "limits"), SIZES.items(), ids=SIZES)
 def test_its_size(builds: Builds, name: str, limits: tuple[int, int, int]) -> None:
     """Five services, a publisher, executor, over a serial line."""
@@ -77,6 +79,7 @@ def test_its_size(builds: Builds, name: str, limits: tuple[int, int, int]) -> No
     assert all(value <= limit for value, limit in zip(found, limits, strict=True)), found
 
 
+@pytest.mark.system
 @pytest.mark.parametrize(("entities", "limits"), SIZES_OF_ENTITIES.items(), ids=SIZES_OF_ENTITIES)
 def test_its_size_by_entities(builds: Builds, entities: str, limits: tuple[int, int]) -> None:
     need(NAME)

@@ -23,6 +23,7 @@ nodes: [{name: device, namespace: /arm}]
 """
 
 
+@pytest.mark.system
 @pytest.mark.ros
 def test_rclpy_receives_what_the_board_logged_before_a_fault(
     builds: Builds, domain: int, observer: Observer

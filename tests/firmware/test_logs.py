@@ -42,6 +42,7 @@ def done(running: Board) -> bool:
     return running.words("logs_report", 1) == [1]
 
 
+@pytest.mark.system
 @pytest.mark.ros
 def test_rclpy_receives_what_the_board_logs(builds: Builds, domain: int, observer: Observer) -> None:
     built = builds.merged(NAME, APPLICATION)

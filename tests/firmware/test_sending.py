@@ -70,6 +70,7 @@ def fragments(agent: FakeAgent) -> Iterator[tuple[bool, bytes]]:
         yield bool(message[5] & 2), message[8 : 8 + size]
 
 
+@pytest.mark.system
 def test_a_publish_returns_at_once_when_the_line_takes_nothing(builds: Builds) -> None:
     """A fragment alone takes 45 ms on a line of 115,200 baud, and the 15 of a message 0.6 s."""
     stopped, agent = published_while_the_line_stalls(builds, application(512, LARGE))

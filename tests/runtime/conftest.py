@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Client programs, each compiled once for one plan and one way of liveliness; those of usual plans with sanitizers."""
+"""Client programs, each compiled once for one plan and one way of liveliness."""
 
 from __future__ import annotations
 
@@ -11,11 +11,8 @@ from pathlib import Path
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
-from tests.support.plans import DECLARED, POOL, READER, SERVER
 from tests.support.runtime.bench import Bench, ProgramFactory
-from tests.support.runtime.harness import SANITIZE, SANITIZER, build, components, quick, render
-
-USUAL = (POOL, DECLARED, READER, SERVER)
+from tests.support.runtime.harness import build, components, render
 
 
 @pytest.fixture(scope="session")
@@ -33,8 +30,7 @@ def programs(tmp_path_factory: pytest.TempPathFactory) -> ProgramFactory:
         epoch = "client_time.c" if plan.session.has_time_sync else "client_no_time.c"
         extra = "client_extra.c" if plan.session.has_state and plan.session.has_sleep else "client_no_extra.c"
         port = ["port_fake.c", *(["port_fake_lines.c"] if plan.transport.has_discovery else [])]
-        checked = (SANITIZER, SANITIZE) if plan in USUAL and liveliness == "ping" else quick()
-        return build(tree, [*port, "client.c", ping, epoch, extra, *read], "client", *checked)
+        return build(tree, [*port, "client.c", ping, epoch, extra, *read], "client")
 
     return compiled
 

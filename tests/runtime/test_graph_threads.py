@@ -8,6 +8,8 @@ import subprocess
 import threading
 from pathlib import Path
 
+import pytest
+
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.documents.named import Named
 from microros_gen.interfaces.closure import resolve_interfaces
@@ -82,6 +84,7 @@ class Serving:
         return [[result["successful"] for result in reply["results"]] for reply in replies]
 
 
+@pytest.mark.system
 def test_tasks_that_query_while_an_executor_answers(tmp_path: Path) -> None:
     graph = MadeGraph(subscribing={"/arm/count": (endpoint("/root", 1), endpoint("/a/b/deep", 2))})
     agent = GraphAgent(mtu=256, graph=graph, reader=READER, first_client=FIRST_CLIENT)

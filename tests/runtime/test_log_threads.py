@@ -6,6 +6,8 @@ from __future__ import annotations
 import subprocess
 from pathlib import Path
 
+import pytest
+
 from tests.support.components.rendered import UNITS, rendered, run
 from tests.support.patience import seconds
 
@@ -19,6 +21,7 @@ logging: [{to: console, level: debug}]
 TURNS, TASKS = 2000, (1, 2)
 
 
+@pytest.mark.system
 def test_tasks_log_while_levels_change(tmp_path: Path) -> None:
     out = rendered(tmp_path, APPLICATION)
     program, printed = tmp_path / "unit", tmp_path / "printed"

@@ -109,6 +109,7 @@ def tree(tmp_path_factory: pytest.TempPathFactory) -> Tree:
     return Tree(whole.folder, tuple(s for s in whole.sources if not s.parent.name.startswith("port_posix")))
 
 
+@pytest.mark.system
 def test_every_state_returns_what_librcl_returns(tree: Tree, tmp_path: Path) -> None:
     source = FOLDER / "states.c"
     ours = of_ours(source, tree, tmp_path, [FIXTURES / "port_agent.c"])
@@ -127,6 +128,7 @@ def test_every_state_returns_what_rclc_returns(tree: Tree, tmp_path: Path) -> No
     assert len(found) == 2 + len(DIFFERENT_RCLC)
 
 
+@pytest.mark.system
 def test_names_that_the_graph_refuses_are_those_of_librcl(tmp_path: Path) -> None:
     source = FOLDER / "graph_names.c"
     whole = write_application(tmp_path / "ours", GRAPH)
