@@ -488,6 +488,7 @@ def mischief(stage: Stage, chance: random.Random) -> Callable[[], object]:
     return lambda: stage.say(chance.choice(wrong), stream=stream, little=chance.random() < 0.9)
 
 
+@pytest.mark.system
 def test_memory_stays_where_it_is() -> None:
     """Many rounds of everything, with crashes and sleep between them, leave what the first rounds left."""
     stage = Stage()

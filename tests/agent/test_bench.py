@@ -69,6 +69,7 @@ def test_round_trips_end_where_they_began(programs: Programs, target: Target) ->
     assert loopback_trip(programs, 100).samples == 100
 
 
+@pytest.mark.system
 def test_memory_is_read_for_each_number_of_clients(target: Target) -> None:
     seen = memory(target, (2,))
     assert [clients for clients, _, _ in seen] == [0, 2]

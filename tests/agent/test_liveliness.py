@@ -44,6 +44,7 @@ def live(bench: Bench, seconds: float, loss: float, chance: random.Random) -> in
     return dropped
 
 
+@pytest.mark.system
 @pytest.mark.parametrize("timeout_ms", [2_000, 10_000])
 def test_a_line_that_loses_a_third_is_not_dead(timeout_ms: int) -> None:
     """An hour: with a time-out that ignores the quality of the line it would time out a dozen times."""

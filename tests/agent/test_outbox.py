@@ -143,6 +143,7 @@ def test_a_slow_line_is_reported() -> None:
     assert len(numbers) == 20_000 - bench.log.counters["line_slow"]
 
 
+@pytest.mark.system
 def test_a_slow_connection_is_reported() -> None:
     bench = Bench()
     transport = tcp(bench)

@@ -103,6 +103,7 @@ def test_they_leave_the_graph_and_return_with_all_they_asked_for() -> None:
         use(client, observer, 4)
 
 
+@pytest.mark.system
 def test_another_agent_is_noticed_and_given_everything_again() -> None:
     domain = own_domain()
     with observing(domain) as observer, running_agent(domain) as agent:

@@ -80,6 +80,7 @@ def message(stream: int, sequence: int, *submessages: Create | WriteData) -> byt
     return join(Header(0x81, stream, sequence), [encode(submessage) for submessage in submessages])
 
 
+@pytest.mark.system
 def test_nothing_is_lost_to_a_reader_that_takes_nothing_for_long(
     bridged: Bridged, bridge_observer: Observer
 ) -> None:

@@ -72,6 +72,7 @@ def check(world: World, stopped: dict[str, object]) -> None:
     assert world.count["samples down"] > 0
 
 
+@pytest.mark.system
 def test_clients_connect_and_leave(tmp_path: Path) -> None:
     """Sleep is left out here: test_ros_sleepers.py has it."""
     world, stopped = soak(tmp_path, places=20, seconds=2, timeout_s=6, sleeping=False)

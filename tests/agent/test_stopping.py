@@ -92,6 +92,7 @@ def test_a_reader_that_is_late_gets_the_last_samples() -> None:
         assert agent.process.wait(timeout=seconds(15)) == 0
 
 
+@pytest.mark.system
 @pytest.mark.ros
 def test_a_reader_that_never_reads_delays_the_end_by_a_second() -> None:
     domain = own_domain()

@@ -77,6 +77,7 @@ def test_messages_survive_any_cut(messages: list[bytes], data: st.DataObject) ->
     assert not decoder.unfinished
 
 
+@pytest.mark.system
 def test_many_clients_at_once() -> None:
     bench = Bench()
     transport = tcp(bench)
@@ -126,6 +127,7 @@ def test_the_same_port_of_udp_and_of_both_versions() -> None:
         assert len(served.ready) == 4
 
 
+@pytest.mark.system
 def test_a_slow_reader_delays_no_other() -> None:
     """What it does not take is bounded and counted; others go on meanwhile; messages that arrive are whole."""
     bench = Bench()

@@ -172,7 +172,11 @@ def taken(err: str) -> list[int]:
         ),
         pytest.param(HEAD + "pools: {history: 8}\n" + STAR, 60_000, marks=pytest.mark.system),
         pytest.param(HEAD + STAR, 4_000, marks=pytest.mark.system),
-        (HEAD.replace("type: std_msgs/msg/String", "type: std_msgs/msg/Int32") + f"{STAR}{JOINTS}", 4_000),
+        pytest.param(
+            HEAD.replace("type: std_msgs/msg/String", "type: std_msgs/msg/Int32") + f"{STAR}{JOINTS}",
+            4_000,
+            marks=pytest.mark.system,
+        ),
         ("version: 1\nprofiles: [pure_sender]\ninterfaces: [sensor_msgs/msg/Imu]\n" + STAR, 900),
         ("version: 1\nprofiles: [pure_reader]\ninterfaces: [sensor_msgs/msg/Imu]\n" + STAR, 1_600),
     ],

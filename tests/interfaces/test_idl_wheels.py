@@ -36,6 +36,7 @@ from microros_gen.interfaces.types import (
     TypeName,
 )
 from tests.support.ids import without_id
+from tests.support.slices import spread
 
 pytestmark = pytest.mark.ros
 SHARE = Path(sys.prefix) / "share"
@@ -182,9 +183,9 @@ def test_printed_text_is_read_back() -> None:
             assert comments(ours) == comments(other), ours.name
 
 
-@pytest.mark.parametrize("name", ["std_msgs/msg/Empty", "test_msgs/msg/Defaults", "test_msgs/msg/Arrays",
+@pytest.mark.parametrize("name", spread(["std_msgs/msg/Empty", "test_msgs/msg/Defaults", "test_msgs/msg/Arrays",
     "test_msgs/msg/WStrings", "test_msgs/msg/Constants", "sensor_msgs/msg/Imu", "test_msgs/srv/Arrays",
-    "test_msgs/action/NestedMessage", "diagnostic_msgs/msg/DiagnosticStatus", "sensor_msgs/msg/Range"])  # fmt: skip
+    "test_msgs/action/NestedMessage", "diagnostic_msgs/msg/DiagnosticStatus", "sensor_msgs/msg/Range"]))  # fmt: skip
 def test_printed_text_is_to_rosidl_what_the_installed_file_is(name: str, tmp_path: Path) -> None:
     from tests.support.interfaces.rosidl_idl_pipeline import ros_idl
 

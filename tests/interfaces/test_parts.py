@@ -25,6 +25,7 @@ from tests.support.examples import examples
 from tests.support.ids import without_id
 from tests.support.interfaces.msg_model import messages, without_places
 from tests.support.interfaces.rosidl_pipeline import adapter_parts, ros_declaration
+from tests.support.slices import spread
 
 INSTALLED = sorted((Path(sys.prefix) / "share").glob("*/srv/*.srv"))
 INSTALLED += sorted((Path(sys.prefix) / "share").glob("*/action/*.action"))
@@ -242,7 +243,7 @@ def described(declaration: Service | Action) -> dict[str, Any]:
 
 
 @pytest.mark.ros
-@pytest.mark.parametrize("path", INSTALLED, ids=lambda path: f"{path.parent.parent.name}-{path.stem}")
+@pytest.mark.parametrize("path", spread(INSTALLED), ids=lambda path: f"{path.parent.parent.name}-{path.stem}")
 def test_installed_files_are_read_as_ros_reads_them(path: Path, tmp_path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     kind, package = path.suffix[1:], path.parent.parent.name

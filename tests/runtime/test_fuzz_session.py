@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """libFuzzer over the whole client, and over the frames of serial lines, from the corpora kept in corpus/.
 
-The corpus is replayed and a little more is tried, of frames in `make test` and of the client in `make system`; `-m long`
-goes on for MICROROS_FUZZ_SECONDS (600).
+The corpus is replayed and a little more is tried, of frames in `make test` and of the client in `make system`;
+`-m long` goes on for MICROROS_FUZZ_SECONDS (600).
 """
 
 from __future__ import annotations

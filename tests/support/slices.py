@@ -11,12 +11,23 @@ from _pytest.mark import ParameterSet
 
 def first(values: Iterable[object], count: int = 1) -> list[object]:
     """Return parameters of a test: the first `count` values as they are, the others for `make system`."""
-    return [
-        value if number < count else pytest.param(value, marks=pytest.mark.system)
-        for number, value in enumerate(values)
-    ]
+    return [value if number < count else _later(value) for number, value in enumerate(values)]
+
+
+def spread(values: Iterable[object], every: int = 4) -> list[object]:
+    """Return parameters of a test: one of `every` values as it is, the others for `make system`."""
+    return [_later(value) if number % every else value for number, value in enumerate(values)]
+
+
+def spread_rows(rows: Iterable[tuple[object, ...]], every: int = 4) -> list[object]:
+    """Return the same for a test of several parameters."""
+    return [_later(*row) if number % every else row for number, row in enumerate(rows)]
 
 
 def only(chosen: Collection[str], names: Iterable[str]) -> list[str | ParameterSet]:
     """Return parameters of a test: the `chosen` names as they are, the others for `make system`."""
     return [name if name in chosen else pytest.param(name, marks=pytest.mark.system) for name in names]
+
+
+def _later(*values: object) -> ParameterSet:
+    return pytest.param(*values, marks=pytest.mark.system)
