@@ -35,7 +35,7 @@ from tests.support.agent.fakes import Bench
 from tests.support.agent.readers import FOREVER, reader_entities, sample
 from tests.support.agent.serial_link import frame
 from tests.support.agent.storm import bench_with_everything, check, services
-from tests.support.slices import first
+from tests.support.examples import examples
 
 FORMS = tuple(DataFormat)
 COUNTS = (0, 1, 2, 0xFF, 0x7FFF, 0xFFFF, 0x10000, 0x7FFFFFFF, 0xFFFFFFFF)
@@ -50,9 +50,10 @@ def fuzzer(run: Callable[[int, int], None]) -> Callable[[int, int], None]:
     return run
 
 
-@pytest.mark.parametrize("name", first(["datagrams", "tcp_bytes", "serial_bytes", "discovery_datagrams"]))
+@pytest.mark.parametrize("name", ["datagrams", "tcp_bytes", "serial_bytes", "discovery_datagrams"])
+@pytest.mark.examples
 def test_a_slice(name: str) -> None:
-    FUZZERS[name](1, 2_000)
+    FUZZERS[name](1, examples(2_000))
 
 
 @pytest.mark.long

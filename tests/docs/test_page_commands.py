@@ -43,8 +43,13 @@ NEEDS = {
 
 LONG = ("howto/init.md", "tutorial/nucleo_f446re.md")
 """Pages that compile the library by CMake; tests/workspace and test_boards.py have their slices."""
-SYSTEM = ("tutorial/host.md", "tutorial/qemu.md", "howto/component.md", "howto/migrate.md")
-"""Pages of which quick_start.md, tests/firmware, tests/selection and tests/migrate have the shorter sibling."""
+SYSTEM = (
+    *("tutorial/host.md", "tutorial/qemu.md", "tutorial/esp32c3.md", "tutorial/pico.md"),
+    *("howto/component.md", "howto/lifecycle.md", "howto/logging.md", "howto/migrate.md", "howto/modes.md"),
+    *("howto/parameter_server.md", "howto/port.md", "howto/profile.md"),
+)
+"""Pages whose commands start compilers and servers, of which quick_start.md and the tests of these parts have the
+shorter sibling."""
 
 
 def pages_that_run() -> list[Any]:

@@ -177,6 +177,7 @@ def test_the_counters_of_troubleshooting_exist() -> None:
     assert [member for member, _ in named if not re.search(rf"\b{member};", members)] == []
 
 
+@pytest.mark.system
 def test_two_runs_write_the_same() -> None:
     """In a process with other hashes too."""
     script = "import json; from hooks import SCHEMA_FILES, generated; print(json.dumps(generated()))"

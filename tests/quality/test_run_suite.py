@@ -8,13 +8,13 @@ from itertools import chain, combinations
 import pytest
 from _pytest.mark.expression import Expression
 
-from tests.support.examples import EXAMPLES, LEAST, examples
+from tests.support.examples import EXAMPLES, LEAST, examples, some
 from tests.support.paths import TESTS
 from tests.support.runtime.harness import EVERYWHERE
 from tests.tools.run_suite import RUNS, SANITIZED, Run, command
 
 FOLDERS = sorted(path.parent.name for path in TESTS.glob("*/__init__.py"))
-MARKERS = ("ros", "builds", "lint", "system", "hypothesis")
+MARKERS = ("ros", "builds", "lint", "system", "hypothesis", "examples")
 SETS = [frozenset(chosen) for n in range(len(MARKERS) + 1) for chosen in combinations(MARKERS, n)]
 
 
@@ -43,8 +43,8 @@ def test_make_system_runs_no_test_twice(folder: str) -> None:
 
 def test_make_system_has_all_examples_and_all_sanitizers() -> None:
     assert all(run.environment == {EXAMPLES: "all", EVERYWHERE: "all"} for run in RUNS["system"])
-    drawn = frozenset({"hypothesis"})
-    assert all(runs("system", folder, drawn) for folder in FOLDERS)
+    for marker in ("hypothesis", "examples"):
+        assert all(runs("system", folder, frozenset({marker})) for folder in FOLDERS)
     assert all(runs("system", folder, frozenset()) for folder in SANITIZED)
 
 
@@ -62,5 +62,7 @@ def test_a_folder_that_another_run_has_is_left_out() -> None:
 def test_how_many_examples_are_drawn(monkeypatch: pytest.MonkeyPatch, full: int, drawn: int) -> None:
     monkeypatch.delenv(EXAMPLES, raising=False)
     assert examples(full) == drawn
+    assert some(range(9)) == range(0, 9, 4)
     monkeypatch.setenv(EXAMPLES, "all")
     assert examples(full) == full
+    assert some(range(9)) == range(9)

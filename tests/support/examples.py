@@ -1,17 +1,29 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How many examples Hypothesis draws: a fifth in `make test`, all of them in `make system`."""
+"""How many examples a test draws: a fifth in `make test`, all of them in `make system`.
+
+For tests that Hypothesis draws for, and those with the marker `examples`.
+"""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
+from typing import TypeVar
+
+Item = TypeVar("Item")
 
 EXAMPLES = "MICROROS_TEST_EXAMPLES"
 """`all`: each test draws the examples that it names, as in `make system`."""
 LEAST = 25
 
 
-def examples(full: int) -> int:
-    """Return how many examples a test draws that names `full` of them."""
+def examples(full: int, least: int = LEAST) -> int:
+    """Return how many examples a test draws that names `full` of them, at least `least` where it names as many."""
     if os.environ.get(EXAMPLES) == "all":
         return full
-    return min(full, max(LEAST, full // 5))
+    return min(full, max(least, full // 5))
+
+
+def some(items: Sequence[Item], every: int = 4) -> Sequence[Item]:
+    """Return one of `every` items, the first included; all of them where a test draws all examples."""
+    return items if os.environ.get(EXAMPLES) == "all" else items[::every]

@@ -59,7 +59,11 @@ RUNS: Mapping[str, tuple[Run, ...]] = {
     "test": (Run(DEFAULT),),
     "quick": (Run(f"{DEFAULT} and not ros and not builds", UNITS, 0, of_change=True),),
     "system": (
-        Run("(system or hypothesis) and not long and not lint", without=SANITIZED, environment=EVERYTHING),
+        Run(
+            "(system or hypothesis or examples) and not long and not lint",
+            without=SANITIZED,
+            environment=EVERYTHING,
+        ),
         Run("not long and not lint", SANITIZED, environment=EVERYTHING),
     ),
     "lint": (Run("lint and not long"),),

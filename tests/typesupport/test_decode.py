@@ -15,6 +15,7 @@ import pytest
 
 from microros_gen.interfaces.types import NamedType, TypeName, element_of
 from microros_gen.typesupport.plan.types import TypePlan
+from tests.support.examples import examples
 from tests.support.typesupport import cdr
 from tests.support.typesupport.build import Generated
 from tests.support.typesupport.decoder import BOUND, CAPACITY, END, VALUE, Decoder, Refused
@@ -49,8 +50,10 @@ def check_samples(generated: Generated, library: ctypes.CDLL, samples: tuple[str
     return compared
 
 
+@pytest.mark.examples
 def test_what_ros_writes_is_read(limits_case: Generated, library: ctypes.CDLL) -> None:
-    assert check_samples(limits_case, library, SAMPLES) > 150 * len(SAMPLES)
+    samples = SAMPLES[: examples(len(SAMPLES), least=3)]
+    assert check_samples(limits_case, library, samples) > 150 * len(samples)
 
 
 @pytest.mark.long
@@ -140,8 +143,9 @@ def check_prefixes(generated: Generated, library: ctypes.CDLL, most: int) -> Non
     assert refused > 1000
 
 
+@pytest.mark.examples
 def test_a_body_that_ends_early_is_refused(limits_case: Generated, library: ctypes.CDLL) -> None:
-    check_prefixes(limits_case, library, SHORT_BODY)
+    check_prefixes(limits_case, library, examples(SHORT_BODY, least=12))
 
 
 @pytest.mark.long
@@ -165,10 +169,12 @@ def check_mutations(generated: Generated, library: ctypes.CDLL, rounds: int, see
     return seen
 
 
+@pytest.mark.examples
 def test_changed_bytes_are_read_as_ros_reads_them(limits_case: Generated, library: ctypes.CDLL) -> None:
-    seen = check_mutations(limits_case, library, 12, 11)
+    rounds = examples(12, least=4)
+    seen = check_mutations(limits_case, library, rounds, 11)
     assert {"read", "refused", "above a capacity"} <= set(seen)
-    assert min(seen[outcome] for outcome in ("read", "refused", "above a capacity")) > 10, seen
+    assert min(seen[outcome] for outcome in ("read", "refused", "above a capacity")) > rounds * 5 / 6, seen
 
 
 @pytest.mark.long

@@ -13,7 +13,7 @@ import pytest
 from tests.support.typesupport.build import DECODING, WARNINGS, Generated, run, unity
 from tests.support.typesupport.replay import FUZZ, REPLAY, write_bodies, write_program, write_seeds
 
-pytestmark = [pytest.mark.ros, pytest.mark.builds]
+pytestmark = [pytest.mark.ros, pytest.mark.builds, pytest.mark.system]
 
 COMPILED = ("__type_support.c", "__storage.c", "__decode.c")
 INITIALIZED = (

@@ -15,6 +15,7 @@ from microros_gen.interfaces.find import shipped_folder
 pytestmark = [
     pytest.mark.skipif(shutil.which("gcc") is None or shutil.which("nm") is None, reason="no gcc or no nm"),
     pytest.mark.builds,
+    pytest.mark.system,
 ]
 
 APPLICATION = """\

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from microros_gen.typesupport.plan.types import TypePlan
+from tests.support.examples import some
 from tests.support.typesupport.build import Generated
 from tests.support.typesupport.memory import (
     Allocator,
@@ -43,11 +44,12 @@ class Functions:
         return symbol(*(ctypes.byref(a) if isinstance(a, ctypes.Structure) else a for a in arguments))
 
 
+@pytest.mark.examples
 def test_init_sets_the_default_values(
     everything: Generated, functions_library: ctypes.CDLL, memory: Memory
 ) -> None:
     structs = CStructs(everything.messages)
-    for plan in everything.plans:
+    for plan in some(everything.plans):
         call = Functions(functions_library, plan)
         value = structs.structure(plan.name)()
         ctypes.memset(ctypes.byref(value), 0xA5, ctypes.sizeof(value))
@@ -59,11 +61,12 @@ def test_init_sets_the_default_values(
         assert not memory.live, plan.name
 
 
+@pytest.mark.examples
 def test_copy_is_deep_and_equal(
     everything: Generated, functions_library: ctypes.CDLL, memory: Memory
 ) -> None:
     structs = CStructs(everything.messages)
-    for seed, plan in enumerate(everything.plans):
+    for seed, plan in enumerate(some(everything.plans)):
         call = Functions(functions_library, plan)
         tree = Randomizer(everything.messages, seed).tree(plan.name, plan.limits, "random")
         source = structs.fill(plan.name, tree)
@@ -80,9 +83,10 @@ def test_copy_is_deep_and_equal(
         assert not memory.live, plan.name
 
 
+@pytest.mark.examples
 def test_any_other_content_is_not_equal(everything: Generated, functions_library: ctypes.CDLL) -> None:
     structs = CStructs(everything.messages)
-    for seed, plan in enumerate(everything.plans):
+    for seed, plan in enumerate(some(everything.plans)):
         source = Randomizer(everything.messages, seed)
         first, second = (source.tree(plan.name, plan.limits, "random") for _ in range(2))
         values = (structs.fill(plan.name, tree) for tree in (first, second))
@@ -118,11 +122,12 @@ def test_each_failing_allocation_leaves_nothing(
         assert 0 < allowed < 1199, name
 
 
+@pytest.mark.examples
 def test_sequences_grow_and_compare(
     everything: Generated, functions_library: ctypes.CDLL, memory: Memory
 ) -> None:
     structs = CStructs(everything.messages)
-    for plan in everything.plans:
+    for plan in some(everything.plans):
         call = Functions(functions_library, plan)
         source, copy = CString(), CString()
         assert call("Sequence__init", source, ctypes.c_size_t(3))

@@ -98,6 +98,7 @@ def compiled(letters: Generated) -> ctypes.CDLL:
     return compile_shared(letters)
 
 
+@pytest.mark.system
 def test_structs_constants_and_hashes_are_those_of_rosidl(letters: Generated, ros: RosPackage) -> None:
     program = facts_program(letters, list(letters.plans))
     own, theirs = facts(program, letters.includes), facts(program, ros.includes)

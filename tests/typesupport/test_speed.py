@@ -10,7 +10,7 @@ import pytest
 
 from tests.bench import codec
 
-pytestmark = [pytest.mark.ros, pytest.mark.builds]
+pytestmark = [pytest.mark.ros, pytest.mark.builds, pytest.mark.system]
 
 # The goals of verification/figures.md: a third where all after the header's string has a fixed layout, else not more.
 MOST = {"Int32": 1 / 3, "Imu": 1 / 3, "TwistStamped": 1 / 3}
