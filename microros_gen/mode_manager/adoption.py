@@ -29,7 +29,7 @@ def adopted(
             _status(leaves[name], status[name], targets, inference) for name in targets if name in leaves
         ]
         wanted = [target for name, target in targets.items() if name in leaves]
-        return all(map(fulfills, found, wanted)) and any(one.state == ACTIVE for one in found)
+        return all(map(fulfills, found, wanted)) and any(status.state == ACTIVE for status in found)
 
     for system in reversed(scope.systems):
         for mode in sorted(system.modes) if system.name not in taken else ():

@@ -126,7 +126,7 @@ def read_rows(message: Mapping[str, Any]) -> Iterator[Row]:
 
 
 def read_problems(message: Mapping[str, Any], parts: Collection[str]) -> Iterator[tuple[str, str, str]]:
-    """Yield part, name of the status and error (empty: none) for what is said about `parts`.
+    """Yield part, name of the status and error (empty: none) of each status that belongs to one of `parts`.
 
     A status belongs to a part if its name is that of the node, or begins with it and a colon, as diagnostic_updater
     writes it. Errors count; warnings and stale values do not.

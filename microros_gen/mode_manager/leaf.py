@@ -46,7 +46,7 @@ class Leaf:
     mode: str = ""
     values: dict[str, Scalar | tuple[Scalar, ...]] = field(default_factory=dict)
     stale: set[Kind] = field(default_factory=set)
-    """What is to be asked before anything is decided."""
+    """Queries that come before any decision."""
     target: Status | None = None
     must_configure: bool = False
     """Unconfigured does not count as inactive."""
@@ -84,7 +84,7 @@ class Leaf:
 
     @property
     def queries(self) -> set[Kind]:
-        """Return what is asked of the part to know its status."""
+        """Return the queries that give the status of the part."""
         if self.link is Link.PLAIN:
             return {Kind.GET_PARAMETERS}
         own = Kind.GET_PARAMETERS if self.link is Link.PARAMETERS else Kind.GET_MODE
@@ -102,7 +102,7 @@ class Leaf:
         return status.is_same(self.target) if self.must_configure else fulfills(status, self.target)
 
     def step(self, status: Status, wanted: Values, inactive_first: bool) -> Step | str:
-        """Return the next call on the way from `status` to the target, or why there is none.
+        """Return the next call on the way from `status` to the target, or the reason why it cannot get there.
 
         `wanted` are the parameter values of the target's mode.
         """

@@ -2,7 +2,7 @@
 """Brings the parts of a scope to their targets, in start order, and applies rules. No ROS, and the clock is given.
 
 Each part has at most one call at a time. What a part does next follows from what is known of it and from its target
-alone, so that lost responses, restarts and changes by others need no cases of their own. A part that cannot get its
+alone, so that lost responses, restarts and changes by others are no special cases. A part that cannot get its
 target fails after some attempts; then, when no part of its system is on its way, the system's rules decide.
 """
 
@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from microros_gen.mode_manager.adoption import adopted
+from microros_gen.mode_manager.announcing import announce_request, changes
 from microros_gen.mode_manager.calls import (
     DEACTIVATE,
     Announcement,
@@ -18,7 +19,6 @@ from microros_gen.mode_manager.calls import (
     Kind,
     Link,
     Settings,
-    Topic,
 )
 from microros_gen.mode_manager.hearing import (
     SILENT,
@@ -166,7 +166,9 @@ class Orchestrator:
         self._adopt(now)
         self._settle()
         calls = [call for leaf in self.leaves.values() if (call := self._next(leaf, now)) is not None]
-        self._compare()
+        statuses = self.statuses()
+        self._announced += changes(self.leaves, self._shown, statuses)
+        self._shown = statuses
         return calls
 
     def announcements(self) -> list[Announcement]:
@@ -364,7 +366,8 @@ class Orchestrator:
     def _set_target(self, part: Part, target: Status, must_configure: bool = False) -> None:
         statuses = self.statuses()
         for below, goal in spread(self.model, self.scope, part, target):
-            self._announce_request(below, statuses[below.name], goal)
+            if not self.scope.is_external(below.name):
+                self._announced += announce_request(below.name, statuses[below.name], goal)
             self.targets[below.name] = goal
             leaf = self.leaves.get(below.name)
             if leaf is not None:
@@ -373,27 +376,6 @@ class Orchestrator:
                 leaf.deviates = leaf.restores = leaf.reconfigures = False
                 if leaf.link is not Link.ABSENT and leaf.failure != SILENT:
                     leaf.failure = ""
-
-    def _announce_request(self, part: Part, actual: Status, goal: Status) -> None:
-        if self.scope.is_external(part.name):
-            return
-        if actual.state != goal.state:
-            self._announced.append(Announcement(Topic.TRANSITION_REQUEST, part.name, actual, goal))
-        if goal.state == ACTIVE and not actual.is_same(goal):
-            self._announced.append(Announcement(Topic.MODE_REQUEST, part.name, actual, goal))
-
-    def _compare(self) -> None:
-        """Announce what has changed since the last turn."""
-        statuses = self.statuses()
-        for name in self.scope.names:
-            before, after = self._shown[name], statuses[name]
-            leaf = self.leaves.get(name)
-            if leaf is None and before.state != after.state:
-                self._announced.append(Announcement(Topic.TRANSITION_EVENT, name, before, after))
-            is_own = leaf is None or leaf.link in (Link.PARAMETERS, Link.PLAIN)
-            if is_own and after.state == ACTIVE and before != after:
-                self._announced.append(Announcement(Topic.MODE_EVENT, name, before, after))
-        self._shown = statuses
 
     def _forget_rules(self) -> None:
         self._applied.clear()

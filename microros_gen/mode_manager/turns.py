@@ -54,7 +54,7 @@ class Claims:
         self._dead[node] = self._clock()
 
     def other(self, graph: Graph, is_managing: bool) -> tuple[str, str]:
-        """Return a manager because of which this one must not manage, and the part; empty: there is none.
+        """Return a manager because of which this one must not manage, and the part; empty texts without such a manager.
 
         Nodes with other names than those of this tool, such as the manager of system_modes, never yield.
         """

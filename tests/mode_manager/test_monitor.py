@@ -87,7 +87,7 @@ def test_rows_survive_the_message() -> None:
     assert tuple(read_rows(array_of(rows))) == rows
 
 
-def test_a_manager_that_is_silent_is_none() -> None:
+def test_a_silent_manager_does_not_count() -> None:
     now = [0.0]
     world = degraded()
     overview = Overview(world.model, lambda: now[0])

@@ -106,8 +106,10 @@ def test_changes_by_others_are_noticed(stack: ExitStack, domain: int) -> None:
 def manages(running: Running) -> bool:
     """Return whether a manager says last that it manages."""
     running.says("")
-    said = [line for line in running.lines if "mode manager ready" in line or "is managed by another" in line]
-    return bool(said) and "mode manager ready" in said[-1]
+    output = [
+        line for line in running.lines if "mode manager ready" in line or "is managed by another" in line
+    ]
+    return bool(output) and "mode manager ready" in output[-1]
 
 
 def test_a_manager_that_is_killed_and_one_that_takes_over(stack: ExitStack, domain: int) -> None:
@@ -115,7 +117,7 @@ def test_a_manager_that_is_killed_and_one_that_takes_over(stack: ExitStack, doma
     asking, first = start(stack, domain, ARM, gripper=GRIPPER, joint=JOINT)
     second = stack.enter_context(manager(domain, ARM))
     both = [first, second]
-    asking.until(lambda: any(one.says("is managed by another node (/mode_manager_") for one in both))
+    asking.until(lambda: any(each.says("is managed by another node (/mode_manager_") for each in both))
     asking.until(lambda: sum(map(manages, both)) == 1)
     managing, waiting = sorted(both, key=manages, reverse=True)
     assert asking.change_mode("arm", "GENTLE")

@@ -192,7 +192,7 @@ def test_an_upper_manager_leaves_what_another_one_manages_alone() -> None:
     world.request("robot", active("FAST"))
     assert [c for c in world.commands() if "camera" not in c] == ["base change_mode DRIVE"]
     assert world.status("robot") == "active.FAST"
-    assert {one.part for one in world.announced} == {"robot", "camera"}
+    assert {each.part for each in world.announced} == {"robot", "camera"}
     world.request("robot", Status("inactive"))
     assert world.commands()[-2:] == ["base change_state deactivate", "camera change_state deactivate"]
 

@@ -142,4 +142,4 @@ class World:
         return [f"{call.part} {call}" for _, call in self.sent[since:]]
 
     def topics(self, part: str) -> list[tuple[Topic, str]]:
-        return [(one.topic, str(one.goal)) for one in self.announced if one.part == part]
+        return [(each.topic, str(each.goal)) for each in self.announced if each.part == part]
