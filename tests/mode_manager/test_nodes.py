@@ -3,16 +3,21 @@
 
 from __future__ import annotations
 
+import json
 import signal
+import subprocess
+import sys
 from collections.abc import Iterator
 from contextlib import ExitStack
 from typing import Any
 
 import pytest
 
+from microros_gen.mode_manager.diagnosis import TOPIC, TYPE
 from microros_gen.ros.peer import Peer
 from tests.support.agent.process import environment, own_domain
-from tests.support.mode_manager.processes import Asking, Running, manager, node
+from tests.support.mode_manager.device import Device, alive
+from tests.support.mode_manager.processes import Asking, Running, manager, node, running
 from tests.support.modes.models import MODELS
 from tests.support.patience import seconds
 
@@ -103,12 +108,10 @@ def test_changes_by_others_are_noticed(stack: ExitStack, domain: int) -> None:
     asking.until_row("arm", "active.__DEFAULT__")
 
 
-def manages(running: Running) -> bool:
+def manages(process: Running) -> bool:
     """Return whether a manager says last that it manages."""
-    running.says("")
-    output = [
-        line for line in running.lines if "mode manager ready" in line or "is managed by another" in line
-    ]
+    process.says("")
+    output = [x for x in process.lines if "mode manager ready" in x or "is managed by another" in x]
     return bool(output) and "mode manager ready" in output[-1]
 
 
@@ -154,3 +157,73 @@ def test_two_managers_of_one_hierarchy(stack: ExitStack, domain: int) -> None:
     assert asking.state("wheels/right") == "inactive"
     assert not upper.says("waits")
     assert not lower.says("waits")
+
+
+def test_a_device_with_mode_services_and_its_agent(stack: ExitStack, domain: int) -> None:
+    """Its own services are used and not served twice; when the agent says that it is silent, it is unknown at once."""
+    device = Device("joint", ("__DEFAULT__", "CRAWL", "RUSH"))
+    stack.enter_context(alive(device))
+    asking, managing = start(stack, domain, ARM, gripper=GRIPPER)
+    asking.until(lambda: asking.rows["joint"].actual == "unconfigured")
+    assert asking.change_mode("arm", "QUICK")
+    asking.until_row("arm", "active.QUICK")
+    assert device.requests == ["configure", "activate", "RUSH"]
+    graph = asking.peer.graph()
+    assert graph.count_servers("/joint/change_mode") == 1
+    device.agent_says.append(1)
+    managing.wait_for("joint: it has left")
+    asking.until_row("joint", "unknown")
+    assert asking.rows["joint"].message == "it is not there"
+    device.state, device.mode = "unconfigured", ""
+    device.agent_says.append(0)
+    asking.until_row("arm", "active.QUICK")
+    assert device.mode == "RUSH"
+
+
+def test_errors_on_diagnostics_reach_the_system(stack: ExitStack, domain: int) -> None:
+    asking, _ = start(stack, domain, ARM, gripper=GRIPPER, joint=JOINT)
+    assert asking.change_mode("arm", "GENTLE")
+    asking.until_row("arm", "active.GENTLE")
+    publisher = asking.peer.publisher(TOPIC, TYPE)
+    asking.until(lambda: publisher.subscriptions() == 2)
+    status = {"name": "gripper: motor", "level": 2, "message": "too hot"}
+    publisher.publish({"status": [status]})
+    asking.until_row("arm", "errorprocessing")
+    assert asking.rows["gripper"].message == "gripper: motor: too hot"
+    publisher.publish({"status": [{**status, "level": 0}]})
+    asking.until_row("arm", "active.GENTLE")
+
+
+def test_a_manager_that_is_killed_in_the_middle(stack: ExitStack, domain: int) -> None:
+    """The gripper activates slowly, and the manager dies meanwhile: the next one commands nothing by itself."""
+    slow = {**GRIPPER, "late_s": 3.0}
+    asking, managing = start(stack, domain, ARM, gripper=slow, joint=JOINT)
+    assert asking.change_mode("arm", "QUICK")
+    asking.until_row("joint", "active.RUSH")
+    asking.until(lambda: asking.rows["gripper"].actual == "inactive")
+    managing.process.kill()
+    managing.process.wait()
+    asking.set("joint", speed=0.3)
+    asking.rows.clear()
+    second = stack.enter_context(manager(domain, ARM))
+    second.wait_for("mode manager ready", 60)
+    asking.until_row("joint", "active", 60)
+    asking.until_row("gripper", "active.FIRM", 60)
+    assert (asking.rows["arm"].target, asking.rows["arm"].actual) == ("", "active")
+    assert asking.change_mode("arm", "GENTLE")
+    asking.until_row("arm", "active.GENTLE")
+
+
+def test_the_monitor_without_and_with_a_manager(stack: ExitStack, domain: int) -> None:
+    command = [sys.executable, "-m", "microros_gen", "modes", "monitor", ARM, "--once", "--format", "json"]
+    run = subprocess.run([*command, "--wait", "1"], capture_output=True, text=True, check=False)
+    assert run.returncode == 1
+    assert {part["message"] for part in json.loads(run.stdout)["parts"]} == {"no manager reports it"}
+    start(stack, domain, ARM, gripper=GRIPPER, joint=JOINT)
+    run = subprocess.run([*command, "--wait", "60"], capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stdout
+    live = stack.enter_context(running(domain, "-m", "microros_gen", "modes", "monitor", ARM))
+    live.wait_for("  joint")
+    live.wait_for("unconfigured")
+    live.process.send_signal(signal.SIGINT)
+    assert live.process.wait(seconds(10)) == 0

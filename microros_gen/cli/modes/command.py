@@ -8,6 +8,7 @@ import click
 from microros_gen.cli.modes.check import check_command
 from microros_gen.cli.modes.graph import graph_command
 from microros_gen.cli.modes.manage import manage_command
+from microros_gen.cli.modes.mine import mine_command
 from microros_gen.cli.modes.monitor import monitor_command
 from microros_gen.cli.modes.simulate import simulate_command
 from microros_gen.diagnostics import nearest
@@ -37,6 +38,7 @@ def command() -> None:
     microros-gen modes graph robot.yaml -o robot.svg
     microros-gen modes manage robot.yaml
     microros-gen modes monitor robot.yaml
+    microros-gen modes mine /gripper
     """
 
 
@@ -45,3 +47,4 @@ command.add_command(simulate_command, "simulate")
 command.add_command(graph_command, "graph")
 command.add_command(manage_command, "manage")
 command.add_command(monitor_command, "monitor")
+command.add_command(mine_command, "mine")

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`microros-gen modes mine`: describes running nodes for a model file."""
+
+from __future__ import annotations
+
+import click
+
+from microros_gen.cli.modes.options import domain_option, modes_peer
+from microros_gen.mode_manager.leaflet import mine
+
+
+@click.command()
+@click.argument("nodes", metavar="NODE…", nargs=-1, required=True)
+@click.option(
+    "--timeout",
+    type=click.FloatRange(min=0.1),
+    default=10.0,
+    show_default=True,
+    metavar="S",
+    help="Seconds to wait for a node and for each of its responses.",
+)
+@domain_option
+def mine_command(nodes: tuple[str, ...], timeout: float, domain: int | None) -> None:
+    """Print running nodes as parts of a model file: their parameters, with the current values, as __DEFAULT__.
+
+    Other modes are then added by hand. The types are those of the values: 1.0 is a double, 1 an integer.
+
+    \b
+    microros-gen modes mine /gripper /left/wheel
+    """
+    with modes_peer("mode_miner", domain) as peer:
+        for node in nodes:
+            lines = mine(peer, node, timeout, lambda line: click.echo(f"warning: {line}", err=True))
+            click.echo(lines, nl=False)

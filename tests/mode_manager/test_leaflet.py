@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Running nodes as parts of a model file: what is printed is read with the same values and types."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from microros_gen.diagnostics import UserError
+from microros_gen.mode_manager.leaflet import leaflet, mine
+from microros_gen.ros.peer import Peer
+from tests.support.agent.process import environment, own_domain
+from tests.support.mode_manager.processes import node
+from tests.support.modes.models import model_of
+
+TEXTS = st.text(
+    st.characters(min_codepoint=32, max_codepoint=0x2FF, exclude_categories=["Cc", "Cs"]), max_size=9
+)
+SCALARS = (
+    st.booleans(),
+    st.integers(-(2**63), 2**63 - 1),
+    st.floats(allow_nan=False),
+    TEXTS.filter(lambda text: not text.startswith("$(")),
+)
+VALUES = st.one_of(*SCALARS, *(st.lists(each, min_size=1, max_size=3).map(tuple) for each in SCALARS))
+
+
+@given(st.dictionaries(st.from_regex(r"[a-z_][a-z0-9_.]{0,8}", fullmatch=True), VALUES, max_size=5))
+def test_what_is_printed_is_read_as_it_was(values: dict[str, object]) -> None:
+    text = leaflet("left/arm", values)  # type: ignore[arg-type]
+    read = model_of(text).parts["left/arm"].modes["__DEFAULT__"].parameters
+    assert {name: value.value for name, value in read.items()} == values
+    assert all(type(value.value) is type(values[name]) for name, value in read.items())
+
+
+def test_not_a_number_is_read_as_such() -> None:
+    value = model_of(leaflet("a", {"x": math.nan})).parts["a"].modes["__DEFAULT__"].parameters["x"].value
+    assert isinstance(value, float)
+    assert math.isnan(value)
+
+
+@pytest.mark.ros
+def test_a_node_of_rclpy(monkeypatch: pytest.MonkeyPatch) -> None:
+    domain = own_domain()
+    for name, value in environment(domain).items():
+        monkeypatch.setenv(name, value)
+    reported: list[str] = []
+    with (
+        node(domain, "left/wheel", plain=True, speed=1.0, names=["a", "b"], count=2) as running,
+        Peer("miner") as peer,
+    ):
+        running.wait_for("node ready")
+        assert mine(peer, "/left/wheel", 30.0, reported.append) == leaflet(
+            "left/wheel", {"count": 2, "names": ("a", "b"), "speed": 1.0}
+        )
+        with pytest.raises(UserError) as raised:
+            mine(peer, "/right/wheel", 0.3, reported.append)
+    assert [d.id for d in raised.value.diagnostics] == ["MG-8877"]
+    assert reported == []

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A node with a life cycle and mode services of its own, as firmware has them, in a thread."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from typing import Any
+
+from microros_gen.mode_manager.calls import STATE_IDS
+from microros_gen.mode_manager.messages import mode_event, transition_event
+from microros_gen.mode_manager.server import CLIENTS_TOPIC, CLIENTS_TYPE
+from microros_gen.modes import Status
+from microros_gen.ros.peer import Peer
+from microros_gen.ros.qos import Qos
+from tests.support.mode_manager.world import GOALS
+
+
+class Device:
+    """Its state and mode; `agent_says` is published as what an agent knows of its client: 0 connected, 1 silent."""
+
+    def __init__(self, name: str, modes: tuple[str, ...]) -> None:
+        self.name, self.modes = name, modes
+        self.state, self.mode = "unconfigured", ""
+        self.agent_says: list[int] = []
+        self.requests: list[str] = []
+
+    def serve(self, peer: Peer) -> None:
+        """Serve everything."""
+        self._states = peer.publisher(f"/{self.name}/transition_event", "lifecycle_msgs/msg/TransitionEvent")
+        self._events = peer.publisher(f"/{self.name}/mode_event", "system_modes_msgs/msg/ModeEvent")
+        for service, kind, answer in (
+            ("get_state", "lifecycle_msgs/srv/GetState", self._get_state),
+            ("change_state", "lifecycle_msgs/srv/ChangeState", self._change_state),
+            ("get_mode", "system_modes_msgs/srv/GetMode", self._get_mode),
+            ("change_mode", "system_modes_msgs/srv/ChangeMode", self._change_mode),
+        ):
+            peer.serve(f"/{self.name}/{service}", kind, answer)
+
+    def _get_state(self, _: Mapping[str, Any]) -> Mapping[str, Any]:
+        return {"current_state": {"id": STATE_IDS[self.state], "label": self.state}}
+
+    def _change_state(self, request: Mapping[str, Any]) -> Mapping[str, Any]:
+        goal = GOALS.get((self.state, request["transition"]["id"]))
+        self.requests.append(request["transition"]["label"])
+        if goal is not None:
+            self._states.publish(transition_event(Status(self.state), Status(goal)))
+            self.state, self.mode = goal, "__DEFAULT__" if goal == "active" else ""
+        return {"success": goal is not None}
+
+    def _get_mode(self, _: Mapping[str, Any]) -> Mapping[str, Any]:
+        return {"current_mode": self.mode}
+
+    def _change_mode(self, request: Mapping[str, Any]) -> Mapping[str, Any]:
+        mode = request["mode_name"]
+        self.requests.append(mode)
+        if self.state != "active" or mode not in self.modes:
+            return {"success": False}
+        self._events.publish(mode_event(Status("active", self.mode), Status("active", mode)))
+        self.mode = mode
+        return {"success": True}
+
+
+@contextmanager
+def alive(device: Device) -> Iterator[None]:
+    """Let the device be there, in a thread."""
+    stop = threading.Event()
+
+    def run() -> None:
+        with Peer(device.name) as peer:
+            device.serve(peer)
+            states = peer.publisher(CLIENTS_TOPIC, CLIENTS_TYPE, Qos(transient_local=True, depth=10))
+            while not stop.is_set():
+                while device.agent_says:
+                    state = {
+                        "key": "0000002A",
+                        "presence": device.agent_says.pop(0),
+                        "nodes": [f"/{device.name}"],
+                    }
+                    states.publish(state)
+                peer.spin_once(0.05)
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    try:
+        yield
+    finally:
+        stop.set()
+        thread.join()
