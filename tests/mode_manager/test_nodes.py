@@ -96,6 +96,16 @@ def test_a_node_that_cannot_be_activated_degrades_the_arm(stack: ExitStack, doma
     assert asking.state("gripper") == "inactive"
 
 
+def test_a_node_that_answers_late(stack: ExitStack, domain: int) -> None:
+    """Its response takes longer than the manager waits: it is found in its target afterwards."""
+    slow = {**GRIPPER, "late_s": 4.0}
+    asking, managing = start(stack, domain, ARM, "--timeout", "2", gripper=slow, joint=JOINT)
+    assert asking.change_mode("arm", "QUICK")
+    asking.until_row("arm", "active.QUICK", 60)
+    assert asking.rows["gripper"].retries > 0
+    assert not managing.says("rule")
+
+
 def test_changes_by_others_are_noticed(stack: ExitStack, domain: int) -> None:
     asking, managing = start(stack, domain, ARM, gripper=GRIPPER, joint=JOINT)
     assert asking.change_mode("arm", "QUICK")

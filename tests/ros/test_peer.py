@@ -231,3 +231,45 @@ def test_what_is_refused(peer: Peer) -> None:
         peer.client("/spins", "own_msgs/srv/Add").call({}, seconds(IDLE_S))
     peer.close()
     peer.close()
+
+
+def test_a_removed_server_no_longer_answers(peer: Peer, other: Peer) -> None:
+    server = peer.serve("/removed", GET_TYPES, lambda _: {"types": [1]})
+    client = other.client("/removed", GET_TYPES)
+    assert is_answered(peer, other, client)
+    peer.remove(server)
+    other.spin(lambda: not client.available(), seconds(IDLE_S))
+    assert not client.available()
+    again = peer.serve("/removed", GET_TYPES, lambda _: {"types": [2]})
+    peer.remove(again)
+    with pytest.raises(ValueError, match="not in list"):
+        peer.remove(again)
+
+
+def is_answered(peer: Peer, other: Peer, client: Any) -> bool:
+    """Send a request; return whether a response arrives while both spin."""
+    responses: list[dict[str, Any]] = []
+    other.spin(client.available, seconds(IDLE_S))
+    client.send({"names": []}, responses.append)
+
+    def step() -> bool:
+        peer.spin_once(0.01)
+        return bool(responses)
+
+    other.spin(step, seconds(IDLE_S))
+    return bool(responses)
+
+
+def test_a_callback_removes_nothing(peer: Peer, other: Peer) -> None:
+    errors: list[RosError] = []
+
+    def receive(_: dict[str, Any]) -> None:
+        with pytest.raises(RosError, match="after `spin_once`") as raised:
+            peer.remove(subscription)
+        errors.append(raised.value)
+
+    subscription = peer.subscribe("/removing", "std_msgs/msg/Int32", receive)
+    publisher = other.publisher("/removing", "std_msgs/msg/Int32")
+    other.spin(lambda: publisher.subscriptions() == 1, seconds(IDLE_S))
+    publisher.publish({"data": 1})
+    assert peer.spin(lambda: errors, seconds(IDLE_S))
