@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A node with modes is changed and reconfigured by a node of ROS, over an agent: services, events, parameters."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from microros_gen.ros.peer import Peer
+from tests.support.agent.process import environment
+from tests.support.e2e.commanded import CommandedProgram
+from tests.support.e2e.images import C_FILES, Images, ends_well, started
+from tests.support.e2e.relay import Relay
+from tests.support.patience import deadline, seconds
+
+pytestmark = pytest.mark.ros
+
+APPLICATION = """\
+version: 1
+profiles: [managed_service]
+components: [+node_modes]
+session: {connect_timeout: 20 s, create_timeout: 10 s}
+nodes:
+  - name: device
+    namespace: /arm
+    parameters:
+      - {name: speed, type: double, default: 0.5, range: {min: 0.0, max: 2.0}}
+      - {name: limit, type: double, default: 1.0}
+    modes:
+      __DEFAULT__: {limit: $(parent limit)}
+      SLOW: {speed: 0.25}
+      FAST: {speed: 2.0}
+"""
+STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror")
+KINDS = {
+    "change_mode": "system_modes_msgs/srv/ChangeMode",
+    "get_available_modes": "system_modes_msgs/srv/GetAvailableModes",
+    "get_mode": "system_modes_msgs/srv/GetMode",
+    "change_state": "lifecycle_msgs/srv/ChangeState",
+    "set_parameters": "rcl_interfaces/srv/SetParameters",
+}
+CONFIGURE, CLEANUP, ACTIVATE, DEACTIVATE = 1, 2, 3, 4
+DOUBLE = 3
+REJECTED = 4001
+
+
+class Asker:
+    """A node of ROS with clients of the device's services and its events."""
+
+    def __init__(self, program: CommandedProgram, peer: Peer) -> None:
+        self.program, self.peer = program, peer
+        self.clients = {name: peer.client(f"/arm/device/{name}", kind) for name, kind in KINDS.items()}
+        self.events: list[tuple[str, str]] = []
+        self.times: list[int] = []
+        peer.subscribe("/arm/device/mode_event", "system_modes_msgs/msg/ModeEvent", self._keep)
+        self._await("get_mode", {})
+        self._await("change_mode", {"mode_name": "NONE"})
+        self._await("change_state", {"transition": {"id": 0, "label": "none"}})
+        self._await_events()
+
+    def _keep(self, event: Any) -> None:
+        self.events.append((event["start_mode"]["label"], event["goal_mode"]["label"]))
+        self.times.append(event["timestamp"])
+
+    def _await(self, name: str, request: dict[str, Any]) -> None:
+        """Repeat a request that changes nothing until it is answered: the first ones may come too early."""
+        end = deadline(60)
+        while self.clients[name].call(request, seconds(1)) is None:
+            assert time.monotonic() < end, name
+
+    def _await_events(self) -> None:
+        """Change modes until an event arrives, then begin with what the program starts with."""
+        end = deadline(60)
+        self.state(CONFIGURE)
+        while not self.events:
+            assert time.monotonic() < end
+            self.change("__DEFAULT__")
+            self.peer.spin(lambda: self.events, 0.5)
+        self.state(CLEANUP)
+        self.peer.spin(lambda: False, 0.5)
+        self.events.clear()
+        self.times.clear()
+
+    def ask(self, name: str, **request: Any) -> Any:
+        answer = self.clients[name].call(request, seconds(30))
+        assert answer is not None, name
+        return answer
+
+    def change(self, mode: str) -> bool:
+        return bool(self.ask("change_mode", mode_name=mode)["success"])
+
+    def state(self, transition: int) -> None:
+        assert self.ask("change_state", transition={"id": transition, "label": ""})["success"]
+
+    def mode(self) -> str:
+        return str(self.ask("get_mode")["current_mode"])
+
+    def shown(self) -> str:
+        """Return speed and state, as the program has them."""
+        _, _, (line,) = self.program.call("show")
+        return line
+
+    def await_events(self, count: int) -> list[tuple[str, str]]:
+        assert self.peer.spin(lambda: len(self.events) >= count, seconds(20)), self.events
+        return self.events
+
+
+@pytest.fixture(scope="module")
+def program(images: Images, image_port: Relay, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    image = images.build(image_port.port, APPLICATION)
+    return image.application(C_FILES / "modes.c", tmp_path_factory.mktemp("modes") / "modes", *STRICT)
+
+
+@pytest.fixture
+def asker(
+    program: Path, image_port: Relay, agent: object, domain: int, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Asker]:
+    for name, value in environment(domain).items():
+        monkeypatch.setenv(name, value)
+    with Peer(f"asker_{os.getpid()}", domain=domain) as peer, started(program) as process:
+        yield Asker(CommandedProgram(process), peer)
+        assert process.stdin is not None
+        process.stdin.write("end\n")
+        ends_well(process)
+
+
+def test_modes_from_ros(asker: Asker) -> None:
+    """All services, in each state; events have the time of the device, which is that of its host."""
+    assert asker.ask("get_available_modes")["available_modes"] == ["__DEFAULT__", "SLOW", "FAST"]
+    assert not asker.change("SLOW")
+    asker.state(CONFIGURE)
+    asker.state(ACTIVATE)
+    assert asker.mode() == "__DEFAULT__"
+    begin = time.time_ns()
+    for mode, speed in (("SLOW", "0.25"), ("FAST", "2.00"), ("__DEFAULT__", "0.50")):
+        assert asker.change(mode)
+        assert asker.mode() == mode
+        assert asker.shown() == f"{speed} active"
+    assert not asker.change("slow")
+    asker.program.call("refuse")
+    assert not asker.change("FAST")
+    asker.program.call("accept")
+    assert asker.shown() == "0.50 active"
+    assert asker.await_events(3) == [("__DEFAULT__", "SLOW"), ("SLOW", "FAST"), ("FAST", "__DEFAULT__")]
+    assert all(begin - 1_000_000_000 <= at <= time.time_ns() for at in asker.times)
+
+
+def test_reconfiguration_from_ros(asker: Asker) -> None:
+    """By the services that every manager has: inactive, the mode and a parameter that the system gives, active."""
+    asker.state(CONFIGURE)
+    asker.state(ACTIVATE)
+    asker.state(DEACTIVATE)
+    assert asker.mode() == ""
+    limit = {"name": "limit", "value": {"type": DOUBLE, "double_value": 0.75}}
+    assert asker.ask("set_parameters", parameters=[limit])["results"][0]["successful"]
+    assert asker.change("FAST")
+    asker.state(ACTIVATE)
+    assert asker.mode() == "FAST"
+    assert asker.shown() == "2.00 active"
+
+
+def test_reconfiguration_by_the_device(asker: Asker) -> None:
+    asker.state(CONFIGURE)
+    asker.state(ACTIVATE)
+    assert asker.program.call("reconfigure SLOW")[:2] == (0, "")
+    assert asker.mode() == "SLOW"
+    asker.program.call("refuse")
+    code, error, _ = asker.program.call("reconfigure FAST")
+    assert (code, error) == (REJECTED, "mode FAST: the callback refused it")
+    assert asker.mode() == "SLOW"
+    assert asker.shown() == "0.25 active"
+    assert asker.await_events(1) == [("__DEFAULT__", "SLOW")]
