@@ -59,6 +59,8 @@ class Leaf:
     failure: str = ""
     deviates: bool = False
     """It had its target, and somebody else changed it."""
+    has_reached: bool = False
+    """It has had its target since that was requested: what has not yet is not changed by others, but on its way."""
     deviations: list[float] = field(default_factory=list)
     reconfigures: bool = False
     """It was active and is inactive only until it has the parameters of its mode."""

@@ -113,7 +113,8 @@ class Orchestrator:
             self._log(f"{name}: it has left")
         hear_link(leaf, link)
         leaf.failure = "it is not there" if link is Link.ABSENT else ""
-        if leaf.target is not None and link is not Link.ABSENT:
+        leaf.attempts = 0
+        if leaf.has_reached and link is not Link.ABSENT:
             self._deviate(leaf)
 
     def hear_state(self, name: str, state: str) -> None:
@@ -163,6 +164,7 @@ class Orchestrator:
         now = self._clock()
         for leaf in self.leaves.values():
             self._expire(leaf, now)
+            leaf.has_reached |= leaf.target is not None and leaf.is_settled(self.status(leaf))
         self._adopt(now)
         self._settle()
         calls = [call for leaf in self.leaves.values() if (call := self._next(leaf, now)) is not None]
@@ -373,7 +375,7 @@ class Orchestrator:
             if leaf is not None:
                 leaf.target, leaf.must_configure = goal, must_configure
                 leaf.attempts, leaf.settle_until, leaf.wait_until = 0, 0.0, 0.0
-                leaf.deviates = leaf.restores = leaf.reconfigures = False
+                leaf.deviates = leaf.restores = leaf.reconfigures = leaf.has_reached = False
                 if leaf.link is not Link.ABSENT and leaf.failure != SILENT:
                     leaf.failure = ""
 

@@ -109,6 +109,17 @@ def test_a_part_that_leaves_and_returns_gets_its_target_again() -> None:
     assert world.status("arm") == "active.QUICK"
 
 
+def test_a_part_that_is_discovered_after_a_request_is_on_its_way() -> None:
+    """The rule is for an inactive gripper of an active arm, and not for one that has not been commanded yet."""
+    world = arm()
+    world.leave("gripper")
+    world.request("arm", QUICK, 1)
+    world.join("gripper", Node(state="inactive"))
+    world.run(4)
+    assert world.manager.rules == {}
+    assert world.status("arm") == "active.QUICK"
+
+
 def test_a_part_that_leaves_during_a_transition() -> None:
     world = arm(gripper=Node(delay_s=1.0))
     world.manager.request("arm", QUICK)
