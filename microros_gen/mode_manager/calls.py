@@ -98,4 +98,6 @@ class Settings:
     """Events of an own command arrive at most so much later than its response."""
     start_s: float = 5.0
     """Parts that are unknown after this time are absent."""
+    adopt_s: float = 60.0
+    """Parts may appear so long after the start, and the modes of their systems are taken over."""
     reconfigured: frozenset[str] = frozenset()

@@ -35,6 +35,7 @@ def hear_link(leaf: Leaf, link: Link) -> None:
     leaf.state = ACTIVE if link is Link.PLAIN else UNKNOWN
     leaf.values.clear()
     leaf.expected.clear()
+    leaf.doubts.clear()
     leaf.unanswered = 0
     leaf.settle_until = 0.0
     leaf.stale = set() if link is Link.ABSENT else leaf.queries
@@ -44,7 +45,7 @@ def hear_state(leaf: Leaf, state: str, now: float, settings: Settings, by_event:
     """Note a state. Events of own commands may be late: what they contradict is asked."""
     if by_event and _is_own(leaf, now, settings):
         if state not in leaf.expected:
-            leaf.stale.add(Kind.GET_STATE)
+            leaf.doubts.add(Kind.GET_STATE)
         return
     if state == ACTIVE and leaf.state != ACTIVE and leaf.link in (Link.MODES, Link.SYSTEM):
         leaf.mode = ""
@@ -57,7 +58,7 @@ def hear_state(leaf: Leaf, state: str, now: float, settings: Settings, by_event:
 def hear_mode(leaf: Leaf, mode: str, now: float, settings: Settings, by_event: bool) -> None:
     """Note the mode that a part with mode services reports."""
     if by_event and _is_own(leaf, now, settings) and mode != leaf.mode:
-        leaf.stale.add(Kind.GET_MODE)
+        leaf.doubts.add(Kind.GET_MODE)
         return
     leaf.mode = mode
     leaf.stale.discard(Kind.GET_MODE)
@@ -74,7 +75,7 @@ def hear_parameters(
     own = {name: value for name, value in values.items() if name in leaf.parameters}
     if by_event and own and _is_own(leaf, now, settings):
         if any(leaf.values.get(name) != value for name, value in own.items()):
-            leaf.stale.add(Kind.GET_PARAMETERS)
+            leaf.doubts.add(Kind.GET_PARAMETERS)
         return
     for name, value in own.items():
         if value is None:

@@ -47,6 +47,8 @@ class Leaf:
     values: dict[str, Scalar | tuple[Scalar, ...]] = field(default_factory=dict)
     stale: set[Kind] = field(default_factory=set)
     """Queries that come before any decision."""
+    doubts: set[Kind] = field(default_factory=set)
+    """The same for what events during own commands contradict: it is asked when these have ended."""
     target: Status | None = None
     must_configure: bool = False
     """Unconfigured does not count as inactive."""

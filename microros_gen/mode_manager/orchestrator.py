@@ -53,6 +53,7 @@ from microros_gen.modes.model import (
 from microros_gen.modes.templates import resolve
 
 _STAYING = (UNCONFIGURED, INACTIVE, ACTIVE, FINALIZED, ERROR)
+_NOT_THERE = "it is not there"
 
 
 class Orchestrator:
@@ -112,7 +113,7 @@ class Orchestrator:
         if link is Link.ABSENT:
             self._log(f"{name}: it has left")
         hear_link(leaf, link)
-        leaf.failure = "it is not there" if link is Link.ABSENT else ""
+        leaf.failure = _NOT_THERE if link is Link.ABSENT else ""
         leaf.attempts = 0
         if leaf.has_reached and link is not Link.ABSENT:
             self._deviate(leaf)
@@ -251,6 +252,8 @@ class Orchestrator:
 
     def _expire(self, leaf: Leaf, now: float) -> None:
         call = leaf.call
+        if leaf.link is Link.ABSENT and now - self._started >= self.settings.start_s:
+            leaf.failure = _NOT_THERE
         if call is not None and now >= leaf.late_at:
             leaf.call = None
             before = leaf.failure
@@ -266,10 +269,11 @@ class Orchestrator:
         """Take over the modes that systems are in when the manager starts."""
         if self._adopted:
             return
+        age_s = now - self._started
         is_known = all(leaf.state != UNKNOWN and not leaf.stale for leaf in self.leaves.values())
-        if not is_known and now - self._started < self.settings.start_s:
+        if not is_known and age_s < self.settings.start_s:
             return
-        self._adopted = True
+        self._adopted = is_known or age_s >= self.settings.adopt_s
         statuses = {name: self.status(leaf) for name, leaf in self.leaves.items()}
         for targets in adopted(self.model, self.scope, self.leaves, statuses):
             if any(name in self.targets for name in targets):
@@ -315,6 +319,9 @@ class Orchestrator:
         if (is_done or leaf.settle_until) and now - leaf.polled >= interval_s:
             leaf.polled = now
             leaf.stale |= leaf.queries
+        if is_done and leaf.doubts:
+            leaf.stale |= leaf.doubts
+            leaf.doubts.clear()
         for kind in Kind:
             if kind in leaf.stale:
                 return self._call(leaf, now, kind)

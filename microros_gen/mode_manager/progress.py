@@ -36,8 +36,8 @@ class Progress:
         if leaf is None:
             return any(self.is_moving(part) for part in self._model.parts[name].part_names)
         if leaf.target is None or leaf.link is Link.ABSENT:
-            return False
-        if leaf.failure != SILENT and (leaf.call is not None or leaf.stale):
+            return leaf.target is not None and not leaf.failure
+        if leaf.failure != SILENT and (leaf.call is not None or leaf.stale or leaf.doubts):
             return True
         if leaf.failure or leaf.deviates or self._is_done(leaf):
             return False

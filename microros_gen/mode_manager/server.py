@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 from microros_gen.mode_manager.calls import Link, Settings
@@ -73,11 +74,11 @@ class ModeManager(Serving):
             self._attempt(lambda: self._look(now))
         self._problems.step()
         for call in self.orchestrator.turn():
-            self._links[call.part].send(call)
+            self._attempt(partial(self._links[call.part].send, call))
         for link in self._links.values():
             self._attempt(link.step)
         for announcement in self.orchestrator.announcements():
-            self._served[announcement.part].publish(announcement)
+            self._attempt(partial(self._served[announcement.part].publish, announcement))
         self._diagnose(now)
 
     def _look(self, now: float) -> None:

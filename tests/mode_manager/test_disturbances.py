@@ -341,3 +341,39 @@ def test_whatever_happens_it_ends(seed: int) -> None:
     world.run(20)
     assert world.commands(first) == []
     assert not world.manager.progress.is_moving(root)
+
+
+def test_parts_that_are_not_there_yet_are_waited_for_a_while() -> None:
+    """In the first seconds nothing is known of the gripper: no rule for unknown parts applies so early."""
+    text = changed(
+        ARM,
+        "[gripper, inactive]\n        new_target: active.__DEFAULT__\n      without_gripper_quick",
+        "[gripper, unknown]\n        new_target: active.__DEFAULT__\n      without_gripper_quick",
+    )
+    world = World(model_of(text), {"joint": Node()})
+    world.request("arm", GENTLE, 4)
+    assert (world.manager.rules, world.status("joint")) == ({}, "active.CRAWL")
+    world.run(3)
+    assert world.manager.rules == {"arm": "without_gripper_gentle"}
+
+
+def test_a_part_that_stops_and_is_not_there_holds_nothing_up() -> None:
+    """The gripper should stop first; it has never been there, and the joint starts without it."""
+    world = World(model_of(ARM), {"joint": Node()})
+    world.request("arm", active(), 4)
+    assert world.status("joint") == "unconfigured"
+    world.run(3)
+    assert world.status("joint") == "active.__DEFAULT__"
+
+
+def test_a_mode_is_taken_over_when_the_nodes_are_discovered_late() -> None:
+    world = arm()
+    world.request("arm", QUICK)
+    nodes, world.nodes = world.nodes, {}
+    world.start()
+    world.run(20)
+    for name, node in nodes.items():
+        world.join(name, node)
+    world.run(3)
+    assert world.status("arm") == "active.QUICK"
+    assert str(world.manager.targets["arm"]) == "active.QUICK"

@@ -104,10 +104,26 @@ class World:
                 self._due.remove((due, call))
                 node = self.nodes[call.part]
                 if not node.is_dead:
-                    self.manager.answer(call, **node.carry_out(call))
+                    before = node.state
+                    response = node.carry_out(call)
+                    self._publish(call, node, before, response["success"])
+                    self.manager.answer(call, **response)
             self._turn()
             is_due = any(due <= self.now + 0.1 for due, _ in self._due)
             self.now = round(min(end, self.now + (0.01 if is_due else 0.1)), 2)
+
+    def _publish(self, call: Call, node: Node, before: str, success: bool) -> None:
+        """Publish the events of a command before its response, as nodes do."""
+        if call.kind is Kind.CHANGE_STATE and node.link is not Link.SYSTEM:
+            passing = ("", "configuring", "cleaningup", "activating", "deactivating")[call.transition]
+            for state in (passing, node.state) if success or node.state != before else ():
+                self.manager.hear_state(call.part, state)
+            if success and node.state == "active" and node.link is Link.MODES:
+                self.manager.hear_mode(call.part, node.mode)
+        elif call.kind is Kind.CHANGE_MODE and success and node.mode:
+            self.manager.hear_mode(call.part, node.mode)
+        elif call.kind is Kind.SET_PARAMETERS and success:
+            self.manager.hear_parameters(call.part, dict(call.values))
 
     def _turn(self) -> None:
         for call in self.manager.turn():
