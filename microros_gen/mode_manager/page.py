@@ -109,19 +109,24 @@ class _Handler(BaseHTTPRequestHandler):
         self.wfile.write(content)
 
 
-@contextmanager
-def served_page(place: str, data: Callable[[], dict[str, Any]]) -> Iterator[str]:
-    """Serve the page at HOST:PORT within the context; give its address. Port 0: a free one.
-
-    `data` is called in other threads. Raises UserError for a place that is no address of this machine alone, or that
-    cannot be used.
-    """
+def check_place(place: str) -> tuple[str, int]:
+    """Return host and port of HOST:PORT. Raises UserError if that is no address of this machine alone."""
     host, colon, port = place.rpartition(":")
     if not colon or not is_loopback(host) or not port.isdecimal() or int(port) > 65535:
         hint = "Write 127.0.0.1:8080; for other machines, forward the port with ssh -L"
         raise UserError([Diagnostic(f"'{place}' is no place for a page", hint=hint, id="MG-8875")])
+    return host, int(port)
+
+
+@contextmanager
+def served_page(place: str, data: Callable[[], dict[str, Any]]) -> Iterator[str]:
+    """Serve the page at HOST:PORT within the context; give its address. Port 0: a free one.
+
+    `data` is called in other threads. Raises UserError as `check_place` does, and for a port that cannot be used.
+    """
+    host, port = check_place(place)
     try:
-        server = ThreadingHTTPServer((host or "127.0.0.1", int(port)), partial(_Handler, data))
+        server = ThreadingHTTPServer((host, port), partial(_Handler, data))
     except OSError as error:
         hint = "Choose another port, or 0 for a free one"
         message = f"the page cannot be served at '{place}': {error.strerror}"

@@ -179,3 +179,39 @@ def test_a_wrong_command_gets_the_nearest(run: Runner) -> None:
     outcome = run("modes", "checks")
     assert outcome.status == 2
     assert "unknown command 'checks'. Did you mean 'check'?" in outcome.err
+
+
+@pytest.mark.usefixtures("models")
+def test_manage_refuses_a_misspelled_part_before_it_starts(run: Runner) -> None:
+    outcome = run("modes", "manage", "two_arms.yaml")
+    assert (outcome.status, outcome.out) == (2, "")
+    assert "unknown part 'right/arn' in the mode 'BOTH'. Did you mean 'right/arm'? [MG-8813]" in outcome.err
+
+
+@pytest.mark.usefixtures("models")
+@pytest.mark.parametrize(
+    ("options", "error"),
+    [
+        (("--scope", "bas"), "error: unknown part 'bas'. Did you mean 'base'? [MG-8870]"),
+        (
+            ("--scope", "robot", "--scope", "base"),
+            "'base' is twice in the scope. Name only the upper one [MG-8871]",
+        ),
+        (("--without", "camera"), "'camera' is no subsystem of the scope. "),
+        (
+            ("--reconfigure", "base"),
+            "'base' is no node of the scope. Nodes: wheels/left, wheels/right, camera",
+        ),
+    ],
+)
+def test_manage_with_a_wrong_scope(run: Runner, options: tuple[str, ...], error: str) -> None:
+    outcome = run("modes", "manage", "robot.yaml", *options)
+    assert (outcome.status, outcome.out) == (2, "")
+    assert error in outcome.err
+
+
+@pytest.mark.usefixtures("models")
+def test_monitor_refuses_a_page_for_other_machines(run: Runner) -> None:
+    outcome = run("modes", "monitor", "arm.yaml", "--page", "0.0.0.0:8080")
+    assert outcome.status == 2
+    assert "'0.0.0.0:8080' is no place for a page" in outcome.err

@@ -61,6 +61,7 @@ _OTHER_FILES = {
     "migrate/c_program.py",
     "migrate/parameter_clients.py",
     "migrate/parameter_servers.py",
+    "mode_manager/messages.py",
     "parameter_server/exchange.py",
     "parameter_server/file.py",
     "parameter_server/served.py",

@@ -15,7 +15,7 @@ from microros_gen.agent.server import stopped_by_signals
 from microros_gen.cli.modes.options import domain_option, format_option, json_text, model_argument, modes_peer
 from microros_gen.mode_manager.diagnosis import OK
 from microros_gen.mode_manager.monitor import Monitor, Overview
-from microros_gen.mode_manager.page import served_page
+from microros_gen.mode_manager.page import check_place, served_page
 from microros_gen.modes.reader import read_model
 
 _CLEAR = "\x1b[2J\x1b[H"
@@ -57,6 +57,8 @@ def monitor_command(
     microros-gen modes monitor robot.yaml --page 127.0.0.1:8080
     """
     system = read_model(model)
+    if page is not None:
+        check_place(page)
     with modes_peer("mode_monitor", domain) as peer, ExitStack() as stack:
         monitor = Monitor(peer, system, lambda line: click.echo(f"warning: {line}", err=True))
         if page is not None:
