@@ -16,13 +16,14 @@ EVERYTHING = """\
 version: 1
 profiles: [pure_reader]
 components: [+publish, +services, +executor, +timers, +multithread, +session_state, +micro_ros_utilities, +time_sync,
-  +parameters, +parameter_storage, +parameter_client, +lifecycle,
+  +parameters, +parameter_storage, +parameter_client, +lifecycle, +node_modes,
   +graph, +logger_services, +logging_float, +name_substitutions, +publish_statistics,
   +ping, +session_close, +clock_ros, {choice}]
 logging: [rosout, {{to: ring, level: debug}}, console, callback]
 nodes:
   - name: all
     parameters: [{{name: gain, type: double}}, {{name: label, type: string, size: 8}}]
+    modes: {{SLOW: {{gain: 0.5}}, FAST: {{gain: 2.0, label: fast}}}}
     parameter_clients:
       - {{node: /motor, elements: 3, operations: [get, set, set_atomically, list, describe, get_types, watch]}}
     publishers: [{{topic: out, type: std_msgs/msg/String, limits: {{string: 20}}, managed: true}}]

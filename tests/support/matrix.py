@@ -154,6 +154,11 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "    publishers: [{topic: sure, type: std_msgs/msg/Int32, managed: true}]\n"
         + "    timers: [{name: control, period: 20 ms, managed: true}]\n"
         + "profiles: [managed_service]\ncomponents: [+timers, +sleep_cycles]\n",
+        "modes": _BUSY
+        + "    parameters: [{name: speed, type: double}, {name: label, type: string, size: 8}, "
+        + '{name: path, type: "byte[]", size: 4}]\n'
+        + "    modes: {SLOW: {speed: 0.5, label: slow}, FAST: {speed: $(parent speed), path: [1, 2]}}\n"
+        + "profiles: [managed_service]\ncomponents: [+node_modes]\nerrors: code\n",
         "graph": _BUSY
         + "profiles: [pure_sender]\ncomponents: [+graph]\nmemory: {arena: 4096}\nerrors: code\n",
         "graph-topic": _BUSY

@@ -72,6 +72,10 @@ _SERVED = (
     "    services: [{name: set, type: std_srvs/srv/SetBool, limits: {message: 20}}]\n"
 )
 _ASKED = "    clients: [{name: ask, type: std_srvs/srv/SetBool, queue: 2, limits: {message: 9}}]\n"
+_MODES = (
+    "    parameters:\n      - {name: speed, type: double}\n      - {name: on, type: bool}\n"
+    "    modes: {__DEFAULT__: {on: $(parent on)}, SLOW: {speed: 0.25}, FAST: {speed: 2.0, on: true}}\n"
+)
 _SERIAL = "transport: {type: serial, device: /dev/ttyACM0, baud: 115200}\n"
 
 APPLICATIONS: Mapping[str, str] = MappingProxyType(
@@ -205,6 +209,13 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "      - {topic: sure, type: std_msgs/msg/UInt8, managed: true}\n"
         + "    timers: [{name: control, period: 20 ms, managed: true}]\n"
         + "components: [+lifecycle, +timers, +sleep_cycles]\n",
+        "modes": _NODES + _SURE + _MODES + "components: [+node_modes, +multithread]\n",
+        "modes_texts": _NODES
+        + _SURE
+        + _MODES.replace("    modes:", "      - {name: label, type: string}\n    modes:").replace(
+            "speed: 0.25", "label: calm"
+        )
+        + "components: [+node_modes, +sleep_cycles]\nerrors: code\n",
         "services_less": _SERVED.replace("20", "9") + _ASKED.replace("9", "20"),
         "lent_tcp": _READER + _ALONE + "transport: {type: tcp, agent: '127.0.0.1:8888'}\n",
     }
