@@ -55,8 +55,8 @@ def test_a_mode_inherits_what_it_leaves_out() -> None:
     assert [p.name for p in set_parameters(node)] == ["speed", "gains.p", "label", "name", "path", "limit"]
     values = {}
     for mode in node.modes:
-        said = {p.name: (value_in(node, mode, p), start_value(p)) for p in set_parameters(node)}
-        values[mode.name] = [(v.value, v.parent) if v else (start, "") for v, start in said.values()]
+        written = {p.name: (value_in(node, mode, p), start_value(p)) for p in set_parameters(node)}
+        values[mode.name] = [(v.value, v.parent) if v else (start, "") for v, start in written.values()]
     shared = [("calm", ""), ("", ""), ((), ""), (None, "limit")]
     assert values == {
         DEFAULT_MODE: [(0.5, ""), (3, ""), *shared],
@@ -72,7 +72,7 @@ def test_the_default_mode_is_there_without_being_written() -> None:
     assert node.modes[0].values == ()
 
 
-def test_the_default_mode_comes_first() -> None:
+def test_the_default_mode_is_the_first() -> None:
     late = "      __DEFAULT__: {limit: $(parent limit)}\n"
     (node,), reported = nodes_of(TEXT.replace(late, "") + late)
     assert reported == []
@@ -83,9 +83,9 @@ MISTAKES = {
     "unknown": ("speed: 0,", "sped: 0,", "MG-3104", "sped", "Did you mean 'speed'?"),
     "unknown, nothing near": (
         "speed: 0,",
-        "colour: 0,",
+        "shade: 0,",
         "MG-3104",
-        "colour",
+        "shade",
         "Declare it below `parameters:`",
     ),
     "unknown in a group": ("{p: 1}", "{q: 1}", "MG-3104", "q", "Did you mean 'gains.p'?"),

@@ -24,8 +24,8 @@ int main(void)
   if (
     rclc_support_init(&support, 0, NULL, &allocator) != RCL_RET_OK ||
     rclc_node_init_default(&node, "device", "arm", &support) != RCL_RET_OK ||
-    rclc_executor_init(
-      &executor, &support.context, 3 + RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES, &allocator) != RCL_RET_OK ||
+    rclc_executor_init(&executor, &support.context, 3 + RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES, &allocator) !=
+      RCL_RET_OK ||
     rclc_parameter_server_init_default(&parameters, &node) != RCL_RET_OK ||
     arm_device_parameters_declare(&parameters) != RCL_RET_OK ||
     rclc_executor_add_parameter_server(&executor, &parameters, NULL) != RCL_RET_OK ||

@@ -101,8 +101,7 @@ static rcl_ret_t init(void)
     result = arm_device_parameters_declare(&parameters);
   }
   if (result == RCL_RET_OK) {
-    result =
-      rclc_executor_add_parameter_server_with_context(&executor, &parameters, on_parameter, NULL);
+    result = rclc_executor_add_parameter_server_with_context(&executor, &parameters, on_parameter, NULL);
   }
   if (result == RCL_RET_OK) {
     result = rclc_make_node_a_lifecycle_node(&lifecycle, &node, &machine, &allocator, true);

@@ -205,8 +205,7 @@ rcl_ret_t rclc_modes_switch(rclc_modes_t * modes, uint8_t mode, bool asks)
 void rclc_modes_publish(rclc_modes_t * modes)
 {
   if (
-    modes->event_is_due &&
-    rmw_parameters_have_room(rcl_publisher_get_rmw_handle(&modes->event_publisher)) &&
+    modes->event_is_due && rmw_parameters_have_room(rcl_publisher_get_rmw_handle(&modes->event_publisher)) &&
     rcl_publish(&modes->event_publisher, modes, NULL) == RCL_RET_OK) {
     modes->event_is_due = false;
   }

@@ -90,8 +90,7 @@ static uint32_t types_encode_get(const void * message, uint8_t * body, cdr_fault
 {
   const rclc_modes_t * modes = message;
   parameter_out_t out = {body, 0, system_modes_msgs__srv__GetMode_Response__MAX_ENCODED_SIZE, false};
-  const bool is_active =
-    rclc_modes_state(modes) == (uint8_t)lifecycle_msgs__msg__State__PRIMARY_STATE_ACTIVE;
+  const bool is_active = rclc_modes_state(modes) == (uint8_t)lifecycle_msgs__msg__State__PRIMARY_STATE_ACTIVE;
 
   rclc_parameter_out_text(&out, is_active ? modes->table->modes[modes->mode].name : "");
   return types_end(&out, modes, fault);
