@@ -12,7 +12,7 @@ from tests.support.agent.observer import Observer, observing
 from tests.support.agent.process import AgentProcess, own_domain, running_agent
 from tests.support.e2e.images import DECLARED as DECLARED_YAML
 from tests.support.e2e.images import POOLS as POOLS_YAML
-from tests.support.e2e.images import QUICK, SANITIZE, Image, Images
+from tests.support.e2e.images import QUICK, Image, Images
 from tests.support.e2e.live import Live
 from tests.support.e2e.relay import Relay
 
@@ -40,8 +40,8 @@ def relay(image_port: Relay) -> Iterator[Relay]:
 
 @pytest.fixture(scope="session")
 def profile_image(images: Images, image_port: Relay) -> Image:
-    """The profile alone, as `microros-gen generate --profile pure_sender` writes it, with sanitizers."""
-    return images.build(image_port.port, flags=SANITIZE)
+    """The profile alone, as `microros-gen generate --profile pure_sender` writes it."""
+    return images.build(image_port.port)
 
 
 # These are for live.c, which is told where its agent is.
@@ -49,8 +49,8 @@ def profile_image(images: Images, image_port: Relay) -> Image:
 
 @pytest.fixture(scope="session")
 def pool_image(images: Images) -> Image:
-    """An application with pools; liveliness ping, on_full error; with sanitizers."""
-    return images.build(1, POOLS_YAML, flags=SANITIZE)
+    """An application with pools; liveliness ping, on_full error."""
+    return images.build(1, POOLS_YAML)
 
 
 @pytest.fixture(scope="session")

@@ -431,6 +431,7 @@ def declared(*headers: str) -> str:
     )
 
 
+@pytest.mark.system
 def test_every_function_has_its_prototype_and_links(tree: Tree, tmp_path: Path) -> None:
     uses = tmp_path / "uses.c"
     uses.write_text(declared(*PROTOTYPES), encoding="utf-8")

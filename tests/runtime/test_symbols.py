@@ -110,8 +110,8 @@ VARIANTS = {
     "reader-preconfigured-ping": (changed(ONLY_READER, creation__entities="preconfigured"), "ping"),
     "reader-reference-ping": (changed(ONLY_READER, creation__entities="reference"), "ping"),
 }
-QUICK = ("best-effort-none", "fragments-acknack", "reader-fragments-xml-ping")
-"""Variants whose symbols are looked at in `make test`: each kind of stream, of liveliness and of endpoint."""
+QUICK = ("best-effort-none", "reader-fragments-xml-ping")
+"""Variants whose symbols are looked at in `make test`: each kind of stream and of endpoint."""
 FORBIDDEN = re.compile(
     r"\b(malloc|calloc|realloc|free|\w*printf|puts|fputs|fwrite|strtol|strdup|abort|exit|__assert\w*)$"
 )
