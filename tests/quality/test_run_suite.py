@@ -63,6 +63,8 @@ def test_how_many_examples_are_drawn(monkeypatch: pytest.MonkeyPatch, full: int,
     monkeypatch.delenv(EXAMPLES, raising=False)
     assert examples(full) == drawn
     assert some(range(9)) == range(0, 9, 4)
+    monkeypatch.setenv(EXAMPLES, "few")
+    assert examples(full) == max(5, full // 30)
     monkeypatch.setenv(EXAMPLES, "all")
     assert examples(full) == full
     assert some(range(9)) == range(9)

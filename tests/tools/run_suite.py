@@ -57,7 +57,7 @@ SANITIZED = ("runtime", "components", "e2e")
 EVERYTHING = {EXAMPLES: "all", EVERYWHERE: "all"}
 RUNS: Mapping[str, tuple[Run, ...]] = {
     "test": (Run(DEFAULT),),
-    "quick": (Run(f"{DEFAULT} and not ros and not builds", UNITS, 0, of_change=True),),
+    "quick": (Run(f"{DEFAULT} and not ros and not builds", UNITS, 0, True, {EXAMPLES: "few"}),),
     "system": (
         Run(
             "(system or hypothesis or examples) and not long and not lint",

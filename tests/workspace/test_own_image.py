@@ -69,6 +69,7 @@ def test_size_of_a_build_folder_is_that_of_its_own_image(project: Project) -> No
     assert names == ["/wheels", "/wheel_speeds", "/turns"]
 
 
+@pytest.mark.system
 def test_its_stack_counts_the_callbacks_of_the_application(project: Project) -> None:
     stack = sized(project, project.build_folder)["stack"]
     assert stack["known"]
@@ -85,6 +86,7 @@ def test_the_output_folder_in_it_and_its_image_are_the_same(project: Project) ->
     assert sized(project, project.build_folder, "--image", project.build_folder / "app") == whole
 
 
+@pytest.mark.system
 def test_a_page_with_its_treemaps(project: Project) -> None:
     text = tool(project, "size", project.build_folder, "--format", "html").stdout
     assert "<title>Sizes of " in text
@@ -137,6 +139,7 @@ def test_without_a_map_symbols_tell(project: Project) -> None:
     assert "app.c.o" in owners(data, "application")
 
 
+@pytest.mark.system
 def test_an_image_of_somebody_elses_archive(project: Project, tmp_path: Path) -> None:
     """No record, no names that are ours, another library next to it: members are known by what they define."""
     objects = sorted(p for p in project.build_folder.rglob("robot.dir/**/*.o"))

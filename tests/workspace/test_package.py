@@ -19,6 +19,7 @@ from tests.support.environments import clean_environ, install
 from tests.support.installed import Installed, environment_with_dependencies
 from tests.support.paths import ROOT
 
+pytestmark = pytest.mark.system
 COMMANDS = (
     "build",
     "generate",
