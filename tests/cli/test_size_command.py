@@ -279,6 +279,7 @@ def test_explain_what_is_reached_only_through_a_pointer(run: Runner, built: Path
     assert chain[-2:] == ["sensor_msgs__msg__Imu__message_type", "sensor_msgs__msg__Imu__encode"]
 
 
+@pytest.mark.system
 def test_explain_a_beginning_that_fits_one_symbol_only(run: Runner, built: Path) -> None:
     assert explained(run, built, "rclc_support_in")["name"] == "rclc_support_init"
     outcome = run("explain", str(built), "rcl_publis")
@@ -286,6 +287,7 @@ def test_explain_a_beginning_that_fits_one_symbol_only(run: Runner, built: Path)
     assert "rcl_publish, rcl_publisher_fini" in outcome.err
 
 
+@pytest.mark.system
 def test_explain_files(run: Runner, built: Path) -> None:
     by_name, by_path = (
         explained(run, built, name)
@@ -300,6 +302,7 @@ def test_explain_files(run: Runner, built: Path) -> None:
     assert "components: [+timers]" in header["note"]
 
 
+@pytest.mark.system
 def test_explain_components_and_types(run: Runner, built: Path, report: Any) -> None:
     ping = explained(run, built, "ping")
     assert ping["reasons"] == ["liveliness: ping (default)"]

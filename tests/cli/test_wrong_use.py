@@ -217,6 +217,7 @@ def test_run_needs_a_built_folder(run: Runner, folder: Path) -> None:
     assert "microros-gen build" in outcome.err
 
 
+@pytest.mark.system
 def test_a_failed_build_can_be_taken_up(run: Runner, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert run("build", "--profile", "pure_sender").status == 0
     built = folder / "build/pure_sender"

@@ -255,6 +255,7 @@ def run_with(tree: Path, folder: Path, main: str) -> SizeReport:
     return measure(out)
 
 
+@pytest.mark.system
 def test_the_measured_high_water_mark_is_below_the_bound(probe_tree: Path, tmp_path: Path) -> None:
     """The same calls with a measured high-water mark, port functions included: it does not exceed the bound."""
     main = (Path(__file__).parent / "c" / "stack_probe.c").read_text(encoding="utf-8")
@@ -271,6 +272,7 @@ def test_the_measured_high_water_mark_is_below_the_bound(probe_tree: Path, tmp_p
     assert "rcl_publisher_open" in {link.name for link in bound.chain}
 
 
+@pytest.mark.system
 def test_the_bound_follows_pointers_of_the_type_support(measured: Measured) -> None:
     report = measured("qemu-mps2-an385")
     assert report.graph is not None

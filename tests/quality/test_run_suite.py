@@ -22,7 +22,11 @@ def has(run: Run, folder: str, markers: frozenset[str]) -> bool:
     """Return whether a run has the tests of a folder with these markers."""
     if folder in run.without or (run.folders and folder not in run.folders):
         return False
-    return Expression.compile(run.markers).evaluate(lambda name, **_: name in markers)
+
+    def matches(name: str, /, **_: str | int | bool | None) -> bool:
+        return name in markers
+
+    return Expression.compile(run.markers).evaluate(matches)
 
 
 def runs(name: str, folder: str, markers: frozenset[str]) -> list[Run]:

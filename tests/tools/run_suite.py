@@ -43,7 +43,7 @@ class Run:
 
     markers: str
     folders: tuple[str, ...] = ()
-    more_processes: int = 1
+    more_processes: int = 2
     of_change: bool = False
     """Of the folders, those that the change in the working tree concerns."""
     environment: Mapping[str, str] = field(default_factory=dict)
@@ -66,12 +66,12 @@ RUNS: Mapping[str, tuple[Run, ...]] = {
         ),
         Run("not long and not lint", SANITIZED, environment=EVERYTHING),
     ),
-    "lint": (Run("lint and not long"),),
+    "lint": (Run("lint and not long", more_processes=1),),
 }
 
 
 def command(run: Run, options: Sequence[str]) -> list[str]:
-    """Return the call of pytest: one process more than there are cores where tests wait for an agent."""
+    """Return the call of pytest: two processes more than there are cores where tests wait for an agent or for DDS."""
     workers = str(max(1, os.cpu_count() or 1) + run.more_processes)
     call = [sys.executable, "-m", "pytest", "-n", workers, "--dist", "worksteal", "-q", "--durations=10"]
     chosen = run.folders
