@@ -360,6 +360,7 @@ int main(void)
 """
 
 
+@pytest.mark.system
 def test_recursion_and_frames_of_variable_size_are_named(probe_tree: Path, tmp_path: Path) -> None:
     report = run_with(probe_tree, tmp_path, RECURSIVE)
     assert report.stack.main is not None
@@ -429,6 +430,7 @@ def check_pointers(report: SizeReport, image: Path) -> None:
     assert not [text for text in report.stack.main.open if "callback" in text]
 
 
+@pytest.mark.system
 def test_an_image_of_an_application(probe_tree: Path, tmp_path: Path) -> None:
     """Linked by somebody else, from objects anywhere: the sums are those of `size`, and its own functions count."""
     source, image = tmp_path / "robot.c", tmp_path / "robot.elf"
@@ -460,6 +462,7 @@ def test_a_text_that_is_no_map_has_no_sections() -> None:
     assert parse_map("") == parse_map("Archive member included\nLOAD x.o\n") == ()
 
 
+@pytest.mark.system
 def test_what_was_not_built_is_refused(probe_tree: Path, tmp_path: Path) -> None:
     with pytest.raises(UserError, match="not an output folder"):
         measure(tmp_path)
