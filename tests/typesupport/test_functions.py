@@ -75,8 +75,8 @@ def test_copy_is_deep_and_equal(
         assert call("copy", source, copy)
         assert structs.read(plan.name, copy) == tree, plan.name
         assert call("are_equal", source, copy)
+        own = {s.data for _, s, _ in structs.strings(plan.name, source) if s.size}
         for _, member, is_string in structs.strings(plan.name, copy):
-            own = {s.data for _, s, _ in structs.strings(plan.name, source) if s.size}
             assert member.size == 0 or member.data not in own
             assert not is_string or member.data
         call("fini", copy, result=None)
