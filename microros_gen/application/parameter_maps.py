@@ -48,7 +48,7 @@ class Maps:
         _, found = _find(self.root, name, self.scope or ())
         if found is None:
             message = f"'{entry.key}' names no list of texts"
-            hint = f"Declare {name}: {{type: string_array, default_value: [...]}} beside it or around it"
+            hint = f"Declare {name}: {{type: string_array, default_value: [...]}} in the same group or one around it"
             diagnostics.error(message, entry.key_span, hint, id="MG-3076")
             return ()
         nodes = items(child(found, "default_value"))

@@ -214,6 +214,39 @@ def test_what_the_topic_does_not_tell(device: Device) -> None:
     assert "more than 95 bytes" in device.fails("count publishers /" + "x" * 95, ERROR)
 
 
+NAMES = (
+    "/",
+    "//a",
+    "/a//b",
+    "/a/",
+    "/1a",
+    "/a/2",
+    "/a-b",
+    "/a.b",
+    "/{a}",
+    "/~",
+    "a",
+    "/a",
+    "/a1/_b2",
+    "/A/b_",
+    "/_",
+)
+
+
+def test_a_name_is_valid_where_it_is_for_rcl(device: Device) -> None:
+    """The oracle is the function of rmw with which rcl_count_publishers of ROS 2 checks a name."""
+    pytest.importorskip("rclpy")
+    import rclpy.validate_full_topic_name
+    from rclpy.exceptions import InvalidTopicNameException
+
+    for name in NAMES:
+        try:
+            expected = OK if rclpy.validate_full_topic_name.validate_full_topic_name(name) else INVALID
+        except InvalidTopicNameException:
+            expected = INVALID
+        assert device.client.call(f"count publishers {name}").code == expected, name
+
+
 def test_a_graph_of_500_nodes(chunked: Device) -> None:
     """Of a message larger than 64 KiB only the answer is in memory."""
     entities = tuple((SERVER, f"/node/service_{n}", SET_BOOL) for n in range(6))

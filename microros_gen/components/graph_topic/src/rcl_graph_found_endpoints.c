@@ -87,14 +87,40 @@ static rcl_ret_t endpoints_scan(void * list, const rcl_graph_cdr_t * cdr, rcl_gr
   return RCL_RET_OK;
 }
 
-/* Returns RCL_RET_OK for a name that can be one of ROS; otherwise a text is set. */
+static bool endpoints_is_letter(char character)
+{
+  return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') || character == '_';
+}
+
+/* Whether a name is a fully qualified one of ROS: tokens after slashes, none of which begins with a digit. */
+static bool endpoints_is_valid(const char * name)
+{
+  bool is_valid = name[0] == '/';
+  bool is_begin = false; /* of a token */
+
+  for (size_t i = 0; name[i] != '\0' && is_valid; ++i) {
+    if (name[i] == '/') {
+      is_valid = !is_begin;
+      is_begin = true;
+    } else {
+      is_valid = endpoints_is_letter(name[i]) || (name[i] >= '0' && name[i] <= '9' && !is_begin);
+      is_begin = false;
+    }
+  }
+  return is_valid && !is_begin;
+}
+
+/* Returns RCL_RET_OK for a name that can be one of ROS, as rcl and a graph server do; otherwise a text is set. */
 static rcl_ret_t endpoints_check(const char * name)
 {
-  if (name[0] == '/' && name[1] != '\0') {
+  if (endpoints_is_valid(name)) {
     return RCL_RET_OK;
   }
   microros_error_set(
-    microros_error_name, name, MICROROS_ERROR_WORDS("a fully qualified name begins with a slash"), 0, 0);
+    microros_error_name, name,
+    name[0] == '/' ? MICROROS_ERROR_WORDS("the topic name is invalid")
+                   : MICROROS_ERROR_WORDS("a fully qualified name begins with a slash"),
+    0, 0);
   return RCL_RET_INVALID_ARGUMENT;
 }
 

@@ -75,7 +75,7 @@ static void rule_read(rule_walk_t * walk, rule_element_t * element)
 }
 #endif
 
-/* Reads the next value; returns false where there is none. */
+/* Reads the next value; returns false after the last one. */
 static bool rule_next(rule_walk_t * walk, rule_element_t * element)
 {
   const parameter_requested_t * const requested = walk->requested;

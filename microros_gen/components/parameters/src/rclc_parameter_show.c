@@ -119,7 +119,7 @@ static uint32_t show_text(char * to, const char * text)
   return size;
 }
 
-/* Writes digits with a point before the digit `point`, and zeros where there are none. */
+/* Writes digits with a point before the digit `point`, and zeros after the last one. */
 static uint32_t show_digits(char * to, const show_number_t * number, int32_t from, int32_t point)
 {
   const int32_t end = number->count > point ? number->count : point;
