@@ -14,10 +14,14 @@ from microros_gen.application.parser import parse_agent_address, parse_applicati
 from microros_gen.compiler.options import Options
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, Span
 from microros_gen.documents.named import Named
+from microros_gen.platform.emulated import with_emulated_console
 from microros_gen.platform.find import FoundTarget, builtin_targets, read_target
 from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
 from microros_gen.selection.extension import INSTALLED, Extensions, take_extensions
+
+_CONSOLE = "logging_console"
+"""The component of the log writer `console`."""
 
 
 @dataclass(frozen=True)
@@ -72,6 +76,8 @@ def request_of(source: Source | None, near: Path, options: Options, diagnostics:
     target = read_target(application.target.name, near, application.target.span, diagnostics, extensions)
     diagnostics.check()
     assert target is not None
+    if _logs_to_console(application):
+        target = replace(target, target=with_emulated_console(target.target))
     return Request(
         application,
         source is not None,
@@ -82,6 +88,13 @@ def request_of(source: Source | None, near: Path, options: Options, diagnostics:
         inputs,
         options.interface_paths,
         extensions,
+    )
+
+
+def _logs_to_console(application: Application) -> bool:
+    writers = {writer.to for writer in application.logging}
+    return "console" in writers or any(
+        change.name == _CONSOLE and change.add for change in application.components
     )
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import subprocess
 import sys
@@ -15,12 +16,15 @@ from microros_gen.components.logging.plan import LoggingPlan
 from microros_gen.components.logging_rosout.plan import RosoutPlan
 from microros_gen.diagnostics import UserError
 from microros_gen.interfaces.find import shipped_folder
+from microros_gen.output.tree import MANIFEST
+from microros_gen.platform.find import builtin_targets
 from microros_gen.toolchain.toolchain import WARNINGS
 from tests.support.components.rendered import SANITIZE, UNITS, planned, program_of, rendered, run
 from tests.support.ids import without_id
 from tests.support.paths import ROOT
 
 BARE = "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\n"
+BOARDS = [name for name in builtin_targets() if name.startswith("qemu-")]
 
 
 def slice_of(found: compiler.Planned) -> LoggingPlan:
@@ -316,6 +320,29 @@ def test_a_console_that_waits_is_reported(
     except UserError as refused:
         reported = tuple(refused.diagnostics)
     assert [found.message for found in reported] == messages
+
+
+@pytest.mark.parametrize("name", BOARDS)
+@pytest.mark.parametrize("asked", ["logging: console\n", "components: [+logging_console]\n"])
+def test_an_emulated_board_has_a_console(tmp_path: Path, name: str, asked: str) -> None:
+    """QEMU prints it, and nothing is left to the application; without it the image is as before."""
+    base = f"version: 1\nprofiles: [pure_sender]\ntarget: {{name: {name}}}\n"
+    found = planned(tmp_path, base + asked)
+    files = compiler.render(found)
+    assert "-semihosting-config" in json.loads(files[MANIFEST])["emulator"]["arguments"]
+    assert any(path.endswith("/port_bare_stdio_semihosting.c") for path in files)
+    plain = compiler.render(planned(tmp_path, base))
+    assert "-semihosting-config" not in json.loads(plain[MANIFEST])["emulator"]["arguments"]
+    assert not any("stdio" in path for path in plain if path.startswith("src/"))
+
+
+@pytest.mark.parametrize(
+    "given", ["stdio: {to: application}\n", "provides: [stdio_put]\n", "provides: [console]\n"]
+)
+def test_a_console_of_the_application_stays(tmp_path: Path, given: str) -> None:
+    (tmp_path / "mine.yaml").write_text(f"target: mine\nextends: qemu-mps2-an386\n{given}")
+    found = planned(tmp_path, BARE + "logging: console\ntarget: ./mine.yaml\n")
+    assert not any("semihosting" in path for path in compiler.render(found))
 
 
 NODE = "version: 1\nprofiles: [pure_sender]\nnodes: [{name: device}]\n"

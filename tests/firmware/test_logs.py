@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from tests.support.agent.observer import Observer
-from tests.support.firmware.board import Board, Builds, board, need
+from tests.support.firmware.board import BOARDS, Board, Builds, board, need
 from tests.support.firmware.running import started
 from tests.support.patience import deadline
 from tests.support.profile_with_diagnostics import APPLICATION as PROFILE
@@ -69,7 +69,7 @@ def test_rclpy_receives_what_the_board_logs(builds: Builds, domain: int, observe
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("name", ["host", NAME, "qemu-riscv32-virt"])
+@pytest.mark.parametrize("name", ["host", *BOARDS])
 @pytest.mark.parametrize("entities", ENTITIES)
 def test_the_profile_with_diagnostics_builds(builds: Builds, name: str, entities: str) -> None:
     """With XML, types of services take more than the 512 bytes that a message has by default on a serial line."""

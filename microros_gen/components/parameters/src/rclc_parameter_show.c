@@ -7,7 +7,9 @@
 
 static char show_digit(uint32_t digit)
 {
-  return "0123456789"[digit];
+  static const char digits[] = "0123456789";
+
+  return digits[digit];
 }
 
 uint32_t rclc_parameter_show_integer(char * to, int64_t value)
