@@ -23,6 +23,7 @@ from tests.bench.footprint import bench_footprint
 from tests.bench.generation import Seconds, bench_generate, median, row, timed, tool
 from tests.bench.images import bench_images
 from tests.bench.instructions import bench_instructions
+from tests.bench.lifecycle import bench_lifecycle
 from tests.bench.parameters import bench_parameters
 from tests.bench.type_flash import bench_type_flash
 
@@ -63,6 +64,8 @@ def main() -> int:
             bench_instructions(work)
         if "parameters" in options.parts:
             bench_parameters(work / "parameters")
+        if "lifecycle" in options.parts:
+            bench_lifecycle(work / "lifecycle")
         if "codec" in options.parts:
             bench_codec(work / "codec")
         if "types" in options.parts:

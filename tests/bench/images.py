@@ -14,6 +14,7 @@ from tests.bench.selections import bench_selections
 from tests.support.firmware.board import Builds, Built
 from tests.support.firmware.everything import APPLICATION as EVERYTHING
 from tests.support.firmware.footprint import SERVES, Sender, bounded_stack, image_sections
+from tests.support.firmware.lifecycle import APPLICATION as LIFE_CYCLE
 from tests.support.firmware.parameters import ADDED
 from tests.support.firmware.parameters import APPLICATION as PARAMETERS
 from tests.support.firmware.ticker import APPLICATION as TICKS
@@ -81,6 +82,13 @@ IMAGES = (
         "112,304 + 30,376 / 16,120 + 8,545 of heap, 1,808",
     ),
     Image("the same, the program adds them as sources for rclc do", PARAMETERS, "parameters.c", ADDED),
+    Image(
+        "5 node with a life cycle: five services, events, executor",
+        LIFE_CYCLE,
+        "lifecycle.c",
+        (),
+        "89,776 / 34,640",
+    ),
     Image("6 publisher of JointState, 6 joints", JOINTS, existing="54,340 + 3,604 / 13,048"),
     Image("the same with a history of two", f"{JOINTS}pools: {{history: 2}}\n"),
     Image(

@@ -7,8 +7,7 @@
 
 enum {
   STREAM_PARTS = 0x82,
-  PART_AT = XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER,
-  HEAD_SIZE = XRCE_WRITE_PREFIX + XRCE_IDENTITY_SIZE
+  PART_AT = XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER
 };
 
 static uint32_t parts_left(const xrce_parts_t * parts)
@@ -18,22 +17,19 @@ static uint32_t parts_left(const xrce_parts_t * parts)
   return left < MICROROS_PART_SIZE ? left : MICROROS_PART_SIZE;
 }
 
-/* Writes the part at `position`, of `size` bytes. The first one has all bytes of the submessage before its body. */
+/* Writes the part at `position`, of `size` bytes. The head may be in several parts. */
 static void parts_write(const xrce_parts_t * parts, uint8_t * to, uint32_t size)
 {
   uint32_t at = parts->position;
-  uint32_t head = 0;
 
-  if (at == 0u) {
-    xrce_put_submessage(
-      to, XRCE_WRITE_DATA, XRCE_FLAG_LITTLE_ENDIAN, (uint16_t)(parts->size - XRCE_SUBMESSAGE_HEADER));
-    xrce_put_be16(&to[4], XRCE_REQUEST_NONE);
-    xrce_put_be16(&to[6], xrce_object_id(parts->endpoint, XRCE_KIND_REPLIER));
-    (void)memcpy(&to[XRCE_WRITE_PREFIX], parts->identity, sizeof(parts->identity));
-    head = HEAD_SIZE;
-    at = HEAD_SIZE;
+  for (; at < (uint32_t)XRCE_PARTS_HEAD_SIZE && size != 0u; --size) {
+    *to = parts->head[at];
+    ++to;
+    ++at;
   }
-  (void)parts->body(at - (uint32_t)HEAD_SIZE, size - head, &to[head]);
+  if (size != 0u) {
+    (void)parts->body(at - (uint32_t)XRCE_PARTS_HEAD_SIZE, size, to);
+  }
 }
 
 /* Sends the outstanding part; a repetition has the same bytes. */
@@ -82,8 +78,12 @@ void xrce_parts_begin(xrce_client_t * client, uint16_t endpoint, const uint8_t *
     return;
   }
   parts->endpoint = endpoint;
-  (void)memcpy(parts->identity, identity, sizeof(parts->identity));
-  parts->size = (uint32_t)HEAD_SIZE + parts->body(0u, 0u, NULL);
+  parts->size = (uint32_t)XRCE_PARTS_HEAD_SIZE + parts->body(0u, 0u, NULL);
+  xrce_put_submessage(
+    parts->head, XRCE_WRITE_DATA, XRCE_FLAG_LITTLE_ENDIAN, (uint16_t)(parts->size - XRCE_SUBMESSAGE_HEADER));
+  xrce_put_be16(&parts->head[4], XRCE_REQUEST_NONE);
+  xrce_put_be16(&parts->head[6], xrce_object_id(endpoint, XRCE_KIND_REPLIER));
+  (void)memcpy(&parts->head[XRCE_WRITE_PREFIX], identity, XRCE_IDENTITY_SIZE);
   parts->position = 0;
   parts->busy = true; /* sent by the next step */
 }

@@ -22,6 +22,8 @@
 extern "C" {
 #endif
 
+enum { XRCE_PARTS_HEAD_SIZE = XRCE_WRITE_PREFIX + XRCE_IDENTITY_SIZE };
+
 /* Writes the bytes of a body from `from` on, at most `size`, to `to`. Returns the size of the whole body. */
 typedef uint32_t (*xrce_parts_body_t)(uint32_t from, uint32_t size, uint8_t * to);
 
@@ -36,8 +38,8 @@ typedef struct xrce_parts_t {
   uint16_t endpoint;                    /* index of the replier */
   bool busy;
   bool outstanding;
-  bool broken;                          /* the agent has a part of a reply that does not go on */
-  uint8_t identity[XRCE_IDENTITY_SIZE]; /* of the request */
+  bool broken;                         /* the agent has a part of a reply that does not go on */
+  uint8_t head[XRCE_PARTS_HEAD_SIZE]; /* bytes of the submessage before its body */
 } xrce_parts_t;
 
 /* Begins a reply of the endpoint, unless another one is under way; `parts.body` is set. */
