@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -15,6 +17,7 @@ from tests.support.e2e.commanded import CommandedProgram
 from tests.support.e2e.images import C_FILES, QUICK, Images, ends_well, kill, started
 from tests.support.e2e.lifecycle_peer import MODEL, WHATS, LifecyclePeer, lifecycle_peer
 from tests.support.e2e.relay import Relay
+from tests.support.paths import TESTS
 from tests.support.patience import deadline
 
 pytestmark = pytest.mark.ros
@@ -184,4 +187,29 @@ def test_the_state_is_a_gate(
         assert (number("dropped") - dropped, number("ticks")) == (15, ticks)
         assert process.stdin is not None
         process.stdin.write("end\n")
+        ends_well(process)
+
+
+@pytest.mark.system
+def test_a_program_for_rclc(
+    images: Images, image_port: Relay, agent: object, observer: Observer, domain: int, tmp_path: Path
+) -> None:
+    """What `init --from` proposes for it builds, and rclpy drives the program, which is unchanged."""
+    source = TESTS / "migrate/c/lifecycle_sensor.c"
+    command = [sys.executable, "-m", "microros_gen", "init", "app", "--from", str(source)]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    image = images.build(image_port.port, (tmp_path / "app/microros.yaml").read_text(encoding="utf-8"))
+    program = image.application(source, tmp_path / "sensor")
+    observer.subscribe("/readings", "std_msgs/msg/Int32")
+    with lifecycle_peer(domain) as peer, started(program) as process:
+        peer.ask(do="reset")
+        for node in ("/sensor", MODEL):
+            peer.await_services(node)
+        for identifier in (CONFIGURE, ACTIVATE):
+            both(peer, "/sensor", identifier)
+            agrees(peer, "/sensor")
+        until(lambda: any(topic == "/readings" for topic, _ in observer.ask(do="samples")), "no reading")
+        both(peer, "/sensor", DEACTIVATE)
+        both(peer, "/sensor", SHUTDOWN)
         ends_well(process)

@@ -53,6 +53,14 @@ SHARED = (
     "selection/xrce.py",
 )
 """Files outside its folder that name `parameters`: the keys of the application file, and the list of D1.4."""
+LIFECYCLE_SHARED = (
+    "application/application.schema.json",
+    "application/model.py",
+    "application/nodes.py",
+    "selection/declared.py",
+    "selection/xrce.py",
+)
+"""The same for `lifecycle`: the key `managed` of publishers and timers, and the list of D1.4."""
 _OTHER_FILES = {
     "application/modes.py",
     "application/parameter_clients.py",
@@ -154,6 +162,14 @@ def test_parameters_are_known_to_at_most_six_shared_files() -> None:
     """The measure of the structure: a component that stands on others is added in its own folder."""
     assert len(SHARED) <= 6
     assert shared_files("parameters", PACKAGE) <= set(SHARED)
+
+
+def test_the_life_cycle_is_known_to_at_most_six_shared_files() -> None:
+    """Its name, and the key `managed` of publishers and timers; what it gates are hooks that have no name of it."""
+    found = shared_files("lifecycle", PACKAGE) | shared_files("managed", PACKAGE)
+    shared = {file for file in found if not file.startswith("components/lifecycle/")}
+    assert shared <= set(LIFECYCLE_SHARED)
+    assert len(LIFECYCLE_SHARED) <= 6
 
 
 def test_a_file_that_names_a_component_is_found(tmp_path: Path) -> None:
