@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`make bench`: generate and build, encode and decode besides Fast CDR, instructions, parameters, flash of types,
-firmware, whole images, the client, the agent, the agent under attack.
+"""`make bench`: generate and build, encode and decode besides Fast CDR, instructions, parameters, life cycle, flash of
+types, firmware, whole images, the client, the agent, the agent under attack.
 
 Times depend on the machine; so each stands besides a peer that ran in the same minutes. Instruction counts come
 from callgrind or QEMU and repeat exactly with one compiler.
@@ -32,6 +32,7 @@ PARTS = (
     "build",
     "instructions",
     "parameters",
+    "lifecycle",
     "codec",
     "types",
     "footprint",

@@ -107,7 +107,9 @@ def test_every_way_to_create(
     image = images.build(image_port.port, text, flags=(*QUICK, "-DEXAMPLE_PERIOD_MS=20"))
     files = sorted((image.out / "agent").glob("*"))
     options = [
-        word for path in files for word in ("--references" if path.suffix == ".xml" else "--entities", str(path))
+        word
+        for path in files
+        for word in ("--references" if path.suffix == ".xml" else "--entities", str(path))
     ]
     assert bool(options) == (entities in ("reference", "preconfigured"))
     arrived = Arrived(observer, namespace)

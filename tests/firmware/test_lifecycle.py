@@ -14,12 +14,12 @@ from tests.support.firmware.running import started
 NAME = "qemu-mps2-an386"
 DEVICE = "/arm/device"
 SIZES = {
-    "qemu-microbit": (21_496, 3_668, 1_032),
-    NAME: (19_976, 3_668, 1_176),
-    "qemu-mps2-an505": (20_032, 3_668, 1_180),
+    "qemu-microbit": (21_560, 3_676, 1_032),
+    NAME: (19_992, 3_676, 1_176),
+    "qemu-mps2-an505": (20_048, 3_676, 1_180),
 }
 """Flash, RAM without the stack, worst stack; the goals on the Cortex-M4 are 20,000, 5,000 and 1,200."""
-SIZES_OF_ENTITIES = {"xml": (21_860, 4_268), "reference": (20_904, 3_140), "preconfigured": (19_336, 3_020)}
+SIZES_OF_ENTITIES = {"xml": (20_512, 4_260), "reference": (19_556, 3_132), "preconfigured": (18_012, 3_012)}
 
 
 @pytest.mark.system
