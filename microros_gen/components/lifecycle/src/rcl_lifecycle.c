@@ -7,8 +7,8 @@
 #include "microros/rcl_lifecycle_states.h"
 #include "microros/rcl_lifecycle_timers.h"
 #include "microros/rcl_lifecycle_types.h"
-#include "microros/rcl_publisher_open.h"
 #include "microros/rmw_lifecycle.h"
+#include "microros/rmw_publisher.h"
 #include "microros/rmw_service.h"
 #include "microros/text.h"
 
@@ -65,7 +65,7 @@ static rcl_ret_t machine_close(rcl_lifecycle_com_interface_t * offers, rcl_node_
   return first;
 }
 
-/* Opens the services of these types. Their names are known to be valid, and so is the node, which has a publisher. */
+/* Opens the services of these types. All names here are valid, and the node was looked at. */
 static rcl_ret_t machine_offer(
   rcl_lifecycle_com_interface_t * offers, const rosidl_service_type_support_t * const types[MACHINE_SERVICES])
 {
@@ -125,8 +125,12 @@ rcl_ret_t rcl_lifecycle_state_machine_init(
 
   (void)ts_srv_get_available_transitions;
   (void)ts_srv_get_transition_graph;
-  if (state_machine == NULL || node_handle == NULL || state_machine_options == NULL) {
-    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "state_machine, node or options");
+  if (
+    state_machine == NULL || node_handle == NULL || ts_pub_notify == NULL || state_machine_options == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "state_machine, node, type or options");
+  }
+  if (!rcl_node_is_valid(node_handle)) {
+    return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
   }
   if (!state_machine_options->initialize_default_states) {
     return microros_error_named(RCL_RET_UNSUPPORTED, microros_error_lifecycle, "it has the default states");
@@ -135,9 +139,9 @@ rcl_ret_t rcl_lifecycle_state_machine_init(
   state_machine->options = *state_machine_options;
   offers = &state_machine->com_interface;
   offers->node_handle = node_handle;
-  result = rcl_publisher_open(
-    &offers->pub_transition_event, node_handle, ts_pub_notify, "~/transition_event",
-    &rmw_qos_profile_services_default); /* the same values as the default, which would be a second constant */
+  result = rmw_publisher_open( /* QoS: the values of the default, which would be a second constant */
+    node_handle->impl, ts_pub_notify, "~/transition_event", &rmw_qos_profile_services_default,
+    &offers->pub_transition_event.impl);
   if (result == RCL_RET_OK && state_machine->options.enable_com_interface) {
     const rosidl_service_type_support_t * const types[MACHINE_SERVICES] = {
       ts_srv_change_state, ts_srv_get_available_states, &rcl_lifecycle_transitions_type, ts_srv_get_state,

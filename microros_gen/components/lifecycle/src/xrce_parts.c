@@ -21,14 +21,15 @@ static uint32_t parts_left(const xrce_parts_t * parts)
 static void parts_write(const xrce_parts_t * parts, uint8_t * to, uint32_t size)
 {
   uint32_t at = parts->position;
+  uint32_t done = 0;
 
-  for (; at < (uint32_t)XRCE_PARTS_HEAD_SIZE && size != 0u; --size) {
-    *to = parts->head[at];
-    ++to;
+  while (at < (uint32_t)XRCE_PARTS_HEAD_SIZE && done < size) {
+    to[done] = parts->head[at];
+    ++done;
     ++at;
   }
-  if (size != 0u) {
-    (void)parts->body(at - (uint32_t)XRCE_PARTS_HEAD_SIZE, size, to);
+  if (done < size) {
+    (void)parts->body(at - (uint32_t)XRCE_PARTS_HEAD_SIZE, size - done, &to[done]);
   }
 }
 
