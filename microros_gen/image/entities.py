@@ -67,12 +67,9 @@ _RECEIVERS = re.compile(r"(?:^|\.)receivers\[(\d+)\]")
 _SERVICES = re.compile(r"(?:^|\.)services\[(\d+)\]")
 _ENDPOINTS = re.compile(r"(?:^|\.)endpoints\[(\d+)\]")
 _STATES = re.compile(r"(?:^|\.)states\[(\d+)\]")
-_SLOT = re.compile(r"^\.(?:reliable|reliable_output)\.\w+\[(\d+)\]")
 _CLIENT = "xrce_client_t"
 _MEMBERS = {
-    "best_effort": "best-effort stream",
     "reliable": "reliable stream",
-    "reliable_output": "reliable stream",
     "reliable_input": "input stream",
     "input": INPUT_BUFFER,
     "latest": INPUT_BUFFER,
@@ -151,9 +148,6 @@ def _use(manifest: Mapping[str, Any], chunk: Chunk, kind: str, path: str) -> str
             if match:
                 return _endpoint(manifest, int(match[1]), name)
     if kind == _CLIENT or (chunk.owner.name == "support" and path.startswith(".session")):
-        slot = _SLOT.match(path)
-        if slot:
-            return f"reliable stream, slot {slot[1]}"
         member = path.removeprefix(".").partition(".")[0].partition("[")[0]
         return _MEMBERS.get(member, member.replace("_", " ") or "client")
     if chunk.owner.group == "component":

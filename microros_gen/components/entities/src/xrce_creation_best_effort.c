@@ -4,6 +4,7 @@
  * exists. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
+#include "microros/xrce_stream_best_effort.h"
 
 bool xrce_creation_begin(xrce_client_t * client, uint32_t now)
 {
@@ -14,12 +15,13 @@ bool xrce_creation_begin(xrce_client_t * client, uint32_t now)
 
 uint8_t * xrce_creation_room(xrce_client_t * client)
 {
-  return xrce_stream_best_effort_reserve(&client->best_effort);
+  (void)client;
+  return xrce_stream_best_effort_reserve();
 }
 
 void xrce_creation_send(xrce_client_t * client, size_t size)
 {
-  (void)xrce_stream_best_effort_commit(&client->best_effort, &client->session, size);
+  (void)xrce_stream_best_effort_commit(&client->session, size);
 }
 
 void xrce_creation_end(xrce_client_t * client)

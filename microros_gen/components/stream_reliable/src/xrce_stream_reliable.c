@@ -3,13 +3,18 @@
 #include "microros/xrce_stream_reliable.h"
 
 #include "microros/xrce_wire.h"
+#include "microros_config.h"
+
+/* The messages of the only client's stream. They are here, and not in the client, so that a changed limit leaves
+ * all other sources as they are. */
+static uint8_t reliable_slots[MICROROS_RELIABLE_SLOTS][MICROROS_RELIABLE_SLOT_SIZE];
 
 /* Returns the slot of the i-th stored message. */
-static uint8_t stream_slot(const xrce_stream_reliable_t * stream, uint8_t i)
+static uint32_t stream_slot(const xrce_stream_reliable_t * stream, uint8_t i)
 {
-  const uint8_t slot = (uint8_t)(stream->head + i);
+  const uint32_t slot = (uint32_t)stream->head + i;
 
-  return slot < MICROROS_RELIABLE_SLOTS ? slot : (uint8_t)(slot - MICROROS_RELIABLE_SLOTS);
+  return slot < MICROROS_RELIABLE_SLOTS ? slot : slot - MICROROS_RELIABLE_SLOTS;
 }
 
 uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream, xrce_session_t * session)
@@ -19,15 +24,15 @@ uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream, xrce_ses
   if (stream->count == MICROROS_RELIABLE_SLOTS) {
     return NULL;
   }
-  message = stream->message[stream_slot(stream, stream->count)];
+  message = reliable_slots[stream_slot(stream, stream->count)];
   xrce_stream_reliable_reclaim(session, message);
   return &message[MICROROS_RELIABLE_FRONT];
 }
 
 static bool stream_send(xrce_stream_reliable_t * stream, xrce_session_t * session, uint8_t i)
 {
-  const uint8_t slot = stream_slot(stream, i);
-  uint8_t * message = stream->message[slot];
+  const uint32_t slot = stream_slot(stream, i);
+  uint8_t * message = reliable_slots[slot];
 
   xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_RELIABLE, (uint16_t)(stream->first + i));
   return xrce_transport_take_turn(&session->transport) &&
@@ -69,7 +74,7 @@ void xrce_stream_reliable_commit(
 
 static void stream_free(xrce_stream_reliable_t * stream, uint8_t count)
 {
-  stream->head = stream_slot(stream, count);
+  stream->head = (uint8_t)stream_slot(stream, count);
   stream->first = (uint16_t)(stream->first + count);
   stream->count = (uint8_t)(stream->count - count);
   stream->unsent = (uint16_t)((uint32_t)stream->unsent >> count);
@@ -79,7 +84,7 @@ const uint8_t * xrce_stream_reliable_drop_oldest(
   xrce_stream_reliable_t * stream, const xrce_session_t * session, uint32_t now)
 {
   const uint16_t first = stream->first;
-  const uint8_t * dropped = &stream->message[stream->head][MICROROS_RELIABLE_FRONT];
+  const uint8_t * dropped = &reliable_slots[stream->head][MICROROS_RELIABLE_FRONT];
 
   (void)session;
   if (stream->count == 0u) {

@@ -16,7 +16,9 @@
 extern "C" {
 #endif
 
-/* Zero-initialized: an empty stream. */
+/*
+ * Zero-initialized: an empty stream. Its slots are not part of the state: only the stream's own source
+ * depends on their size. */
 typedef struct xrce_stream_reliable_t {
   uint32_t due_ms;   /* next HEARTBEAT while something is unacknowledged; while held: the limit */
   uint32_t since_ms; /* time of the last acknowledgement, or of the first message */
@@ -31,7 +33,6 @@ typedef struct xrce_stream_reliable_t {
   uint16_t unsent;   /* bit i: requested and not yet repeated */
   uint8_t order[MICROROS_RELIABLE_SLOTS]; /* slot of the i-th message, XORed with i */
   uint16_t size[MICROROS_RELIABLE_SLOTS]; /* of the submessages of a message */
-  uint8_t message[MICROROS_RELIABLE_SLOTS][MICROROS_RELIABLE_SLOT_SIZE];
 } xrce_stream_reliable_t;
 
 /* Returns whether no sequence number awaits an acknowledgement. */

@@ -12,7 +12,9 @@
 extern "C" {
 #endif
 
-/* Zero-initialized: an empty stream. */
+/*
+ * Zero-initialized: an empty stream. Its slots are not part of the state: only the stream's own source
+ * depends on their size. */
 typedef struct xrce_stream_reliable_t {
   uint32_t due_ms;   /* next HEARTBEAT while something is unacknowledged; while held: the limit */
   uint32_t since_ms; /* time of the last acknowledgement, or of the first message */
@@ -22,7 +24,6 @@ typedef struct xrce_stream_reliable_t {
   uint16_t first;    /* its sequence number; while held: the next one to assign */
   uint16_t unsent;   /* bit i: first + i is to be sent */
   uint16_t size[MICROROS_RELIABLE_SLOTS]; /* of the submessages of a message */
-  uint8_t message[MICROROS_RELIABLE_SLOTS][MICROROS_RELIABLE_SLOT_SIZE];
 } xrce_stream_reliable_t;
 
 /* Returns whether no sequence number awaits an acknowledgement. */

@@ -8,25 +8,19 @@
 #include <stdint.h>
 
 #include "microros/xrce_session.h"
-#include "microros_config.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-typedef struct xrce_stream_best_effort_t {
-  uint16_t sequence; /* of the next message */
-  uint8_t message[MICROROS_BEST_EFFORT_SIZE];
-} xrce_stream_best_effort_t;
-
-void xrce_stream_best_effort_reset(xrce_stream_best_effort_t * stream);
+/* Called for a new session: its numbers begin with 0. */
+void xrce_stream_best_effort_reset(void);
 
 /* Returns room for MICROROS_BEST_EFFORT_SIZE - XRCE_MESSAGE_HEADER bytes of submessages; never NULL. */
-uint8_t * xrce_stream_best_effort_reserve(xrce_stream_best_effort_t * stream);
+uint8_t * xrce_stream_best_effort_reserve(void);
 
 /* Sends `size` bytes of submessages. Returns false if the transport refused them; they are dropped. */
-bool xrce_stream_best_effort_commit(
-  xrce_stream_best_effort_t * stream, xrce_session_t * session, size_t size);
+bool xrce_stream_best_effort_commit(xrce_session_t * session, size_t size);
 
 #ifdef __cplusplus
 }
