@@ -80,7 +80,7 @@ HOOK_POINTS: Mapping[str, HookPoint] = MappingProxyType(
 )
 """Where components hook in; docs/architecture.md says when each is called."""
 
-STATE_SECTIONS = ("streams", "input_streams", "parts", "tables", "queues", "services", "input")
+STATE_SECTIONS = ("first", "streams", "input_streams", "parts", "tables", "queues", "services", "input")
 HANDLE_SECTIONS = ("handle", "handle_callbacks", "handle_data")
 TRANSPORT_SECTIONS = ("transport", "line")
 """Sections of members of the client, of a handle of the executor, and of the transport."""
