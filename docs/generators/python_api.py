@@ -38,6 +38,8 @@ def page() -> str:
     members = [(name, getattr(compiler, name)) for name in compiler.__all__]
     parts += ["## Functions"]
     parts += [_function(name, member) for name, member in members if inspect.isfunction(member)]
+    parts += ["## Constants"]
+    parts += [f"`{name}`: `{member}`" for name, member in members if isinstance(member, str)]
     parts += ["## Data"]
     parts += [_class(name, member) for name, member in members if inspect.isclass(member)]
     return "\n\n".join(parts) + "\n"

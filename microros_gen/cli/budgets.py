@@ -10,7 +10,6 @@ import click
 
 from microros_gen import compiler
 from microros_gen.cli.generate import warnings_text
-from microros_gen.compiler.budgets import check_manifest, check_plan
 from microros_gen.diagnostics import Diagnostics, UserError
 from microros_gen.image.folder import Folder
 
@@ -18,7 +17,7 @@ from microros_gen.image.folder import Folder
 def check_planned(planned: compiler.Planned, read: Callable[[], Folder]) -> None:
     """Check the budgets of a plan against the folder that `read` returns. Raises UserError with status 1."""
     with _reported() as warnings:
-        check_plan(planned, read, warnings)
+        compiler.check_plan(planned, read, warnings)
 
 
 def check_recorded(folder: Folder) -> None:
@@ -37,7 +36,7 @@ def check_recorded(folder: Folder) -> None:
             check_planned(planned, lambda: folder)
             return
     with _reported() as warnings:
-        check_manifest(folder, warnings)
+        compiler.check_manifest(folder, warnings)
 
 
 @contextmanager

@@ -55,7 +55,6 @@ def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
     compile_ahead(compiled_templates(os.environ))
     request = compiler.read(compiler.Options(**options))
     from microros_gen.cli.summary import plan_summary
-    from microros_gen.compiler.pipeline import read_paths
     from microros_gen.output.depfile import write_depfile
     from microros_gen.output.tree import JOURNAL, MANIFEST
 
@@ -68,7 +67,7 @@ def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
     summary = plan_summary(planned)
     files = report.written + report.unchanged
     run = Run(out, summary, len(files), warnings)
-    inputs = tuple(read_paths(planned))
+    inputs = tuple(compiler.read_paths(planned))
     outputs = [f"{out}/{name}" for name in files]
     if depfile is not None:
         write_depfile(depfile, out / MANIFEST, inputs)

@@ -12,7 +12,7 @@ from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import PublisherPlan, SubscriptionPlan
 from microros_gen.client.plan.services import ServicePlan
 from microros_gen.client.views.presence import report_rows
-from microros_gen.compiler.pipeline import Planned
+from microros_gen.compiler import Planned
 from microros_gen.typesupport.plan.message_pools import open_members
 
 if TYPE_CHECKING:

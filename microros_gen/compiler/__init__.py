@@ -28,12 +28,14 @@ if TYPE_CHECKING:
         toolchain,
         write,
     )
+    from microros_gen.compiler.budgets import check_manifest, check_plan
     from microros_gen.compiler.options import Options
-    from microros_gen.compiler.pipeline import Planned, Resolved
+    from microros_gen.compiler.pipeline import DEFAULT_INTERFACE, Planned, Resolved, read_paths
     from microros_gen.compiler.request import Request
     from microros_gen.diagnostics import Diagnostic, UserError
 
 __all__ = [
+    "DEFAULT_INTERFACE",
     "Built",
     "Diagnostic",
     "Generated",
@@ -42,12 +44,15 @@ __all__ = [
     "Request",
     "Resolved",
     "UserError",
+    "check_manifest",
+    "check_plan",
     "compile",
     "differences",
     "generate",
     "output_folder",
     "plan",
     "read",
+    "read_paths",
     "read_source",
     "render",
     "resolve",
@@ -56,12 +61,16 @@ __all__ = [
 ]
 
 _ELSEWHERE = {
+    "DEFAULT_INTERFACE": "microros_gen.compiler.pipeline",
     "Diagnostic": "microros_gen.diagnostics",
     "Options": "microros_gen.compiler.options",
     "Planned": "microros_gen.compiler.pipeline",
     "Request": "microros_gen.compiler.request",
     "Resolved": "microros_gen.compiler.pipeline",
     "UserError": "microros_gen.diagnostics",
+    "check_manifest": "microros_gen.compiler.budgets",
+    "check_plan": "microros_gen.compiler.budgets",
+    "read_paths": "microros_gen.compiler.pipeline",
 }
 
 

@@ -54,6 +54,7 @@ from microros_gen.typesupport.plan.capacity import Capacities, Defaults, Entity,
 from microros_gen.typesupport.plan.types import plan_types
 
 DEFAULT_INTERFACE = "std_msgs/msg/Int32"
+"""The interface of an application that names none."""
 
 
 @dataclass(frozen=True)

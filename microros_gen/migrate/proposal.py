@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from microros_gen import compiler
-from microros_gen.compiler.pipeline import DEFAULT_INTERFACE
+from microros_gen.compiler import DEFAULT_INTERFACE
 from microros_gen.diagnostics import Diagnostics, Source, UserError
 from microros_gen.documents.files import read_text
 from microros_gen.documents.named import Named

@@ -13,7 +13,6 @@ import pytest
 from microros_gen import compiler
 from microros_gen.application.model import ParameterDecl
 from microros_gen.application.parameter_file import parse_parameter_file
-from microros_gen.compiler.pipeline import read_paths
 from microros_gen.diagnostics import Diagnostics, Source, UserError
 from microros_gen.output.tree import MANIFEST
 from tests.support.ids import without_id
@@ -313,7 +312,7 @@ def test_a_node_has_those_of_the_file_first(tmp_path: Path) -> None:
     [symbol] = re.findall(r'\{\.name = "gains\.p",[^}]* \.range = &(\w+)\}', declared)
     assert f"{symbol} = {{.floating_point = {{0.0, 10.0, 0.0}}}};" in declared
     assert b"parameter file motor.yaml" in files[MANIFEST]
-    assert file in set(read_paths(found))
+    assert file in set(compiler.read_paths(found))
 
 
 def test_a_file_is_read_once(tmp_path: Path) -> None:

@@ -77,6 +77,13 @@ def test_imports_point_one_way() -> None:
     assert violations(PACKAGE) == []
 
 
+def test_the_compiler_is_used_by_its_documented_names() -> None:
+    """`microros_gen.compiler` exports what other folders use; its modules are its own."""
+    others = (path for path in sorted(PACKAGE.rglob("*.py")) if path.parent != PACKAGE / "compiler")
+    inside = "microros_gen.compiler."
+    assert [f"{p}:{line}" for p in others for line, module in imports(p) if module.startswith(inside)] == []
+
+
 def test_every_folder_with_code_has_its_place() -> None:
     folders = {p.relative_to(PACKAGE).parts[0] for p in PACKAGE.rglob("*.py") if p.parent != PACKAGE}
     assert folders <= set(ORDER)
