@@ -102,6 +102,13 @@ def node_graph() -> str:
     return _svg(910, height, "Node graph of the example ping_pong", parts)
 
 
+def modes() -> str:
+    """Draw the mobile robot as `modes graph` does."""
+    with tempfile.TemporaryDirectory() as folder:
+        _tool("modes", "graph", "examples/mobile_robot/robot.yaml", "-o", f"{folder}/robot.svg")
+        return Path(folder, "robot.svg").read_text(encoding="utf-8").replace("\n", "")
+
+
 @cache
 def treemap() -> str:
     """Draw the flash of pure_sender on a Cortex-M4 as `size --format html` does, or say which compiler is missing."""
@@ -119,6 +126,7 @@ def treemap() -> str:
 _PICTURES = {
     "data_flow": data_flow,
     "components": components,
+    "modes": modes,
     "node_graph": node_graph,
     "treemap": treemap,
 }

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import subprocess
 import sys
 import time
@@ -14,7 +13,17 @@ from pathlib import Path
 FOLDER = Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent))  # a script finds what is beside it, not what examples share
 
-from processes import FIRMWARE_NEEDS, ROOT, TOOL, PartFailedError, agent, domain, free_port, part, run_build  # noqa: E402
+from processes import (  # noqa: E402
+    ROOT,
+    TOOL,
+    PartFailedError,
+    agent,
+    domain,
+    free_port,
+    missing_firmware_packages,
+    part,
+    run_build,
+)
 
 OUT = ROOT / "build" / "demo"
 LAMP = FOLDER.parent / "parameters"
@@ -91,8 +100,7 @@ def show_parameters(port: int) -> None:
 def show_firmware() -> None:
     """Build a board's image, run it in QEMU, and let rclpy hear it; say what to install where something lacks."""
     print(f"6. firmware: the first node for {BOARD}")
-    missing = [package for program, package in FIRMWARE_NEEDS if shutil.which(program) is None]
-    if missing:
+    if missing := missing_firmware_packages():
         print(f"   left out; to see it: apt-get install {' '.join(missing)}")
         return
     out = OUT.with_name("demo_firmware")
