@@ -38,7 +38,7 @@ def select_scope(model: Model, roots: Sequence[str] = (), without: Sequence[str]
     excluded = {_known(model, name) for name in without}
     found = [part for name in chosen for part in _walk(model, model.parts[name], excluded)]
     names = [part.name for part in found]
-    twice = next((name for name in names if names.count(name) > 1), None)
+    twice = next((name for name in chosen if names.count(name) > 1), None)
     if twice is not None:
         hint = "Name only the upper one"
         raise UserError([Diagnostic(f"'{twice}' is twice in the scope", hint=hint, id="MG-8871")])
