@@ -117,6 +117,7 @@ class Orchestrator:
         leaf.attempts = 0
         if leaf.has_reached and link is not Link.ABSENT:
             self._deviate(leaf)
+            leaf.deviates = False  # it gets its target first; rules decide if it cannot
 
     def hear_state(self, name: str, state: str) -> None:
         """Note the goal of a transition event."""
@@ -315,17 +316,18 @@ class Orchestrator:
             return None
         status = self.status(leaf)
         is_done = bool(leaf.failure) or leaf.is_settled(status)
+        is_waiting = is_done or bool(leaf.settle_until or self.progress.blocker(leaf.name))
         interval_s = self.settings.pause_s if leaf.settle_until else self.settings.poll_s
-        if (is_done or leaf.settle_until) and now - leaf.polled >= interval_s:
+        if is_waiting and now - leaf.polled >= interval_s:
             leaf.polled = now
             leaf.stale |= leaf.queries
-        if is_done and leaf.doubts:
+        if is_waiting and leaf.doubts:
             leaf.stale |= leaf.doubts
             leaf.doubts.clear()
         for kind in Kind:
             if kind in leaf.stale:
                 return self._call(leaf, now, kind)
-        if is_done or leaf.deviates or leaf.settle_until or self.progress.blocker(leaf.name):
+        if is_waiting or leaf.deviates:
             return None
         if self._is_passing(leaf, status, now):
             return None

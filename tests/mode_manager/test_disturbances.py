@@ -377,3 +377,29 @@ def test_a_mode_is_taken_over_when_the_nodes_are_discovered_late() -> None:
     world.run(3)
     assert world.status("arm") == "active.QUICK"
     assert str(world.manager.targets["arm"]) == "active.QUICK"
+
+
+def test_a_part_that_appears_inactive_is_commanded_before_rules_are_looked_at() -> None:
+    """A rule degrades an arm whose gripper is inactive; this one has just not been commanded yet."""
+    world = World(model_of(ARM), {"joint": Node()})
+    world.request("arm", QUICK, 1)
+    world.join("gripper", Node(state="inactive"))
+    world.run(3)
+    assert (world.status("arm"), world.manager.rules) == ("active.QUICK", {})
+
+
+def test_a_part_that_waits_for_a_failed_one_is_not_on_its_way() -> None:
+    """Others deactivate it soon after a command of the manager: what is in doubt is asked, and rules go on."""
+    model = model_of(changed(ROBOT, "if_target: active.FAST", "if_target: active"))
+    nodes = {each.name: Node() for each in model.nodes}
+    world = World(model, nodes)
+    world.request("robot", active("FAST"), 0.5)
+    assert world.status("robot") == "active.FAST"
+    nodes["camera"].refuses = activates
+    world.change("camera", "inactive")
+    world.nodes["wheels/left"].state = "unconfigured"
+    world.manager.hear_state("wheels/left", "unconfigured")
+    world.run(15)
+    assert world.status("camera") == "inactive"
+    assert world.status("wheels/left") == "unconfigured"
+    assert not world.manager.progress.is_moving("robot")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A node with a life cycle and mode services of its own, as firmware has them, in a thread."""
+"""A node with a life cycle and its own mode services, as firmware has them, in a thread."""
 
 from __future__ import annotations
 
