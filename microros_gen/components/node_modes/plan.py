@@ -171,8 +171,8 @@ def _members(parameter: ParameterDecl, start: str) -> str:
 
 
 def record(part: NodeModesPlan) -> object:
-    """Return what the plan id is made of: how many modes each node has."""
-    return [[node.index, len(node.modes), len(node.entries)] for node in part.nodes]
+    """Return what the plan id is made of: the positions of modes, which applications are compiled with."""
+    return [[node.index, [mode.name for mode in node.modes], len(node.entries)] for node in part.nodes]
 
 
 def endpoints(node: NodeDecl) -> Iterator[EndpointDecl]:

@@ -17,9 +17,9 @@
 #include <stddef.h>
 
 /* Of a request that is too large only the length of its name arrives. */
-enum { CHANGE_BEGINNING = 4 };
+enum { MODES_BEGINNING = 4 };
 
-static bool types_is_name(const char * name, const uint8_t * text, uint32_t size)
+static bool modes_is_name(const char * name, const uint8_t * text, uint32_t size)
 {
   uint32_t i = 0;
 
@@ -29,19 +29,19 @@ static bool types_is_name(const char * name, const uint8_t * text, uint32_t size
   return i == size && name[i] == '\0';
 }
 
-static void types_decode_change(cdr_in_t * in, void * message)
+static void modes_decode_change(cdr_in_t * in, void * message)
 {
   rclc_modes_t * modes = message;
   uint32_t length;
 
   modes->requested = (uint8_t)RCLC_MODES_NONE;
-  if (in->size == (uint32_t)CHANGE_BEGINNING) {
+  if (in->size == (uint32_t)MODES_BEGINNING) {
     in->position = in->size;
     return;
   }
   length = cdr_in_length(in, 1u, "mode_name");
   for (uint8_t i = 0; i < modes->table->mode_count && length > 1u; ++i) {
-    if (types_is_name(modes->table->modes[i].name, &in->body[in->position], length - 1u)) {
+    if (modes_is_name(modes->table->modes[i].name, &in->body[in->position], length - 1u)) {
       modes->requested = i;
     }
   }
@@ -49,14 +49,14 @@ static void types_decode_change(cdr_in_t * in, void * message)
 }
 
 /* Other requests have no contents. */
-static void types_decode(cdr_in_t * in, void * message)
+static void modes_decode(cdr_in_t * in, void * message)
 {
   (void)in;
   (void)message;
 }
 
 /* Returns the length of a body whose limits are those of the tables. */
-static uint32_t types_end(const parameter_out_t * out, const rclc_modes_t * modes, cdr_fault_t * fault)
+static uint32_t modes_end(const parameter_out_t * out, const rclc_modes_t * modes, cdr_fault_t * fault)
 {
   if (out->full) {
     (void)cdr_refuse(fault, CDR_FAULT_LIMIT, "modes", modes->table->mode_count, 0u);
@@ -64,7 +64,7 @@ static uint32_t types_end(const parameter_out_t * out, const rclc_modes_t * mode
   return out->full ? 0u : out->position;
 }
 
-static uint32_t types_encode_change(const void * message, uint8_t * body, cdr_fault_t * fault)
+static uint32_t modes_encode_change(const void * message, uint8_t * body, cdr_fault_t * fault)
 {
   const rclc_modes_t * modes = message;
 
@@ -73,7 +73,7 @@ static uint32_t types_encode_change(const void * message, uint8_t * body, cdr_fa
   return 1u;
 }
 
-static uint32_t types_encode_available(const void * message, uint8_t * body, cdr_fault_t * fault)
+static uint32_t modes_encode_available(const void * message, uint8_t * body, cdr_fault_t * fault)
 {
   const rclc_modes_t * modes = message;
   parameter_out_t out = {
@@ -83,20 +83,20 @@ static uint32_t types_encode_available(const void * message, uint8_t * body, cdr
   for (uint8_t i = 0; i < modes->table->mode_count; ++i) {
     rclc_parameter_out_text(&out, modes->table->modes[i].name);
   }
-  return types_end(&out, modes, fault);
+  return modes_end(&out, modes, fault);
 }
 
-static uint32_t types_encode_get(const void * message, uint8_t * body, cdr_fault_t * fault)
+static uint32_t modes_encode_get(const void * message, uint8_t * body, cdr_fault_t * fault)
 {
   const rclc_modes_t * modes = message;
   parameter_out_t out = {body, 0, system_modes_msgs__srv__GetMode_Response__MAX_ENCODED_SIZE, false};
   const bool is_active = rclc_modes_state(modes) == (uint8_t)lifecycle_msgs__msg__State__PRIMARY_STATE_ACTIVE;
 
   rclc_parameter_out_text(&out, is_active ? modes->table->modes[modes->mode].name : "");
-  return types_end(&out, modes, fault);
+  return modes_end(&out, modes, fault);
 }
 
-static uint32_t types_encode_event(const void * message, uint8_t * body, cdr_fault_t * fault)
+static uint32_t modes_encode_event(const void * message, uint8_t * body, cdr_fault_t * fault)
 {
   const rclc_modes_t * modes = message;
   parameter_out_t out = {body, 0, system_modes_msgs__msg__ModeEvent__MAX_ENCODED_SIZE, false};
@@ -104,22 +104,22 @@ static uint32_t types_encode_event(const void * message, uint8_t * body, cdr_fau
   rclc_parameter_out_8(&out, &modes->event_time_ns);
   rclc_parameter_out_text(&out, modes->table->modes[modes->event_start].name);
   rclc_parameter_out_text(&out, modes->table->modes[modes->event_goal].name);
-  return types_end(&out, modes, fault);
+  return modes_end(&out, modes, fault);
 }
 
 static const microros_message_type_t modes_request = {
   .dds_type_name = MICROROS_ERROR_WORDS("system_modes_msgs::srv::dds_::GetMode_Request_"),
   .max_encoded_size = system_modes_msgs__srv__GetMode_Request__MAX_ENCODED_SIZE,
-  .decode = types_decode};
+  .decode = modes_decode};
 
 static const microros_message_type_t modes_change_request = {
   .dds_type_name = MICROROS_ERROR_WORDS("system_modes_msgs::srv::dds_::ChangeMode_Request_"),
   .max_encoded_size = system_modes_msgs__srv__ChangeMode_Request__MAX_ENCODED_SIZE,
-  .decode = types_decode_change};
+  .decode = modes_decode_change};
 static const microros_message_type_t modes_change_response = {
   .dds_type_name = MICROROS_ERROR_WORDS("system_modes_msgs::srv::dds_::ChangeMode_Response_"),
   .max_encoded_size = system_modes_msgs__srv__ChangeMode_Response__MAX_ENCODED_SIZE,
-  .encode = types_encode_change};
+  .encode = modes_encode_change};
 static const microros_service_type_t modes_change_service = {
   .dds_type_name = "system_modes_msgs::srv::dds_::ChangeMode_",
   .request = &modes_change_request,
@@ -130,7 +130,7 @@ const rosidl_service_type_support_t rclc_modes_change_type = {
 static const microros_message_type_t modes_available_response = {
   .dds_type_name = MICROROS_ERROR_WORDS("system_modes_msgs::srv::dds_::GetAvailableModes_Response_"),
   .max_encoded_size = system_modes_msgs__srv__GetAvailableModes_Response__MAX_ENCODED_SIZE,
-  .encode = types_encode_available};
+  .encode = modes_encode_available};
 static const microros_service_type_t modes_available_service = {
   .dds_type_name = "system_modes_msgs::srv::dds_::GetAvailableModes_",
   .request = &modes_request,
@@ -141,7 +141,7 @@ const rosidl_service_type_support_t rclc_modes_get_available_type = {
 static const microros_message_type_t modes_get_response = {
   .dds_type_name = MICROROS_ERROR_WORDS("system_modes_msgs::srv::dds_::GetMode_Response_"),
   .max_encoded_size = system_modes_msgs__srv__GetMode_Response__MAX_ENCODED_SIZE,
-  .encode = types_encode_get};
+  .encode = modes_encode_get};
 static const microros_service_type_t modes_get_service = {
   .dds_type_name = "system_modes_msgs::srv::dds_::GetMode_",
   .request = &modes_request,
@@ -152,6 +152,6 @@ const rosidl_service_type_support_t rclc_modes_get_type = {
 static const microros_message_type_t modes_event_message = {
   .dds_type_name = "system_modes_msgs::msg::dds_::ModeEvent_",
   .max_encoded_size = system_modes_msgs__msg__ModeEvent__MAX_ENCODED_SIZE,
-  .encode = types_encode_event};
+  .encode = modes_encode_event};
 const rosidl_message_type_support_t rclc_modes_event_type = {
   .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &modes_event_message};
