@@ -60,22 +60,22 @@ class NodePlan:
 class NodeModesPlan:
     """The nodes that have modes."""
 
-    nodes: tuple[NodePlan, ...] = ()
+    declared: tuple[NodePlan, ...] = ()
 
     @property
     def count(self) -> int:
         """Return the number of modes of all nodes."""
-        return sum(len(node.modes) for node in self.nodes)
+        return sum(len(node.modes) for node in self.declared)
 
     @property
     def handles(self) -> int:
         """Return the handles of the executor: RCLC_EXECUTOR_MODES_HANDLES of each node."""
-        return HANDLES * len(self.nodes)
+        return HANDLES * len(self.declared)
 
     @property
     def shown(self) -> str:
         """Return what a report says: each node with its modes."""
-        return "; ".join(f"{node.name} {', '.join(mode.name for mode in node.modes)}" for node in self.nodes)
+        return "; ".join(f"{node.name} {', '.join(mode.name for mode in node.modes)}" for node in self.declared)
 
 
 def plan(context: PlanContext, diagnostics: Diagnostics) -> NodeModesPlan:
@@ -89,7 +89,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> NodeModesPlan:
     for node in application.nodes:
         diagnostics.extend(longer_than_limits(application, _written(node), "the value"))
         _check_texts(node, diagnostics)
-    return NodeModesPlan(nodes=tuple(_nodes(application)))
+    return NodeModesPlan(declared=tuple(_nodes(application)))
 
 
 def _written(node: NodeDecl) -> Iterator[ParameterDecl]:
@@ -172,7 +172,7 @@ def _members(parameter: ParameterDecl, start: str) -> str:
 
 def record(part: NodeModesPlan) -> object:
     """Return what the plan id is made of: the positions of modes, which applications are compiled with."""
-    return [[node.index, [mode.name for mode in node.modes], len(node.entries)] for node in part.nodes]
+    return [[node.index, [mode.name for mode in node.modes], len(node.entries)] for node in part.declared]
 
 
 def endpoints(node: NodeDecl) -> Iterator[EndpointDecl]:
