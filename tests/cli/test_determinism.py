@@ -88,6 +88,7 @@ def expected(run: Runner, inputs: Path, folder: Path) -> dict[str, bytes]:
     return files
 
 
+@pytest.mark.system
 @pytest.mark.parametrize("version", first(interpreters()), ids=lambda v: f"{v[0]}.{v[1]}")
 def test_every_python(
     inputs: Path, tmp_path: Path, expected: dict[str, bytes], version: tuple[int, int]

@@ -22,13 +22,10 @@ pytestmark = [
     pytest.mark.builds,
 ]
 TreeOf = Callable[[str], Tree]
-QUICK = "pool"
-"""What the default suite looks at; `make system` has the rest of FIRST."""
 
 
 def _marks(name: str) -> list[pytest.MarkDecorator]:
-    if name == QUICK:
-        return []
+    """`make test` looks at symbols in tests/runtime, of the C components without a generated application."""
     return [pytest.mark.system if name in FIRST else pytest.mark.long if name in ALSO else pytest.mark.lint]
 
 

@@ -60,6 +60,7 @@ def test_random_messages_as_rclpy_writes_and_reads_them(installed: InterfaceSet)
     check()
 
 
+@pytest.mark.system
 def test_every_type_as_rosbags_writes_and_reads_it(installed: InterfaceSet) -> None:
     """In both byte orders; rosbags has no wide strings."""
     pytest.importorskip("rosbags.typesys")

@@ -50,6 +50,7 @@ def frames(folder: Path, transport: str, size: int) -> dict[str, int]:
     return {name.rpartition(":")[2]: int(size) for name, size, _ in lines}
 
 
+@pytest.mark.system
 @pytest.mark.parametrize("transport", first(["tcp", "serial", "udp", "custom"], 2))
 def test_no_frame_grows_with_the_largest_message(transport: str, tmp_path: Path) -> None:
     small = frames(tmp_path / "small", transport, 64)

@@ -159,6 +159,7 @@ def _headers(tree: Tree) -> list[str]:
     return sorted(str(p.relative_to(tree.include)) for p in tree.include.rglob("*.h"))
 
 
+@pytest.mark.system
 def test_every_header_compiles_alone(tree: Tree) -> None:
     """In C99 and in C++, twice in a row, and all of them in the reverse order."""
     headers = _headers(tree)
@@ -173,6 +174,7 @@ def test_every_header_compiles_alone(tree: Tree) -> None:
     subprocess.run(["g++", "-std=c++11", "-x", "c++", *flags, str(source)], check=True)
 
 
+@pytest.mark.system
 def test_cpp_links_against_the_c_library(tree: Tree) -> None:
     objects = compile_merged(tree, tree.sources, (), "gcc", UNWARNED)
     source = tree.folder / "main.cpp"

@@ -139,6 +139,7 @@ def test_sources_txt_is_complete(tree_of: TreeOf, name: str) -> None:
     assert [line.strip() for line in cmake.splitlines() if line.startswith("  src/")] == generated
 
 
+@pytest.mark.system
 @pytest.mark.skipif(not has("cmake"), reason="no cmake")
 def test_cmake_builds_it_elsewhere_without_the_tool(tree_of: TreeOf, tmp_path: Path) -> None:
     """Out of tree, in a path with spaces, with the example."""

@@ -76,9 +76,8 @@ def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return place / "out"
 
 
-@pytest.mark.parametrize(
-    "variant", [pytest.param(v, marks=[] if v == "gcc" else [pytest.mark.system]) for v in VARIANTS]
-)
+@pytest.mark.system
+@pytest.mark.parametrize("variant", VARIANTS)
 def test_what_sources_do_with_messages(out: Path, variant: str) -> None:
     """Initialize, assign, copy, create, the utilities, buffers and an application's allocator: line by line in C."""
     command = VARIANTS[variant]

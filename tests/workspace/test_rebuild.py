@@ -54,6 +54,7 @@ def test_an_application_file_compiles_what_its_plan_is_in(project: Project) -> N
     assert not [name for name in rebuilt if name.startswith(("src/cdr/", "src/std_msgs/"))]
 
 
+@pytest.mark.system
 def test_a_profile_of_the_users_compiles_what_it_adds(project: Project) -> None:
     added = "src/session_state/rmw_session_state.c"
     rebuilt = rebuilt_after(project, project.source / "mine.yaml", "[+timers]", "[+timers, +session_state]")
