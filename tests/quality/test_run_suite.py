@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import chain, combinations
+from pathlib import Path
 
 import pytest
 from _pytest.mark.expression import Expression
@@ -11,7 +13,7 @@ from _pytest.mark.expression import Expression
 from tests.support.examples import EXAMPLES, LEAST, examples, some
 from tests.support.paths import TESTS
 from tests.support.runtime.harness import EVERYWHERE
-from tests.tools.run_suite import RUNS, SANITIZED, Run, command
+from tests.tools.run_suite import RUNS, SANITIZED, Run, command, compile_tests
 
 FOLDERS = sorted(path.parent.name for path in TESTS.glob("*/__init__.py"))
 MARKERS = ("ros", "builds", "lint", "system", "hypothesis", "examples")
@@ -60,6 +62,32 @@ def test_long_runs_are_in_no_target() -> None:
 def test_a_folder_that_another_run_has_is_left_out() -> None:
     call = command(Run("system", without=("runtime",)), ())
     assert "--ignore=tests/runtime" in call
+
+
+def test_each_folder_of_a_fresh_clone_is_compiled_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folders = [tmp_path / name for name in "abc"]
+    for folder in folders:
+        folder.mkdir()
+        (folder / "test_x.py").touch()
+    collected: list[str] = []
+
+    class Collecting:
+        def __init__(self, call: Sequence[str], **_: object) -> None:
+            collected.extend(word for word in call if word.startswith(str(tmp_path)))
+
+        def wait(self) -> int:
+            return 0
+
+    monkeypatch.setattr("tests.tools.run_suite.TESTS", tmp_path)
+    monkeypatch.setattr("tests.tools.run_suite.subprocess.Popen", Collecting)
+    compile_tests()
+    assert sorted(collected) == [str(folder) for folder in folders]
+    collected.clear()
+    (folders[0] / "__pycache__").mkdir()
+    compile_tests()
+    assert collected == []
 
 
 @pytest.mark.parametrize(("full", "drawn"), [(1500, 300), (200, 40), (100, LEAST), (15, 15)])
