@@ -43,7 +43,7 @@ class Maps:
         return self if self.scope is not None else replace(self, scope=scope)
 
     def values(self, entry: Entry, diagnostics: Diagnostics) -> tuple[str, ...]:
-        """Return the texts that a map stands for; none where they are no names, which is reported."""
+        """Return the texts of the list that a map names; none where they are no names, which is reported."""
         name = entry.key.removeprefix(MAP)
         _, found = _find(self.root, name, self.scope or ())
         if found is None:
@@ -67,7 +67,7 @@ def is_group(entry: Entry) -> bool:
 
 
 def _find(root: YamlNode, name: str, scope: tuple[str, ...]) -> tuple[str, YamlNode | None]:
-    """Return the full name and declaration of the list of that name that is nearest to a scope; None: there is none."""
+    """Return the full name and declaration of the list of that name that is nearest to a scope; None if it does not exist."""
     for count in range(len(scope), -1, -1):
         node: YamlNode | None = root
         for part in (*scope[:count], name):

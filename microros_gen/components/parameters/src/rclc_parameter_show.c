@@ -84,31 +84,29 @@ static int32_t show_exponent_of(double value)
 }
 
 /* For a finite number above 0; half a digit is rounded to an even one. */
-static show_number_t show_split(double value)
+static void show_split(double value, show_number_t * number)
 {
   const int32_t exponent = show_exponent_of(value);
   const double scaled = show_scaled(value, SHOW_DIGITS - 1 - exponent);
   uint32_t rounded = (uint32_t)scaled;
   const double rest = scaled - (double)rounded;
-  show_number_t number;
 
-  number.count = SHOW_DIGITS;
-  number.exponent = exponent;
+  number->count = SHOW_DIGITS;
+  number->exponent = exponent;
   if (rest > 0.5 || (rest >= 0.5 && rounded % 2u == 1u)) {
     ++rounded;
   }
   if (rounded >= 1000000u) {
     rounded /= 10u;
-    ++number.exponent;
+    ++number->exponent;
   }
   for (int32_t i = SHOW_DIGITS - 1; i >= 0; --i) {
-    number.digits[i] = show_digit(rounded % 10u);
+    number->digits[i] = show_digit(rounded % 10u);
     rounded /= 10u;
   }
-  while (number.count > 1 && number.digits[number.count - 1] == '0') {
-    --number.count;
+  while (number->count > 1 && number->digits[number->count - 1] == '0') {
+    --number->count;
   }
-  return number;
 }
 
 static uint32_t show_text(char * to, const char * text)
@@ -152,8 +150,9 @@ static uint32_t show_exponent(char * to, int32_t exponent)
 
 static uint32_t show_positive(char * to, double value)
 {
-  const show_number_t number = show_split(value);
+  show_number_t number;
 
+  show_split(value, &number);
   if (number.exponent < SHOW_LEAST || number.exponent >= SHOW_DIGITS) {
     const uint32_t size = show_digits(to, &number, 0, 1);
     return size + show_exponent(&to[size], number.exponent);
