@@ -67,7 +67,7 @@ def is_group(entry: Entry) -> bool:
 
 
 def _find(root: YamlNode, name: str, scope: tuple[str, ...]) -> tuple[str, YamlNode | None]:
-    """Return the full name and declaration of the list of that name that is nearest to a scope; None if it does not exist."""
+    """Return the full name and declaration of the nearest list of that name; None if it does not exist."""
     for count in range(len(scope), -1, -1):
         node: YamlNode | None = root
         for part in (*scope[:count], name):

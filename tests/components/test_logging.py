@@ -337,10 +337,10 @@ def test_an_emulated_board_has_a_console(tmp_path: Path, name: str, selects: str
 
 
 @pytest.mark.parametrize(
-    "given", ["stdio: {to: application}\n", "provides: [stdio_put]\n", "provides: [console]\n"]
+    "keys", ["stdio: {to: application}\n", "provides: [stdio_put]\n", "provides: [console]\n"]
 )
-def test_a_console_of_the_application_stays(tmp_path: Path, given: str) -> None:
-    (tmp_path / "mine.yaml").write_text(f"target: mine\nextends: qemu-mps2-an386\n{given}")
+def test_a_console_of_the_application_stays(tmp_path: Path, keys: str) -> None:
+    (tmp_path / "mine.yaml").write_text(f"target: mine\nextends: qemu-mps2-an386\n{keys}")
     found = planned(tmp_path, BARE + "logging: console\ntarget: ./mine.yaml\n")
     assert not any("semihosting" in path for path in compiler.render(found))
 
