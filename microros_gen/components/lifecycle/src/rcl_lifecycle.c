@@ -139,7 +139,8 @@ rcl_ret_t rcl_lifecycle_state_machine_init(
   state_machine->options = *state_machine_options;
   offers = &state_machine->com_interface;
   offers->node_handle = node_handle;
-  result = rmw_publisher_open( /* QoS: the values of the default, which would be a second constant */
+  /* QoS: the values of the default, which would be a second constant. */
+  result = rmw_publisher_open(
     node_handle->impl, ts_pub_notify, "~/transition_event", &rmw_qos_profile_services_default,
     &offers->pub_transition_event.impl);
   if (result == RCL_RET_OK && state_machine->options.enable_com_interface) {

@@ -46,7 +46,9 @@ static bool answer_take(const rcl_service_t * service, rmw_request_id_t * reques
   lifecycle_msgs__srv__GetAvailableTransitions_Request nothing;
   bool taken = false;
 
-  if (rcl_service_is_valid(service) && rmw_replier_begin(service->impl, request, &nothing, &taken) != RMW_RET_OK) {
+  if (
+    rcl_service_is_valid(service) &&
+    rmw_replier_begin(service->impl, request, &nothing, &taken) != RMW_RET_OK) {
     rcl_reset_error(); /* counted */
   }
   return taken;
@@ -59,7 +61,9 @@ static void answer_requests(rcl_lifecycle_state_machine_t * machine)
 
   rcl_lifecycle_events_send(offers);
   if (answer_take(&offers->srv_get_available_transitions, &request)) {
-    if (rmw_replier_end(offers->srv_get_available_transitions.impl, &request, machine->current_state) != RMW_RET_OK) {
+    if (
+      rmw_replier_end(offers->srv_get_available_transitions.impl, &request, machine->current_state) !=
+      RMW_RET_OK) {
       rcl_reset_error(); /* there is room for what was taken; else it is counted */
     }
   }

@@ -21,7 +21,13 @@ enum {
 };
 
 /* Positions in rcl_lifecycle_transitions: the first one that leaves a state. */
-enum { AFTER_UNCONFIGURED = 0, AFTER_INACTIVE = 2, AFTER_ACTIVE = 5, AFTER_CONFIGURING = 7, AFTER_CLEANINGUP = 10 };
+enum {
+  AFTER_UNCONFIGURED = 0,
+  AFTER_INACTIVE = 2,
+  AFTER_ACTIVE = 5,
+  AFTER_CONFIGURING = 7,
+  AFTER_CLEANINGUP = 10
+};
 enum { AFTER_SHUTTINGDOWN = 13, AFTER_ACTIVATING = 16, AFTER_DEACTIVATING = 19, AFTER_ERRORPROCESSING = 22 };
 enum { OUTCOMES = 3 };
 

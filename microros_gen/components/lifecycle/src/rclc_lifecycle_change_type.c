@@ -24,7 +24,8 @@ static uint32_t change_length(const cdr_in_t * in)
   if (in->size >= (uint32_t)CHANGE_LABEL_AT) {
     (void)memcpy(&length, &in->body[CHANGE_BEGINNING], sizeof(length));
   }
-  return in->swap ? length >> 24 | (length >> 8 & 0xff00u) | (length << 8 & 0xff0000u) | length << 24 : length;
+  return in->swap ? length >> 24 | (length >> 8 & 0xff00u) | (length << 8 & 0xff0000u) | length << 24
+                  : length;
 }
 
 static void change_decode(cdr_in_t * in, void * message)
@@ -36,7 +37,8 @@ static void change_decode(cdr_in_t * in, void * message)
   const void * from = change_unknown;
 
   if (
-    !is_beginning && (in->size < (uint32_t)CHANGE_LABEL_AT || length > in->size - (uint32_t)CHANGE_LABEL_AT)) {
+    !is_beginning &&
+    (in->size < (uint32_t)CHANGE_LABEL_AT || length > in->size - (uint32_t)CHANGE_LABEL_AT)) {
     cdr_in_refuse(in, CDR_FAULT_END, "label", (uint64_t)length + CHANGE_LABEL_AT, in->size);
     return;
   }

@@ -5,10 +5,7 @@
 
 #include <string.h>
 
-enum {
-  STREAM_PARTS = 0x82,
-  PART_AT = XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER
-};
+enum { STREAM_PARTS = 0x82, PART_AT = XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER };
 
 static uint32_t parts_left(const xrce_parts_t * parts)
 {

@@ -12,7 +12,8 @@
 extern "C" {
 #endif
 
-/* Sends the event of one of rcl_lifecycle_transitions now or later. Where too many wait, the oldest is dropped and counted. */
+/* Sends the event of one of rcl_lifecycle_transitions now or later. Where too many wait, the oldest is dropped and
+ * counted. */
 void rcl_lifecycle_events_add(
   rcl_lifecycle_com_interface_t * offers, const rcl_lifecycle_transition_t * transition);
 

@@ -29,16 +29,16 @@ typedef uint32_t (*xrce_parts_body_t)(uint32_t from, uint32_t size, uint8_t * to
 
 /* Zero-initialized: nothing is sent. */
 typedef struct xrce_parts_t {
-  xrce_parts_body_t body;               /* NULL: not known yet */
-  uint32_t due_ms;                      /* when to repeat the outstanding part */
-  uint32_t sent_ms;                     /* when it was first sent */
-  uint32_t position;                    /* its first byte, after the submessage header */
-  uint32_t size;                        /* bytes of the whole submessage */
-  uint16_t sequence;                    /* its number, or the next one's */
-  uint16_t endpoint;                    /* index of the replier */
+  xrce_parts_body_t body; /* NULL: not known yet */
+  uint32_t due_ms;        /* when to repeat the outstanding part */
+  uint32_t sent_ms;       /* when it was first sent */
+  uint32_t position;      /* its first byte, after the submessage header */
+  uint32_t size;          /* bytes of the whole submessage */
+  uint16_t sequence;      /* its number, or the next one's */
+  uint16_t endpoint;      /* index of the replier */
   bool busy;
   bool outstanding;
-  bool broken;                         /* the agent has a part of a reply that does not go on */
+  bool broken;                        /* the agent has a part of a reply that does not go on */
   uint8_t head[XRCE_PARTS_HEAD_SIZE]; /* bytes of the submessage before its body */
 } xrce_parts_t;
 
