@@ -205,7 +205,7 @@ def test_a_rule_for_an_unused_type_is_a_warning(messages: Mapping[TypeName, Mess
 
 
 def test_a_rule_for_a_service_is_told_its_messages() -> None:
-    text = Field("text", StringType(None))
+    text = Field("text", StringType())
     parts = {
         name: Message(name, (text,))
         for name in (TypeName("pkg", "srv", "Ask_Request"), TypeName("pkg", "srv", "Ask_Response"))

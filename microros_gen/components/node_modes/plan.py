@@ -75,7 +75,9 @@ class NodeModesPlan:
     @property
     def shown(self) -> str:
         """Return what a report says: each node with its modes."""
-        return "; ".join(f"{node.name} {', '.join(mode.name for mode in node.modes)}" for node in self.declared)
+        return "; ".join(
+            f"{node.name} {', '.join(mode.name for mode in node.modes)}" for node in self.declared
+        )
 
 
 def plan(context: PlanContext, diagnostics: Diagnostics) -> NodeModesPlan:

@@ -19,7 +19,7 @@ class _Caller:
 
     def __init__(self, node: Any, command: dict[str, Any]) -> None:
         from rclpy.parameter_client import AsyncParameterClient
-        from std_srvs.srv import SetBool  # type: ignore[import-untyped]
+        from std_srvs.srv import SetBool
 
         self._request = SetBool.Request(data=True)
         self._client = node.create_client(SetBool, command["service"])
