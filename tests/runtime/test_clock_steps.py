@@ -363,6 +363,7 @@ ELSEWHERE = {
     "clock": "unit_days.c",
     "executor": "unit_days.c",
     "lifecycle": "test_lifecycle.py: parts and timers over the wrap",
+    "node_modes": "test_modes.py: services over the wrap; times of events have 64 bits",
     "parameter_client": "test_parameter_client.py: a call over the wrap",
     "parameters_held": "test_parameters_held.py: notices over the wrap; ages have 64 bits",
     "port_bare": "tests/firmware/c/unit_bare.c, unit_bare_timers.c and unit_console.c",
