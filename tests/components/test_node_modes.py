@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The tables of modes as C: what is written once, what the plan id depends on, what an image without modes has."""
+"""The tables of modes as C: constants that modes share, what the plan id depends on, nodes without modes."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def test_the_plan_id_depends_on_the_positions_of_modes(tmp_path: Path) -> None:
 
 
 def test_parameters_that_the_agent_holds(tmp_path: Path) -> None:
-    """Modes go with them as well."""
+    """Modes set these as well."""
     text = TEXT.replace("    parameters:\n", "    parameters:\n      at: agent\n      declare:\n")
     text = text.replace("      - {", "        - {").replace("+node_modes", "+node_modes, +parameters_held")
     out, _ = generated(tmp_path / "a", text)
