@@ -13,7 +13,6 @@ from tests.support.firmware.board import Builds, board, need
 from tests.support.firmware.parameters import ADDED, APPLICATION, cost, taken, work
 from tests.support.firmware.running import started
 from tests.support.patience import deadline
-from tests.support.slices import first
 
 NAME = "qemu-mps2-an386"
 DEVICE = "/arm/device"
@@ -45,8 +44,9 @@ def changed(peer: ParameterPeer, count: int) -> list[Any]:
     return found
 
 
+@pytest.mark.system
 @pytest.mark.ros
-@pytest.mark.parametrize("flags", first([(), ADDED]), ids=["declared", "added"])
+@pytest.mark.parametrize("flags", [(), ADDED], ids=["declared", "added"])
 def test_rclpy_sets_what_the_firmware_uses(builds: Builds, domain: int, flags: tuple[str, ...]) -> None:
     built = builds.merged(NAME, APPLICATION)
     need(NAME, emulator=True)

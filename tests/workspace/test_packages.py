@@ -53,6 +53,7 @@ def cmake(source: Path, prefix: Path, *options: str) -> str:
     return output
 
 
+@pytest.mark.system
 @pytest.mark.ros
 def test_an_interface_package_installs_its_type_support(tmp_path: Path) -> None:
     prefix = tmp_path / "a prefix"
