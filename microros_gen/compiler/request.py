@@ -20,9 +20,6 @@ from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
 from microros_gen.selection.extension import INSTALLED, Extensions, take_extensions
 
-_CONSOLE = "logging_console"
-"""The component of the log writer `console`."""
-
 
 @dataclass(frozen=True)
 class Request:
@@ -76,7 +73,7 @@ def request_of(source: Source | None, near: Path, options: Options, diagnostics:
     target = read_target(application.target.name, near, application.target.span, diagnostics, extensions)
     diagnostics.check()
     assert target is not None
-    if _logs_to_console(application):
+    if any(writer.to == "console" for writer in application.logging):
         target = replace(target, target=with_emulated_console(target.target))
     return Request(
         application,
@@ -88,13 +85,6 @@ def request_of(source: Source | None, near: Path, options: Options, diagnostics:
         inputs,
         options.interface_paths,
         extensions,
-    )
-
-
-def _logs_to_console(application: Application) -> bool:
-    writers = {writer.to for writer in application.logging}
-    return "console" in writers or any(
-        change.name == _CONSOLE and change.add for change in application.components
     )
 
 
