@@ -62,10 +62,13 @@ class Device:
         self.client.spin(times, STEP_MS)
 
     def request(self, service: str, **members: Any) -> int:
+        kind = f"lifecycle_msgs/srv/{dict(SERVICES)[service]}_Request"
+        return self.send(service, self._codec.encode(kind, members)[ENCAPSULATION_BYTES:])
+
+    def send(self, service: str, body: bytes) -> int:
+        """Send a request with these bytes."""
         self._requests += 1
         place = next(i for i, (name, _) in enumerate(SERVICES) if name == service)
-        kind = f"lifecycle_msgs/srv/{SERVICES[place][1]}_Request"
-        body = self._codec.encode(kind, members)[ENCAPSULATION_BYTES:]
         target = ((PUBLISHERS + place) << 4 | 8).to_bytes(2, "big")
         self.client.queued += self.agent.give(target, identity(self._requests) + body)
         return self._requests
@@ -321,6 +324,20 @@ def test_labels_of_any_length(device: Device) -> None:
         assert codes.count(0) >= SPINS - 1
         assert not device.answer("change_state", number)["success"]
     assert device.state() == "inactive"
+
+
+def test_a_request_that_ends_early_is_reported(device: Device) -> None:
+    """It is neither answered nor obeyed, and the next one is."""
+    device.start()
+    for body in (b"", b"\1", b"\1\0\0\0\1\0\0", b"\1\0\0\0\2\0\0\0\0", b"\1\0\0\0\xff\xff\xff\xff\0"):
+        answered = len(device.agent.answered)
+        device.send("change_state", body)
+        device.client.wait(STEP_MS)
+        codes = [device.client.call("spin").code for _ in range(SPINS)]
+        assert codes.count(0) == SPINS - 1, body
+        assert len(device.agent.answered) == answered, body
+        assert device.state() == "unconfigured"
+    assert device.change(CONFIGURE)
 
 
 CYCLE = (CONFIGURE, ACTIVATE, DEACTIVATE, CLEANUP)
