@@ -39,7 +39,7 @@ def page() -> str:
     parts += ["## Functions"]
     parts += [_function(name, member) for name, member in members if inspect.isfunction(member)]
     parts += ["## Constants"]
-    parts += [f"`{name}`: `{member}`" for name, member in members if isinstance(member, str)]
+    parts += [f"### {name}\n\n`{member}`" for name, member in members if isinstance(member, str)]
     parts += ["## Data"]
     parts += [_class(name, member) for name, member in members if inspect.isclass(member)]
     return "\n\n".join(parts) + "\n"

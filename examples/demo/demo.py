@@ -11,7 +11,7 @@ from contextlib import ExitStack
 from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent
-sys.path.insert(0, str(FOLDER.parent))  # a script finds what is beside it, not what examples share
+sys.path.insert(0, str(FOLDER.parent))  # for what examples share
 
 from processes import (  # noqa: E402
     ROOT,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A lidar that turns `rate` times a second, as the mode says. The service ~/unplug takes its sensor away and gives it
- * back: without the sensor the node goes to `unconfigured`, and cannot be configured.
+ * A lidar that turns `rate` times a second, as the mode says. The service ~/unplug removes its sensor, or connects
+ * it: without the sensor the node goes to `unconfigured`, and cannot be configured.
  */
 #include "board.h"
 

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 FOLDER = Path(__file__).resolve().parent
-sys.path.insert(0, str(FOLDER.parent))  # a script finds what is beside it, not what examples share
+sys.path.insert(0, str(FOLDER.parent))  # for what examples share
 
 from processes import (  # noqa: E402
     ROOT,

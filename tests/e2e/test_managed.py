@@ -18,7 +18,7 @@ from tests.support.e2e.images import C_FILES, QUICK, Images, ends_well, kill, st
 from tests.support.e2e.lifecycle_peer import MODEL, WHATS, LifecyclePeer, lifecycle_peer
 from tests.support.e2e.relay import Relay
 from tests.support.paths import TESTS
-from tests.support.patience import deadline
+from tests.support.patience import deadline, seconds
 
 pytestmark = pytest.mark.ros
 
@@ -124,7 +124,7 @@ def test_every_way_to_create(
             time.sleep(1)  # both writers know the reader
             agrees(peer, device)
             assert arrived.await_battery()["position"] == []
-            assert peer.ask(do="switch", service=f"/{namespace}/set_enabled", value=True, timeout=20.0)
+            assert peer.ask(do="switch", service=f"/{namespace}/set_enabled", value=True, timeout=seconds(20))
             for identifier in (CONFIGURE, ACTIVATE):
                 both(peer, device, identifier)
                 agrees(peer, device)

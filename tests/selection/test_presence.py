@@ -119,7 +119,9 @@ def test_nothing_of_it_is_there_without_it(folder: Path, run: Runner) -> None:
     done = run("generate", "-o", "out")
     assert done.status == 0, done.err
     assert "diagnos" not in (folder / "out/examples/pure_sender/main.c").read_text()
-    assert "features" not in json.loads((folder / "out/manifest.json").read_text())
+    assert "session_diagnostics" not in json.loads((folder / "out/manifest.json").read_text()).get(
+        "features", {}
+    )
 
 
 def test_a_call_selects_who_declares_it_or_else_who_lists_it() -> None:

@@ -204,7 +204,7 @@ def test_a_rule_for_an_unused_type_is_a_warning(messages: Mapping[TypeName, Mess
     assert "Did you mean 'pkg/msg/Leaf'?" in without_id(found.headline())
 
 
-def test_a_rule_for_a_service_is_told_its_messages() -> None:
+def test_a_rule_for_a_service_is_a_warning_with_the_names_of_its_messages() -> None:
     text = Field("text", StringType())
     parts = {
         name: Message(name, (text,))

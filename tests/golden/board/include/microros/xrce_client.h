@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * A client: the state declared by the selected components, in storage sized by the plan. One session with
- * one agent. Except for handles of nodes and endpoints this is the library's only state.
+ * one agent. Except for handles of nodes and endpoints and the messages of the output streams (variables of
+ * the streams' sources) this is the library's only state. Small members that loops go over precede the
+ * session: their offsets have short instructions.
  */
 #ifndef MICROROS_XRCE_CLIENT_H
 #define MICROROS_XRCE_CLIENT_H
 
 #include "microros/xrce_creation.h"
 #include "microros/xrce_ping.h"
-#include "microros/xrce_stream_best_effort.h"
 #include "microros/xrce_stream_reliable.h"
 #include "microros/xrce_objects.h"
 #include "microros/xrce_session.h"
@@ -17,14 +18,13 @@
 #include <stdint.h>
 
 struct xrce_client_t {
-  xrce_session_t session;
-  xrce_stream_best_effort_t best_effort;
-  xrce_stream_reliable_t reliable;
+  xrce_object_state_t states[XRCE_PLACES];
   xrce_entities_t entities;
+  xrce_session_t session;
+  xrce_stream_reliable_t reliable;
   xrce_ping_t ping;
   uint32_t create_timeout_ms;
   uint32_t close_timeout_ms;
-  xrce_object_state_t states[XRCE_PLACES];
   xrce_participant_t participants[MICROROS_NODES_MAX];
   xrce_endpoint_t endpoints[XRCE_ENDPOINTS];
   uint8_t input[MICROROS_INPUT_BUFFER_SIZE]; /* last: unused between pumps, except for a sample at its end */

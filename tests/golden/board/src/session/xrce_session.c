@@ -154,13 +154,16 @@ bool xrce_session_take_submessages(xrce_client_t * client, const uint8_t * messa
   return true;
 }
 
+static const uint32_t IN_SESSION = (uint32_t)XRCE_SESSION_ID ^ (uint32_t)XRCE_SESSION_NONE;
+
 /* Passes a message to its stream; returns false for a malformed message. */
 static bool session_take_message(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
 {
-  if (size < XRCE_MESSAGE_HEADER || (message[0] != XRCE_SESSION_ID && message[0] != XRCE_SESSION_NONE)) {
+  /* The two ids differ in one bit: one constant less is kept in a register while messages are received. */
+  if (size < XRCE_MESSAGE_HEADER || (message[0] & ~IN_SESSION) != (uint32_t)XRCE_SESSION_NONE) {
     return false;
   }
-  if (message[0] == XRCE_SESSION_ID) {
+  if ((message[0] & IN_SESSION) != 0u) {
     client->session.received_ms = now;
   }
   return xrce_route_message(client, message, size, now);

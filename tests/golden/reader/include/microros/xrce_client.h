@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * A client: the state declared by the selected components, in storage sized by the plan. One session with
- * one agent. Except for handles of nodes and endpoints this is the library's only state.
+ * one agent. Except for handles of nodes and endpoints and the messages of the output streams (variables of
+ * the streams' sources) this is the library's only state. Small members that loops go over precede the
+ * session: their offsets have short instructions.
  */
 #ifndef MICROROS_XRCE_CLIENT_H
 #define MICROROS_XRCE_CLIENT_H
@@ -10,7 +12,6 @@
 #include "microros/xrce_fragments.h"
 #include "microros/xrce_ping.h"
 #include "microros/xrce_read.h"
-#include "microros/xrce_stream_best_effort.h"
 #include "microros/xrce_stream_best_effort_input.h"
 #include "microros/xrce_stream_reliable_input.h"
 #include "microros/xrce_objects.h"
@@ -20,16 +21,15 @@
 #include <stdint.h>
 
 struct xrce_client_t {
+  xrce_object_state_t states[XRCE_PLACES];
+  xrce_entities_t entities;
   xrce_session_t session;
-  xrce_stream_best_effort_t best_effort;
   xrce_stream_best_effort_input_t best_effort_input;
   xrce_stream_reliable_input_t reliable_input;
   xrce_fragments_t fragments;
-  xrce_entities_t entities;
   xrce_ping_t ping;
   uint32_t create_timeout_ms;
   uint32_t close_timeout_ms;
-  xrce_object_state_t states[XRCE_PLACES];
   xrce_participant_t participants[MICROROS_NODES_MAX];
   xrce_endpoint_t endpoints[XRCE_ENDPOINTS];
   xrce_reading_t reading;

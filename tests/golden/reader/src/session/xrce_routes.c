@@ -7,6 +7,7 @@
 #include "microros/xrce_ping_hooks.h"
 #include "microros/xrce_read_hooks.h"
 #include "microros/xrce_session_close.h"
+#include "microros/xrce_stream_best_effort.h"
 #include "microros/xrce_stream_best_effort_input_hooks.h"
 #include "microros/xrce_stream_reliable_input_hooks.h"
 #include "microros/xrce_wire.h"
@@ -68,7 +69,7 @@ void xrce_route_step(xrce_client_t * client, uint32_t now)
 void xrce_route_connected(xrce_client_t * client, uint32_t now)
 {
   (void)now;
-  xrce_stream_best_effort_reset(&client->best_effort);
+  xrce_stream_best_effort_reset();
   xrce_stream_best_effort_input_reset(&client->best_effort_input);
   xrce_stream_reliable_input_reset(&client->reliable_input);
   xrce_fragments_reset(&client->fragments);
@@ -85,13 +86,14 @@ void xrce_route_close(xrce_client_t * client)
 
 uint8_t * xrce_route_reserve(xrce_client_t * client, bool reliable)
 {
-  return reliable ? NULL : xrce_stream_best_effort_reserve(&client->best_effort);
+  (void)client;
+  return reliable ? NULL : xrce_stream_best_effort_reserve();
 }
 
 bool xrce_route_commit(xrce_client_t * client, bool reliable, size_t size)
 {
   (void)reliable;
-  return xrce_stream_best_effort_commit(&client->best_effort, &client->session, size);
+  return xrce_stream_best_effort_commit(&client->session, size);
 }
 
 size_t xrce_route_capacity(bool reliable)

@@ -5,6 +5,7 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_entities_hooks.h"
 #include "microros/xrce_session_close.h"
+#include "microros/xrce_stream_best_effort.h"
 #include "microros/xrce_stream_reliable_hooks.h"
 #include "microros/xrce_wire.h"
 
@@ -45,7 +46,7 @@ void xrce_route_step(xrce_client_t * client, uint32_t now)
 
 void xrce_route_connected(xrce_client_t * client, uint32_t now)
 {
-  xrce_stream_best_effort_reset(&client->best_effort);
+  xrce_stream_best_effort_reset();
   xrce_stream_reliable_hold(&client->reliable, now);
   xrce_entities_renew(client);
 }
@@ -59,13 +60,13 @@ void xrce_route_close(xrce_client_t * client)
 uint8_t * xrce_route_reserve(xrce_client_t * client, bool reliable)
 {
   return reliable ? xrce_stream_reliable_reserve(&client->reliable, &client->session)
-                  : xrce_stream_best_effort_reserve(&client->best_effort);
+                  : xrce_stream_best_effort_reserve();
 }
 
 bool xrce_route_commit(xrce_client_t * client, bool reliable, size_t size)
 {
   return reliable ? xrce_stream_reliable_put(client, size)
-                  : xrce_stream_best_effort_commit(&client->best_effort, &client->session, size);
+                  : xrce_stream_best_effort_commit(&client->session, size);
 }
 
 size_t xrce_route_capacity(bool reliable)
