@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 
 from microros_gen.application.mode_decl import DEFAULT_MODE, ModeDecl, ModeValue, Value
 from microros_gen.application.model import NodeDecl, ParameterDecl
+from microros_gen.application.parameter_validation import check_rules
 from microros_gen.application.parameters import check_value, value_of
 from microros_gen.diagnostics import Diagnostics, Span, nearest
 from microros_gen.documents.yaml_tree import Entry, MappingNode, ScalarNode, YamlNode
@@ -112,6 +113,8 @@ def _check_value(
     found = Diagnostics()
     what = f"the value of the parameter '{parameter.name}'"
     check_value(parameter, value.value, value.span, what, found)
+    if not found.has_errors():
+        check_rules(parameter, value.value, value.span, what, found)
     diagnostics.extend(found)
     if mode.name == DEFAULT_MODE and not found.has_errors():
         _check_default(parameter, value.value, value.span, diagnostics)

@@ -120,8 +120,9 @@ def _leaf(entry: Entry, name: str, maps: Maps, diagnostics: Diagnostics) -> Iter
     choices = items(child(validation, "one_of<>"))
     before = len(tuple(diagnostics))
     check_declaration(parameter, Places(default, bounds, choices[0] if choices else None), diagnostics)
-    if len(tuple(diagnostics)) == before:
-        check_rules(parameter, default, diagnostics)
+    if len(tuple(diagnostics)) == before and default is not None and parameter.default is not None:
+        what = f"the default of the parameter '{parameter.name}'"
+        check_rules(parameter, parameter.default, default.span, what, diagnostics)
     yield parameter
 
 

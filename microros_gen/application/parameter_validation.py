@@ -4,20 +4,17 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from microros_gen.application.model import ParameterDecl, ParameterRule, Scalar
 from microros_gen.application.parameter_rules import refusal
-from microros_gen.application.parameters import scalar_of
-from microros_gen.diagnostics import Diagnostics
+from microros_gen.application.parameters import RANGE_ENDS, scalar_of
+from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.documents.tree_values import items
 from microros_gen.documents.yaml_tree import Entry, SequenceNode, YamlNode
 
 _NUMBERS = ("integer", "double")
-_ENDS = {"integer": (-(2**63), 2**63 - 1), "double": (-sys.float_info.max, sys.float_info.max)}
-"""Ends of a range that is open at the other one."""
 _TYPES: Mapping[str, tuple[type, ...]] = {
     "bool": (bool,),
     "integer": (int,),
@@ -43,18 +40,24 @@ def with_rule(parameter: ParameterDecl, rule: Entry, diagnostics: Diagnostics) -
     return ruled or parameter
 
 
-def check_rules(parameter: ParameterDecl, default: YamlNode, diagnostics: Diagnostics) -> None:
-    """Report the first rule that the default does not follow, with the reason that a set request would get."""
-    value = parameter.default
-    if value is None:
-        return
+def check_rules(
+    parameter: ParameterDecl,
+    value: Scalar | tuple[Scalar, ...],
+    span: Span,
+    what: str,
+    diagnostics: Diagnostics,
+) -> None:
+    """Report the first rule that a value does not follow, with the reason that a set request would get.
+
+    `what` names the value at the beginning of a sentence.
+    """
     if parameter.type.removesuffix("[]") == "double":
         value = tuple(map(_float, value)) if isinstance(value, tuple) else _float(value)
     reasons = (refusal(rule, parameter.name, value) for rule in parameter.rules)
     reason = next(filter(None, reasons), None)
     if reason is not None:
-        message = f"the default of the parameter '{parameter.name}' does not follow its validation"
-        diagnostics.error(message, default.span, f"Change one of them: {reason}", id="MG-3077")
+        message = f"{what} does not follow its validation"
+        diagnostics.error(message, span, f"Change one of them: {reason}", id="MG-3077")
 
 
 def _float(value: Scalar) -> Scalar:
@@ -91,7 +94,7 @@ def _within(
     parameter: ParameterDecl, low: int | float | None = None, high: int | float | None = None
 ) -> ParameterDecl:
     """Return the parameter with a range that these ends make narrower."""
-    first, last = _ENDS[parameter.type]
+    first, last = RANGE_ENDS[parameter.type]
     lows = [n for n in (parameter.minimum, low) if n is not None]
     highs = [n for n in (parameter.maximum, high) if n is not None]
     return replace(parameter, minimum=max(lows, default=first), maximum=min(highs, default=last))

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Iterator, Mapping
 
 from microros_gen.application.model import ParameterDecl
@@ -21,6 +22,11 @@ _VALUE_TYPES: Mapping[str, tuple[type, ...]] = {
 }
 _LIMITS = {"byte": (0, 255), "integer": (-(2**63), 2**63 - 1)}
 _NUMBERS = ("integer", "double")
+RANGE_ENDS: Mapping[str, tuple[int | float, int | float]] = {
+    "integer": (-(2**63), 2**63 - 1),
+    "double": (-sys.float_info.max, sys.float_info.max),
+}
+"""Smallest and largest number of a range, for an end that nobody has set."""
 _CLOSE = 1e-9
 """How far from a whole number of steps a floating-point default may be."""
 _Scalar = bool | int | float | str
@@ -151,8 +157,7 @@ def _refusals(
     low, high = parameter.minimum, parameter.maximum
     if isinstance(value, (int, float)) and low is not None and high is not None:
         if not low <= value <= high:
-            hint = f"It goes from {low} to {high}"
-            yield Diagnostic(f"{what} is not in its range", span, hint, id="MG-3006")
+            yield Diagnostic(f"{what} is not in its range", span, _range_words(parameter), id="MG-3006")
         elif parameter.step and value != high and not _is_step(value - low, parameter.step):
             hint = f"Its values are {parameter.step} apart, from {low}"
             yield Diagnostic(f"{what} is between two steps of its range", span, hint, id="MG-3062")
@@ -162,6 +167,21 @@ def _refusals(
     if parameter.one_of and value not in parameter.one_of:
         hint = f"Available: {', '.join(map(str, parameter.one_of))}"
         yield Diagnostic(f"{what} is none of its values", span, hint, id="MG-3056")
+
+
+def _range_words(parameter: ParameterDecl) -> str:
+    """Return a hint with the ends of a range; rules of a parameter file may set one end, or exclude it."""
+    excluded = {rule.name: rule.values[0] for rule in parameter.rules if rule.name in ("gt", "lt")}
+    first, last = RANGE_ENDS[parameter.type]
+    low = f"above {excluded['gt']}" if "gt" in excluded else f"from {parameter.minimum} on"
+    high = f"below {excluded['lt']}" if "lt" in excluded else f"up to {parameter.maximum}"
+    if "gt" not in excluded and parameter.minimum == first:
+        return f"Write a number {high}"
+    if "lt" not in excluded and parameter.maximum == last:
+        return f"Write a number {low}"
+    if excluded:
+        return f"Write a number {low} and {high}"
+    return f"It goes from {parameter.minimum} to {parameter.maximum}"
 
 
 def _is_step(distance: int | float, step: int | float) -> bool:

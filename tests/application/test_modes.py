@@ -79,6 +79,20 @@ def test_the_default_mode_is_the_first() -> None:
     assert [mode.name for mode in node.modes] == [DEFAULT_MODE, "SLOW", "FAST"]
 
 
+def test_values_follow_the_validation_of_a_parameter_file(tmp_path: Path) -> None:
+    validation = "{unique<>: [], element_bounds<>: [0, 9]}"
+    ids = f"  ids: {{type: int_array_fixed_2, default_value: [1, 2], validation: {validation}}}"
+    (tmp_path / "p.yaml").write_text(f"device:\n{ids}\n")
+    start = TEXT.index("    parameters:")
+    text = TEXT[:start] + "    parameters: {file: p.yaml}\n    modes: {A: {ids: [3, 3]}, B: {ids: [1, 20]}}\n"
+    _, reported = nodes_of(text, tmp_path)
+    assert [line.partition("validation. ")[2] for line in reported[0].splitlines()[:1]] == [
+        "Change one of them: Parameter 'ids' must only contain unique values [MG-3077]"
+    ]
+    assert "Value '20' in parameter 'ids' must be within bounds '[0, 9]'" in reported[1]
+    assert len(reported) == 2
+
+
 MISTAKES = {
     "unknown": ("speed: 0,", "sped: 0,", "MG-3104", "sped", "Did you mean 'speed'?"),
     "unknown, nothing near": (

@@ -142,7 +142,11 @@ FAULTS = {
     ),
     "default at an end that is not accepted": (
         "a:\n  x: {type: double, default_value: 1, validation: {gt<>: [1]}}\n",
-        "p.yaml:2:36: error: the default of the parameter 'x' is not in its range",
+        "p.yaml:2:36: error: the default of the parameter 'x' is not in its range. Write a number above 1",
+    ),
+    "default below the only end": (
+        "a:\n  x: {type: int, default_value: 1, validation: {gt_eq<>: [2]}}\n",
+        "p.yaml:2:33: error: the default of the parameter 'x' is not in its range. Write a number from 2 on",
     ),
     "bounds of a text": (
         "a:\n  x: {type: string, default_value: a, validation: {bounds<>: [0, 1]}}\n",
