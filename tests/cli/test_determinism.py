@@ -193,7 +193,7 @@ def test_nothing_depends_on_the_machine(inputs: Path, expected: dict[str, bytes]
         assert "\r" not in text, name
     manifest = json.loads(expected["manifest.json"])
     assert set(manifest) == {
-        "emulator", "entities", "generator", "image", "inputs", "memory", "message_storage", "outputs",
+        "emulator", "entities", "features", "generator", "image", "inputs", "memory", "message_storage", "outputs",
         "plan", "pools", "selection", "target",
         "transport", "types",
     }  # fmt: skip
