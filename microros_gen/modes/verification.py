@@ -24,20 +24,25 @@ from microros_gen.modes.reader import parse_model, read_source
 from microros_gen.modes.report import Report
 from microros_gen.modes.stability import MOST_COMBINATIONS, check_stability
 
+_UNKNOWN_PART = "MG-8806"
+"""A part that neither the model file nor an application file has."""
+
 
 def check(path: Path, applications: Sequence[Path] = (), most: int = MOST_COMBINATIONS) -> Report:
     """Return what is proven of the model of a file, and everything that is wrong with it.
 
     `applications` are application files whose nodes declare the parameters that modes set; nodes with modes there are
-    parts of the model, which need not repeat them. `most` bounds the
-    different combinations of failures that are kept of a system; if they are more, its stability is not proven.
+    parts of the model, which need not repeat them. `most` bounds the different combinations of failures that are kept
+    of a system; if they are more, its stability is not proven.
     """
     diagnostics = Diagnostics()
     source = read_source(path, diagnostics)
     nodes = [node for application in applications for node in read_nodes(application, diagnostics)]
     has_nodes = not diagnostics.has_errors()
-    leaflets = parts_of(nodes) if has_nodes else {}
-    model = parse_model(source, diagnostics, leaflets) if source is not None and has_nodes else None
+    found = Diagnostics()
+    model = parse_model(source, found, parts_of(nodes) if has_nodes else {}) if source is not None else None
+    if has_nodes or all(diagnostic.id != _UNKNOWN_PART for diagnostic in found):
+        diagnostics.extend(found)  # otherwise the application files may have what is missing
     if model is None or diagnostics.has_errors():
         return Report(str(path), (), tuple(diagnostics))
     return check_model(model, nodes, most)

@@ -84,6 +84,8 @@ STATE_SECTIONS = ("first", "streams", "input_streams", "parts", "tables", "queue
 HANDLE_SECTIONS = ("handle", "handle_callbacks", "handle_data")
 TRANSPORT_SECTIONS = ("transport", "line")
 """Sections of members of the client, of a handle of the executor, and of the transport."""
+RETAINED_SECTIONS = ("retained",)
+"""Section of objects outside of the client that have to outlast a sleep as it does."""
 CONFIG_SECTIONS = ("errors", "transport", "session", "streams", "places", "memory")
 OUTPUT_STREAMS = ("reliable", "best_effort")
 OUTPUT_FUNCTIONS: Mapping[str, str] = MappingProxyType(
@@ -115,6 +117,8 @@ class HookHeader(Conditional):
 @dataclass(frozen=True, kw_only=True)
 class State(Conditional):
     """A member of the client (microros/xrce_client.h), as C declares it: `uint8_t creation[MICROROS_CREATION_SIZE]`.
+
+    In the section `retained` it is an object with this name, which `header` declares.
 
     `clocks` are its fields that hold a moment of port_time_ms; of an array those of each element.
     """

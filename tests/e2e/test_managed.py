@@ -150,7 +150,8 @@ def test_the_state_is_a_gate(
     images: Images, image_port: Relay, agent: object, observer: Observer, domain: int, tmp_path: Path
 ) -> None:
     """A managed publisher and a managed timer: nothing while inactive, which is counted; everything while active."""
-    image = images.build(image_port.port, APPLICATION.format(namespace="gates") + TICKS)
+    waits = "on_full: block 5 s\n"  # on a busy machine ten messages are more than a stream has room for
+    image = images.build(image_port.port, APPLICATION.format(namespace="gates") + TICKS + waits)
     program = image.application(C_FILES / "managed.c", tmp_path / "managed", *STRICT)
     arrived = Arrived(observer, "gates")
     with lifecycle_peer(domain) as peer, started(program) as process:

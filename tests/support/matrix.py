@@ -81,6 +81,13 @@ nodes:
 """
 _SERVES = "    services: [{name: sum, type: example_interfaces/srv/AddTwoInts}]\n"
 _ASKS = "    clients: [{name: /far/sum, type: example_interfaces/srv/AddTwoInts}]\n"
+_RULES = """\
+busy:
+  names: {type: string_array_fixed_2, default_value: [a], validation: {unique<>: [], not_empty<>: []}}
+  gains: {type: double_array_fixed_2, default_value: [0.5], validation: {element_bounds<>: [0.0, 1.0]}}
+"""
+"""A parameter file with validations, for the variant that reads it."""
+
 VARIANTS: Mapping[str, str] = MappingProxyType(
     {
         "pool": _POOL,
@@ -138,6 +145,9 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "      - {name: label, type: string, default: left, size: 8}\n"
         + "profiles: [pure_sender]\ncomponents: [+parameters]\n",
         "parameters-every": _BUSY + EVERY_PARAMETER + "profiles: [pure_sender]\ncomponents: [+parameters]\n",
+        "parameters-rules": _BUSY
+        + "    parameters: {file: rules.yaml}\n"
+        + "profiles: [pure_sender]\ncomponents: [+parameters]\nerrors: code\n",
         "parameters-held": _BUSY
         + "    parameters: {at: agent, declare: [{name: mode, type: integer, one_of: [0, 5]}]}\n"
         + "profiles: [pure_sender]\ncomponents: [+parameters]\nlogging: callback\nerrors: code\n",
@@ -238,6 +248,7 @@ def make_tree(name: str, text: str, folder: Path) -> Tree:
     folder.mkdir(parents=True)
     config = folder / "microros.yaml"
     config.write_text(text, encoding="utf-8")
+    (folder / "rules.yaml").write_text(_RULES, encoding="utf-8")
     options = compiler.Options(config=config, interface_paths=(shipped_folder(),))
     out = compiler.generate(options, folder / "out").out
     return Tree(name, out)

@@ -20,6 +20,7 @@ from microros_gen.selection.contribution import (
     HOOK_POINTS,
     OUTPUT_FUNCTIONS,
     OUTPUT_STREAMS,
+    RETAINED_SECTIONS,
     STATE_SECTIONS,
     TRANSPORT_SECTIONS,
     Conditional,
@@ -156,6 +157,7 @@ class Contributed:
     handlers: tuple[Handlers, ...]
     state: Mapping[str, tuple[Member, ...]]
     state_headers: tuple[str, ...]
+    retained_headers: tuple[str, ...]
     moments: tuple[Moments, ...]
     kept: tuple[Kept, ...]
     output: Mapping[str, Output]
@@ -192,9 +194,12 @@ def contributed(components: Iterable[Component], values: Values) -> Contributed:
         ),
         state={
             section: _members(s for s in states if s.section == section)
-            for section in (*STATE_SECTIONS, *HANDLE_SECTIONS, *TRANSPORT_SECTIONS)
+            for section in (*STATE_SECTIONS, *HANDLE_SECTIONS, *TRANSPORT_SECTIONS, *RETAINED_SECTIONS)
         },
         state_headers=tuple(sorted({s.header for s in states if s.header and s.section in STATE_SECTIONS})),
+        retained_headers=tuple(
+            sorted({s.header for s in states if s.header and s.section in RETAINED_SECTIONS})
+        ),
         moments=tuple(Moments(_member(s), s.clocks) for s in states if s.clocks),
         kept=tuple(k for p in parts for k in p.kept if holds(k)),
         output={name: _output(name, outputs) for name in OUTPUT_FUNCTIONS},

@@ -2,12 +2,11 @@
 /* Every message fits into one datagram: a ring of messages, each with one sequence number. */
 #include "microros/xrce_stream_reliable.h"
 
+#include "microros/xrce_stream_reliable_slots.h"
 #include "microros/xrce_wire.h"
 #include "microros_config.h"
 
-/* The messages of the only client's stream. They are here, and not in the client, so that a changed limit leaves
- * all other sources as they are. */
-static uint8_t reliable_slots[MICROROS_RELIABLE_SLOTS][MICROROS_RELIABLE_SLOT_SIZE];
+uint8_t xrce_reliable_slots[MICROROS_RELIABLE_SLOTS][MICROROS_RELIABLE_SLOT_SIZE];
 
 /* Returns the slot of the i-th stored message. */
 static uint32_t stream_slot(const xrce_stream_reliable_t * stream, uint8_t i)
@@ -24,7 +23,7 @@ uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream, xrce_ses
   if (stream->count == MICROROS_RELIABLE_SLOTS) {
     return NULL;
   }
-  message = reliable_slots[stream_slot(stream, stream->count)];
+  message = xrce_reliable_slots[stream_slot(stream, stream->count)];
   xrce_stream_reliable_reclaim(session, message);
   return &message[MICROROS_RELIABLE_FRONT];
 }
@@ -32,7 +31,7 @@ uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream, xrce_ses
 static bool stream_send(xrce_stream_reliable_t * stream, xrce_session_t * session, uint8_t i)
 {
   const uint32_t slot = stream_slot(stream, i);
-  uint8_t * message = reliable_slots[slot];
+  uint8_t * message = xrce_reliable_slots[slot];
 
   xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_RELIABLE, (uint16_t)(stream->first + i));
   return xrce_transport_take_turn(&session->transport) &&
@@ -84,7 +83,7 @@ const uint8_t * xrce_stream_reliable_drop_oldest(
   xrce_stream_reliable_t * stream, const xrce_session_t * session, uint32_t now)
 {
   const uint16_t first = stream->first;
-  const uint8_t * dropped = &reliable_slots[stream->head][MICROROS_RELIABLE_FRONT];
+  const uint8_t * dropped = &xrce_reliable_slots[stream->head][MICROROS_RELIABLE_FRONT];
 
   (void)session;
   if (stream->count == 0u) {

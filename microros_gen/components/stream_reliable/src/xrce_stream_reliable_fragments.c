@@ -12,6 +12,7 @@
  */
 #include "microros/xrce_stream_reliable.h"
 
+#include "microros/xrce_stream_reliable_slots.h"
 #include "microros/xrce_wire.h"
 #include "microros_config.h"
 
@@ -24,9 +25,7 @@ enum {
   FRAGMENTS_WINDOW = 16
 };
 
-/* The messages of the only client's stream. They are here, and not in the client, so that a changed limit leaves
- * all other sources as they are. */
-static uint8_t reliable_slots[MICROROS_RELIABLE_SLOTS][MICROROS_RELIABLE_SLOT_SIZE];
+uint8_t xrce_reliable_slots[MICROROS_RELIABLE_SLOTS][MICROROS_RELIABLE_SLOT_SIZE];
 
 /* Returns the slot of the i-th stored message; free slots follow after them. */
 static uint8_t stream_slot(const xrce_stream_reliable_t * stream, uint8_t i)
@@ -60,7 +59,7 @@ uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream, xrce_ses
   if (stream->count == MICROROS_RELIABLE_SLOTS) {
     return NULL;
   }
-  return &reliable_slots[stream_slot(stream, stream->count)][MICROROS_RELIABLE_FRONT];
+  return &xrce_reliable_slots[stream_slot(stream, stream->count)][MICROROS_RELIABLE_FRONT];
 }
 
 /* Result of sending one sequence number. */
@@ -89,7 +88,7 @@ static stream_outcome_t stream_send_of(
   xrce_stream_reliable_t * stream, xrce_session_t * session, uint8_t i, uint16_t fragment, uint16_t sequence)
 {
   const uint8_t slot = stream_slot(stream, i);
-  uint8_t * at = &reliable_slots[slot][(size_t)fragment * FRAGMENT_SIZE];
+  uint8_t * at = &xrce_reliable_slots[slot][(size_t)fragment * FRAGMENT_SIZE];
   const size_t size = (size_t)stream->size[slot] - (size_t)fragment * FRAGMENT_SIZE;
   uint8_t kept[FRAGMENT_HEADER];
   stream_outcome_t outcome;
@@ -237,7 +236,7 @@ const uint8_t * xrce_stream_reliable_drop_oldest(
   if (unsent == stream->count) {
     return NULL;
   }
-  dropped = &reliable_slots[stream_slot(stream, unsent)][MICROROS_RELIABLE_FRONT];
+  dropped = &xrce_reliable_slots[stream_slot(stream, unsent)][MICROROS_RELIABLE_FRONT];
   stream_remove(stream, unsent);
   return dropped;
 }

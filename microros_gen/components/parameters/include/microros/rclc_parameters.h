@@ -88,7 +88,7 @@ typedef enum parameter_outcome_t {
   PARAMETER_REJECTED,
   PARAMETER_STRING_LONG,
   PARAMETER_ARRAY_LONG,
-  PARAMETER_NOT_ONE_OF,  /* a value that is not listed */
+  PARAMETER_NOT_ONE_OF, /* a value that is not listed */
 #if MICROROS_PARAMETER_RULES > 0u
   PARAMETER_BREAKS_RULE, /* of generate_parameter_library */
 #endif

@@ -54,6 +54,7 @@ static void sleep_write(rmw_uros_retained_t * retained, const xrce_client_t * cl
   retained->size = (uint32_t)sizeof(*retained);
   (void)memcpy(retained->plan, retained_plan, sizeof(retained->plan));
   (void)memcpy(retained->client, (const uint8_t *)client, sizeof(retained->client));
+  (void)memcpy(retained->xrce_reliable_slots, xrce_reliable_slots, sizeof(retained->xrce_reliable_slots));
   retained->check = retained_check(retained);
   retained->magic = retained_magic; /* last: until then the memory is invalid */
 }
@@ -92,6 +93,7 @@ bool rmw_uros_wake(rmw_uros_retained_t * retained)
   retained->magic = 0; /* invalidated: its sequence numbers are used from now on */
   if (good) {
     (void)memcpy((uint8_t *)client, retained->client, sizeof(retained->client));
+    (void)memcpy(xrce_reliable_slots, retained->xrce_reliable_slots, sizeof(retained->xrce_reliable_slots));
     client->session.state = (uint8_t)XRCE_CLOSED; /* until rcl_init */
     client->session.transport_open = false;
   }
