@@ -9,6 +9,7 @@
 #include "microros/port.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_routes.h"
+#include "microros/xrce_stream_reliable_slots.h"
 #include "microros/xrce_wire.h"
 
 enum { RECEIVERS = XRCE_RECEIVERS };
@@ -89,7 +90,7 @@ static void any_streams(void)
   xrce_stream_reliable_t * out = &client.reliable;
   xrce_stream_reliable_input_t * in = &client.reliable_input;
 
-  proof_any(out->message, sizeof(out->message));
+  proof_any(xrce_reliable_slots, sizeof(xrce_reliable_slots));
   out->due_ms = proof_u32();
   out->since_ms = proof_u32();
   out->held = proof_bool();
