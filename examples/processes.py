@@ -15,7 +15,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 TOOL = (sys.executable, "-m", "microros_gen")
-PORTS = range(8888, 8908)
+PORTS = range(8888, 8888 + 20)
 FIRMWARE_NEEDS = (
     ("arm-none-eabi-gcc", "gcc-arm-none-eabi libnewlib-arm-none-eabi"),
     ("qemu-system-arm", "qemu-system-arm"),

@@ -103,10 +103,11 @@ def node_graph() -> str:
 
 
 def modes() -> str:
-    """Draw the mobile robot as `modes graph` does."""
+    """Draw the mobile robot as `modes graph` does; the colors are those of the page."""
     with tempfile.TemporaryDirectory() as folder:
         _tool("modes", "graph", "examples/mobile_robot/robot.yaml", "-o", f"{folder}/robot.svg")
-        return Path(folder, "robot.svg").read_text(encoding="utf-8").replace("\n", "")
+        drawing = Path(folder, "robot.svg").read_text(encoding="utf-8").replace("\n", "")
+    return re.sub(r"<style>.*?</style>", "", drawing)
 
 
 @cache

@@ -108,11 +108,11 @@ def test_its_instructions(builds: Builds) -> None:
     """Goals: 15,000, 4,000 and 6,000 for init, get and set; not met for init and the request of set."""
     need(NAME, emulator=True)
     found = work(builds, NAME)
-    assert found.init <= 26_315
-    assert found.get <= 3_570
-    assert found.set <= 6_383
+    assert found.init <= 26_138
+    assert found.get <= 3_566
+    assert found.set <= 6_379
     assert found.get_call <= 288
-    assert found.set_call <= 2_228
+    assert found.set_call <= 2_244
 
 
 @pytest.mark.system
