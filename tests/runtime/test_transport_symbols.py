@@ -95,7 +95,7 @@ def _text(plan: RuntimePlan, folder: Path) -> int:
 @pytest.mark.parametrize(
     ("transport", "framing", "most"),
     [
-        ("serial", "either", 520),
+        ("serial", "either", 532),
         ("custom", "on", 860),
         ("custom", "off", 280),
     ],
