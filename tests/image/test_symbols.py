@@ -100,8 +100,8 @@ def symbols_of(objects: Mapping[str, Path]) -> Symbols:
     return Symbols(frozen["T"], frozen["t"], frozen["U"])
 
 
-OF_A_NODE = re.compile(r"\w+_parameters_(declare|update)")
-"""Functions for the parameters that a node declares; they begin with its name."""
+OF_A_NODE = re.compile(r"\w+_parameters_(declare|update)|\w+_modes")
+"""Functions for the parameters that a node declares, and the table of its modes; they begin with its name."""
 
 
 @cache
