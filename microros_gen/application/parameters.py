@@ -20,13 +20,13 @@ _VALUE_TYPES: Mapping[str, tuple[type, ...]] = {
     "double": (int, float),
     "string": (str,),
 }
-_LIMITS = {"byte": (0, 255), "integer": (-(2**63), 2**63 - 1)}
 _NUMBERS = ("integer", "double")
 RANGE_ENDS: Mapping[str, tuple[int | float, int | float]] = {
     "integer": (-(2**63), 2**63 - 1),
     "double": (-sys.float_info.max, sys.float_info.max),
 }
 """Smallest and largest number of a range, for an end that nobody has set."""
+_LIMITS = {"byte": (0, 255), "integer": RANGE_ENDS["integer"]}
 _CLOSE = 1e-9
 """How far from a whole number of steps a floating-point default may be."""
 _Scalar = bool | int | float | str

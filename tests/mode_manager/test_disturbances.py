@@ -140,7 +140,7 @@ def test_a_part_that_somebody_deactivates_follows_the_rule() -> None:
 
 
 def test_a_part_that_somebody_reconfigures_is_brought_back() -> None:
-    """There is no rule for the mode of the joint, so that it is commanded again."""
+    """No rule is about the mode of the joint; it is commanded again."""
     world = arm()
     world.request("arm", QUICK)
     world.run(2)

@@ -2,6 +2,7 @@
 #include "microros/rclc_parameter_reason.h"
 
 #include "microros/rclc_parameter_rules.h"
+#include "microros/rclc_parameter_words.h"
 
 #include <stddef.h>
 
@@ -71,27 +72,14 @@ static const char * reason_type(uint8_t type)
   return type < sizeof(names) / sizeof(names[0]) ? names[type] : "unknown type";
 }
 
-/* A name that is too long for any parameter is truncated, between two characters of UTF-8. */
-static parameter_text_t reason_name(const parameter_text_t * name)
-{
-  parameter_text_t result = *name;
-
-  if (result.size >= (uint32_t)MICROROS_PARAMETER_NAME_SIZE) {
-    result.size = (uint32_t)MICROROS_PARAMETER_NAME_SIZE - 1u;
-    while (result.size != 0u && ((uint8_t)result.data[result.size] & 0xC0u) == 0x80u) {
-      --result.size;
-    }
-  }
-  return result;
-}
-
 static parameter_text_t reason_insertion(
   char letter, const rclc_parameter_server_t * server, const parameter_requested_t * requested)
 {
   const rclc_parameter_place_t * place;
 
   if (letter == 'n') {
-    return reason_name(&requested->name);
+    /* one that is too long for any parameter is cut */
+    return rclc_parameter_words_cut(&requested->name, (uint32_t)MICROROS_PARAMETER_NAME_SIZE - 1u);
   }
   if (letter == 't') {
     return rclc_parameter_text(reason_type(requested->type));
@@ -119,14 +107,7 @@ void rclc_parameter_out_reason(
       parts[count] = reason_insertion(words[1], server, requested);
       words = &words[2];
     } else {
-      uint32_t size = 0;
-
-      while (words[size] != '\0' && words[size] != '%') {
-        ++size;
-      }
-      parts[count].data = words;
-      parts[count].size = size;
-      words = &words[size];
+      parts[count] = rclc_parameter_words_next(&words);
     }
     ++count;
   }

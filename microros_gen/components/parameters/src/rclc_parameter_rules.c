@@ -5,6 +5,7 @@
 #if MICROROS_PARAMETER_RULES > 0u
 
 #include "microros/rclc_parameter_show.h"
+#include "microros/rclc_parameter_words.h"
 
 #include <stddef.h>
 
@@ -264,21 +265,6 @@ bool rclc_parameter_rules_hold(const rclc_parameter_place_t * place, const param
   return rule_find(place, requested).rule == NULL;
 }
 
-/* Returns a string that is not longer than any value, cut between two characters of UTF-8. */
-static parameter_text_t rule_cut(const parameter_text_t * text)
-{
-  const uint32_t most = (uint32_t)MICROROS_PARAMETER_SHOWN_SIZE;
-  parameter_text_t result = *text;
-
-  if (result.size > most) {
-    result.size = most;
-    while (result.size != 0u && ((uint8_t)result.data[result.size] & 0xC0u) == 0x80u) {
-      --result.size;
-    }
-  }
-  return result;
-}
-
 /* Returns the value that breaks a rule; `room`: for a number. */
 static parameter_text_t rule_shown(const rule_broken_t * broken, char * room)
 {
@@ -296,7 +282,8 @@ static parameter_text_t rule_shown(const rule_broken_t * broken, char * room)
       return result;
 #endif
     default:
-      return rule_cut(&broken->element.text);
+      /* one that is longer than any value is cut */
+      return rclc_parameter_words_cut(&broken->element.text, (uint32_t)MICROROS_PARAMETER_SHOWN_SIZE);
   }
 }
 
@@ -337,14 +324,7 @@ void rclc_parameter_out_rule(
       parts[count] = rule_insertion(words[1], requested, &broken, room);
       words = &words[2];
     } else {
-      uint32_t size = 0;
-
-      while (words[size] != '\0' && words[size] != '%') {
-        ++size;
-      }
-      parts[count].data = words;
-      parts[count].size = size;
-      words = &words[size];
+      parts[count] = rclc_parameter_words_next(&words);
     }
     ++count;
   }
