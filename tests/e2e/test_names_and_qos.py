@@ -3,14 +3,11 @@
 
 from __future__ import annotations
 
-import time
-
 import pytest
 
 from tests.support.agent.observer import Observer
 from tests.support.agent.process import AgentProcess
 from tests.support.e2e.images import QUICK, Images, started
-from tests.support.patience import deadline
 
 pytestmark = pytest.mark.ros
 
@@ -32,12 +29,8 @@ FOREVER = 2**63 - 1
 
 
 def endpoint(observer: Observer, topic: str) -> tuple[object, ...]:
-    """Return what ROS 2 says of the one endpoint of a topic, as soon as there is one."""
-    end = deadline(15)
-    while not (found := observer.ask(do="endpoints", topic=topic)):
-        assert time.monotonic() < end, f"nothing on {topic}"
-        time.sleep(0.05)
-    (only,) = found
+    """Return what ROS 2 says of the one endpoint of a topic, as soon as there is one with a named node."""
+    (only,) = observer.named_endpoints(topic)
     assert only["liveliness"] == "AUTOMATIC"
     return tuple(only[key] for key in ("node", "reliability", "durability", "deadline_ns", "lifespan_ns"))
 

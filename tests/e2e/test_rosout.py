@@ -58,8 +58,9 @@ def test_lines_as_those_of_an_rclpy_node(
         await_line(process, "ready")
         observer.subscribe("/rosout", LOG, transient_local=True)  # a late one: the agent has the first lines
         found = logged(observer, "line 19", [])
-        model = next(e for e in observer.ask(do="endpoints", topic="/rosout") if e["node"] == "/observer")
-        own = next(e for e in observer.ask(do="endpoints", topic="/rosout") if e["node"] == "/arm/device")
+        writers = [e for e in observer.named_endpoints("/rosout", 2) if e["kind"] == "PUBLISHER"]
+        model = next(e for e in writers if e["node"] == "/observer")
+        own = next(e for e in writers if e["node"] == "/arm/device")
         ends_well(process, 30)
     assert {key: own[key] for key in own if key not in ("node", "lifespan_ns")} == {
         key: model[key] for key in model if key not in ("node", "lifespan_ns")

@@ -39,6 +39,9 @@ from typing import Any
 from tests.support.agent.line_process import LineProcess, serving
 from tests.support.patience import deadline
 
+UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
+"""What ROS 2 calls the node of an endpoint as long as the name has not arrived."""
+
 
 class Observer(LineProcess):
     """The test's side: sends commands to the process and waits for what should be seen."""
@@ -58,6 +61,19 @@ class Observer(LineProcess):
             if seen(graph):
                 return graph
             assert time.monotonic() < end, f"not seen: {graph}"
+            time.sleep(0.05)
+
+    def named_endpoints(self, topic: str, count: int = 1, timeout_s: float = 15.0) -> list[dict[str, Any]]:
+        """Wait for `count` endpoints of a topic and the names of their nodes; return the endpoints.
+
+        ROS 2 announces which node has an endpoint by a sample of its own, which may come after the endpoint.
+        """
+        end = deadline(timeout_s)
+        while True:
+            found: list[dict[str, Any]] = self.ask(do="endpoints", topic=topic)
+            if len(found) >= count and not any(UNKNOWN_NODE in endpoint["node"] for endpoint in found):
+                return found
+            assert time.monotonic() < end, f"{topic}: {found}"
             time.sleep(0.05)
 
     def got(self, count: int, timeout_s: float = 15.0, topic: str | None = None) -> list[tuple[str, Any]]:
