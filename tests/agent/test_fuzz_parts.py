@@ -53,7 +53,7 @@ def fuzzer(run: Callable[[int, int], None]) -> Callable[[int, int], None]:
 @pytest.mark.parametrize("name", ["datagrams", "tcp_bytes", "serial_bytes", "discovery_datagrams"])
 @pytest.mark.examples
 def test_a_slice(name: str) -> None:
-    FUZZERS[name](1, examples(2_000))
+    FUZZERS[name](1, examples(2_000, least=400))
 
 
 @pytest.mark.long

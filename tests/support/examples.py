@@ -17,12 +17,13 @@ EXAMPLES = "MICROROS_TEST_EXAMPLES"
 LEAST, LEAST_FEW = 25, 5
 
 
-def examples(full: int, least: int = LEAST) -> int:
-    """Return how many examples a test draws that names `full` of them, at least `least` where it names as many."""
+def examples(full: int, least: int | None = None) -> int:
+    """Return how many examples a test draws that names `full` of them; never fewer than `least` where it names some."""
     wanted = os.environ.get(EXAMPLES)
     if wanted == "all":
         return full
-    return min(full, max(least, full // 5)) if wanted != "few" else min(full, max(LEAST_FEW, full // 30))
+    share, smallest = (full // 30, LEAST_FEW) if wanted == "few" else (full // 5, LEAST)
+    return min(full, max(smallest if least is None else least, share))
 
 
 def some(items: Sequence[Item], every: int = 4) -> Sequence[Item]:

@@ -66,7 +66,7 @@ class Observer(LineProcess):
     def named_endpoints(self, topic: str, count: int = 1, timeout_s: float = 15.0) -> list[dict[str, Any]]:
         """Wait for `count` endpoints of a topic and the names of their nodes; return the endpoints.
 
-        ROS 2 announces which node has an endpoint by a sample of its own, which may come after the endpoint.
+        A separate sample says which node has an endpoint, and may come after the endpoint.
         """
         end = deadline(timeout_s)
         while True:
