@@ -46,7 +46,7 @@ LONG = ("howto/init.md", "tutorial/nucleo_f446re.md")
 SYSTEM = (
     *("tutorial/host.md", "tutorial/qemu.md", "tutorial/esp32c3.md", "tutorial/pico.md"),
     *("howto/component.md", "howto/lifecycle.md", "howto/logging.md", "howto/migrate.md", "howto/modes.md"),
-    *("howto/parameter_server.md", "howto/port.md", "howto/profile.md"),
+    *("howto/node_modes.md", "howto/parameter_server.md", "howto/port.md", "howto/profile.md"),
 )
 """Pages whose commands start compilers and servers, of which quick_start.md and the tests of these parts have the
 shorter sibling."""

@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from microros_gen.cli.size.format import constants
 from microros_gen.image.report import measure
-from tests.support.firmware.board import Builds, need
+from tests.support.firmware.board import Builds, generate, need
 from tests.support.firmware.footprint import bounded_stack, image_sections
 
 NAME = "qemu-mps2-an386"
@@ -41,6 +43,7 @@ EACH = {"mode arm_device_DEFAULT": 36, "mode arm_device_FAST": 32, "mode arm_dev
 """Bytes of each mode: 8 for a number, 1 for each parameter where the system sets one."""
 
 
+@pytest.mark.system
 @pytest.mark.parametrize(("name", "limits"), SIZES.items(), ids=SIZES)
 def test_its_size(builds: Builds, name: str, limits: tuple[int, int, int]) -> None:
     """Life cycle, parameters and modes, executor, over a serial line."""
@@ -52,6 +55,7 @@ def test_its_size(builds: Builds, name: str, limits: tuple[int, int, int]) -> No
     assert all(value <= limit for value, limit in zip(found, limits, strict=True)), found
 
 
+@pytest.mark.system
 def test_what_modes_take(builds: Builds) -> None:
     need(NAME)
     built, plain = builds.build(NAME, APPLICATION), builds.build(NAME, WITHOUT)
@@ -61,6 +65,7 @@ def test_what_modes_take(builds: Builds) -> None:
     assert all(value <= limit for value, limit in zip(found, MORE, strict=True)), found
 
 
+@pytest.mark.system
 def test_the_size_of_each_mode_is_reported(builds: Builds) -> None:
     """In flash; a number has 8 bytes, and the texts of others are in the mode that writes them."""
     need(NAME)
@@ -69,8 +74,9 @@ def test_the_size_of_each_mode_is_reported(builds: Builds) -> None:
     assert {use: size for owner, use, size in constants(report) if owner == "node_modes"} == EACH
 
 
-def test_an_image_without_modes_has_nothing_of_them(builds: Builds) -> None:
-    need(NAME)
-    plain = builds.build(NAME, WITHOUT)
-    assert not (plain.out / "src" / "node_modes").exists()
-    assert "modes" not in (plain.out / "include" / "microros" / "xrce_client.h").read_text()
+def test_a_client_without_modes_has_nothing_of_them(tmp_path: Path) -> None:
+    generate(tmp_path, NAME, WITHOUT)
+    plain = tmp_path / "out"
+    assert (plain / "src" / "parameters").exists()
+    assert not (plain / "src" / "node_modes").exists()
+    assert "modes" not in (plain / "include" / "microros" / "xrce_client.h").read_text()

@@ -136,7 +136,7 @@ class Builds:
                 shutil.rmtree(home, ignore_errors=True)
                 home.mkdir()
                 if command == "generate":
-                    _generate(home, name, application)
+                    generate(home, name, application)
                     compile_merged_image(built)
                 else:
                     done = run_tool(command, home, name, application)
@@ -162,7 +162,7 @@ class Builds:
             done.touch()
 
 
-def _generate(home: Path, name: str, application: str) -> None:
+def generate(home: Path, name: str, application: str = "") -> None:
     """Do what `microros-gen generate` does, to home/out, without the start of a process."""
     config = home / "microros.yaml"
     if application:
