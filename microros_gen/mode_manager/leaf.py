@@ -32,6 +32,7 @@ from microros_gen.modes.model import (
 
 RESTING = (UNCONFIGURED, INACTIVE)
 _FINAL = (ERROR, FINALIZED)
+_STAYING = (*RESTING, ACTIVE, *_FINAL)
 Step = tuple[Kind, int, str, Values]
 """The members of a call."""
 
@@ -104,6 +105,10 @@ class Leaf:
         if self.target is None:
             return True
         return status.is_same(self.target) if self.must_configure else fulfills(status, self.target)
+
+    def is_passing(self, status: Status) -> bool:
+        """Return whether it is between two states, or in none that is known; one of a system follows from others."""
+        return self.link is not Link.SYSTEM and status.state not in _STAYING
 
     def step(self, status: Status, wanted: Values, inactive_first: bool) -> Step | str:
         """Return the next call on the way from `status` to the target, or the reason why it cannot get there.

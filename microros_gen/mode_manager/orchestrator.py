@@ -41,7 +41,6 @@ from microros_gen.modes.model import (
     ACTIVE,
     DEFAULT,
     ERROR,
-    FINALIZED,
     INACTIVE,
     UNCONFIGURED,
     UNKNOWN,
@@ -52,7 +51,6 @@ from microros_gen.modes.model import (
 )
 from microros_gen.modes.templates import resolve
 
-_STAYING = (UNCONFIGURED, INACTIVE, ACTIVE, FINALIZED, ERROR)
 _NOT_THERE = "it is not there"
 
 
@@ -327,9 +325,7 @@ class Orchestrator:
         for kind in Kind:
             if kind in leaf.stale:
                 return self._call(leaf, now, kind)
-        if is_waiting or leaf.deviates:
-            return None
-        if self._is_passing(leaf, status, now):
+        if is_waiting or self._is_passing(leaf, status, now) or leaf.deviates:
             return None
         assert leaf.target is not None
         by_parameters = leaf.target.state == ACTIVE and not leaf.part.is_system
@@ -346,7 +342,7 @@ class Orchestrator:
 
     def _is_passing(self, leaf: Leaf, status: Status, now: float) -> bool:
         """Return whether a node is between two states; if it stays there, it fails."""
-        if leaf.link is Link.SYSTEM or status.state in _STAYING:
+        if not leaf.is_passing(status):
             leaf.passing_since = 0.0
             return False
         leaf.passing_since = leaf.passing_since or now

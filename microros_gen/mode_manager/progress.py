@@ -39,8 +39,10 @@ class Progress:
             return leaf.target is not None and not leaf.failure
         if leaf.failure != SILENT and (leaf.call is not None or leaf.stale or leaf.doubts):
             return True
-        if leaf.failure or leaf.deviates or self._is_done(leaf):
+        if leaf.failure or self._is_done(leaf):
             return False
+        if leaf.deviates:
+            return leaf.is_passing(self._status(leaf))
         blocker = self.blocker(name)
         return not blocker or self.is_moving(blocker)
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Systems of nodes with modes, in the format of the package system_modes: read, prove, simulate, draw.
+"""Systems of nodes with modes, in the format of the package system_modes: read, prove, draw.
 
-`read_model` returns a `Model`, `check` what is proven of it, `simulate` plays a script of requests and failures,
-`draw` returns a picture. Nothing here starts a node.
+`read_model` returns a `Model`, `check` what is proven of it, `read_script` the events of a script, `draw` a picture.
+Nothing here starts a node.
 """
 
 from microros_gen.modes.inference import Inference
@@ -12,7 +12,6 @@ from microros_gen.modes.picture import draw
 from microros_gen.modes.reader import parse_model, read_model
 from microros_gen.modes.report import Property, Report
 from microros_gen.modes.script import Event, read_script
-from microros_gen.modes.simulation import Played, simulate
 from microros_gen.modes.verification import check
 
 __all__ = [
@@ -23,7 +22,6 @@ __all__ = [
     "Mode",
     "Model",
     "Part",
-    "Played",
     "Property",
     "Report",
     "Rule",
@@ -35,5 +33,4 @@ __all__ = [
     "parse_model",
     "read_model",
     "read_script",
-    "simulate",
 ]

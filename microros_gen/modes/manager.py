@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a mode manager does with requests and failures, without nodes: commands, rules, repeated commands.
+"""What the proof takes a mode manager to do with requests and failures: commands, rules, repeated commands.
 
 After each event the systems settle. Bottom up, a system that is not in its target applies one of its rules, which
 changes its target and so commands its parts; then all begin again. Where no rule holds, nodes that were changed by
@@ -7,7 +7,8 @@ others are commanded to their target again. Of several rules that hold at once, 
 package system_modes applies all in this order, so that this one decides.
 
 A transition takes no time here: a node that can follow has reached its target when the next rule is looked for, so
-that no rule sees a part on its way.
+that no rule sees a part on its way. The manager on ROS waits until no part is on its way, and then finds the same; what
+it does with late, refusing and lost parts is simulated with its own decisions (mode_manager/simulation.py).
 """
 
 from __future__ import annotations
@@ -74,11 +75,6 @@ class Manager:
         """Let a node be in `status`, where it stays whatever is commanded, and settle."""
         self._stuck.add(node)
         yield from self.change(node, status)
-
-    def repair(self, node: str) -> Iterator[Step]:
-        """Let a node follow commands again, and settle."""
-        self._stuck.discard(node)
-        yield from self.settle()
 
     def change(self, node: str, status: Status) -> Iterator[Step]:
         """Let a node be changed to `status` by somebody else, and settle."""

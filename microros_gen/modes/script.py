@@ -1,21 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A script of requests and failures (YAML) → events in the order of time.
+"""A script of requests and faults (YAML) → events in the order of time.
 
 - {at: 0 s, request: actuation, target: active.PERFORMANCE}
 - {at: 2 s, fail: manipulator, state: inactive}
 - {at: 5 s, repair: manipulator}
 - {at: 6 s, change: drive_base, state: active.SLOW}
 - {at: 7 s, change: drive_base, parameters: {max_speed: 0.2}}
+- {at: 8 s, delay: drive_base, time: 7 s}
+- {at: 9 s, refuse: drive_base, calls: [activate], reason: too hot}
+- {at: 10 s, silence: drive_base}
+- {at: 11 s, leave: drive_base}
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import field
+from dataclasses import field, replace
 from pathlib import Path
 
 from microros_gen.diagnostics import Diagnostics, Source, nearest, reads
-from microros_gen.documents.tree_read import check_keys, expect_mapping
+from microros_gen.documents.tree_read import check_keys, expect_mapping, read_text
 from microros_gen.documents.tree_values import items, text_of, time_of
 from microros_gen.documents.yaml_tree import MappingNode, SequenceNode, YamlNode, parse_yaml
 from microros_gen.modes.model import ERROR, Model, Status, Value
@@ -27,19 +31,29 @@ from microros_gen.modes.values import parse_values
 from microros_gen.records import dataclass
 
 REQUEST, FAIL, REPAIR, CHANGE = "request", "fail", "repair", "change"
+DELAY, REFUSE, SILENCE, LEAVE = "delay", "refuse", "silence", "leave"
+CALLS = ("configure", "cleanup", "activate", "deactivate", "change_mode", "set_parameters")
+"""What a node can refuse: transitions of its life cycle, and the two ways into a mode."""
 _KEYS: Mapping[str, tuple[str, ...]] = {
     REQUEST: ("target",),
     FAIL: ("state",),
     REPAIR: (),
     CHANGE: ("state", "parameters"),
+    DELAY: ("time", "calls"),
+    REFUSE: ("calls", "reason"),
+    SILENCE: (),
+    LEAVE: (),
 }
+_DETAILS = frozenset(key for keys in _KEYS.values() for key in keys)
 
 
 @dataclass(frozen=True)
 class Event:
-    """What happens at `time_us`, microseconds: a request, or a failure, repair or change of a node.
+    """What happens at `time_us`, microseconds: a request, or what happens to a node.
 
     `status` is the target of a request and the state of a failure or change; None: a change of `parameters`.
+    `delay_us` is how long a node takes for a response from then on. `calls` are those that are
+    late, none: all, or that a node refuses, for `reason`.
     """
 
     time_us: int
@@ -47,11 +61,21 @@ class Event:
     part: str
     status: Status | None = None
     parameters: Mapping[str, Value] = field(default_factory=dict)
+    delay_us: int = 0
+    calls: tuple[str, ...] = ()
+    reason: str = ""
 
     def __str__(self) -> str:
         values = ", ".join(f"{name}: {value.value}" for name, value in self.parameters.items())
         words = [self.kind, self.part, str(self.status or ""), f"{{{values}}}" if values else ""]
+        words += [seconds_text(self.delay_us) if self.kind == DELAY else "", ", ".join(self.calls)]
         return " ".join(word for word in words if word)
+
+
+def seconds_text(time_us: int) -> str:
+    """Return a time in microseconds as seconds with their unit."""
+    text = f"{time_us // 1_000_000}.{time_us % 1_000_000:06}".rstrip("0").rstrip(".")
+    return f"{text} s"
 
 
 def read_script(path: Path, model: Model) -> tuple[Event, ...]:
@@ -91,23 +115,24 @@ def _event(item: YamlNode, model: Model, diagnostics: Diagnostics) -> Event | No
     kinds = [kind for kind in _KEYS if kind in node.entries]
     if len(kinds) != 1:
         message = f"an event has one of {', '.join(_KEYS)}"
-        other = next((e for e in node if e.key not in ("at", "target", "state", "parameters")), None)
+        other = next((e for e in node if e.key != "at" and e.key not in _DETAILS), None)
         hint = nearest(other.key, _KEYS) if other is not None and not kinds else None
         diagnostics.error(message, node.span, hint or "Write one event a line", id="MG-8863")
         return None
     kind = kinds[0]
     check_keys(node, ("at", kind, *_KEYS[kind]), ("at",), diagnostics)
-    time_us = _time(node.get("at"), diagnostics)
+    time_us = _time(node, "at", diagnostics)
     part = _part(node.entries[kind].value, kind, model, diagnostics)
     if part is None or time_us is None:
         return None
     return _with_details(Event(time_us, kind, part.name), part, node, model, diagnostics)
 
 
-def _time(node: YamlNode | None, diagnostics: Diagnostics) -> int | None:
+def _time(event: MappingNode, key: str, diagnostics: Diagnostics) -> int | None:
+    node = event.get(key)
     time_us = time_of(node)
     if time_us is None and node is not None:
-        message = "'at' must be a time"
+        message = f"'{key}' must be a time"
         diagnostics.error(message, node.span, "Write 500 ms, or 2 s", id="MG-8864")
     return time_us
 
@@ -127,25 +152,55 @@ def _part(node: YamlNode, kind: str, model: Model, diagnostics: Diagnostics) -> 
 def _with_details(
     event: Event, part: Subject, node: MappingNode, model: Model, diagnostics: Diagnostics
 ) -> Event | None:
-    if event.kind == REPAIR:
+    if not _KEYS[event.kind]:
         return event
+    if event.kind == REFUSE:
+        return _refusal(event, node, diagnostics)
+    if event.kind == DELAY:
+        check_keys(node, tuple(node.entries), ("time",), diagnostics)
+        delay_us, calls = _time(node, "time", diagnostics), _calls(node, diagnostics)
+        if delay_us is None or calls is None:
+            return None
+        return replace(event, delay_us=delay_us, calls=calls)
     if event.kind == CHANGE and ("state" in node.entries) == ("parameters" in node.entries):
         message = "a change has either a state or parameters"
         diagnostics.error(message, node.span, "Write state: active.MODE", id="MG-8866")
         return None
     if "parameters" in node.entries:
         values = _values(node, part, model, diagnostics)
-        return Event(event.time_us, event.kind, event.part, None, values) if values else None
+        return replace(event, parameters=values) if values else None
     key = "target" if event.kind == REQUEST else "state"
     value = node.get(key)
     if value is None and event.kind == FAIL:
-        return Event(event.time_us, event.kind, event.part, Status(ERROR))
+        return replace(event, status=Status(ERROR))
     if value is None:
         check_keys(node, tuple(node.entries), (key,), diagnostics)
         return None
     parse = parse_target if event.kind == REQUEST else parse_status
     status = parse(value, part, diagnostics)
-    return Event(event.time_us, event.kind, event.part, status) if status is not None else None
+    return replace(event, status=status) if status is not None else None
+
+
+def _refusal(event: Event, node: MappingNode, diagnostics: Diagnostics) -> Event | None:
+    """Return which calls a node refuses: without `calls` all of them."""
+    calls = _calls(node, diagnostics)
+    reason = read_text(node, "reason", diagnostics)
+    return replace(event, calls=calls or CALLS, reason=reason) if calls is not None else None
+
+
+def _calls(event: MappingNode, diagnostics: Diagnostics) -> tuple[str, ...] | None:
+    """Return the names of `calls`, none where it is not there; None: they are wrong."""
+    listed = event.get("calls")
+    names = [text_of(item) or "" for item in items(listed)]
+    for item, name in zip(items(listed), names, strict=True):
+        if name not in CALLS:
+            hint = nearest(name, CALLS) or f"Known: {', '.join(CALLS)}"
+            diagnostics.error(f"unknown call '{name}'", item.span, hint, id="MG-8878")
+    if listed is not None and not names:
+        hint = "Write calls: [activate], or leave it out for all of them"
+        diagnostics.error("'calls' must be a list of calls", listed.span, hint, id="MG-8879")
+        return None
+    return tuple(names) if all(name in CALLS for name in names) else None
 
 
 def _values(node: MappingNode, part: Subject, model: Model, diagnostics: Diagnostics) -> Mapping[str, Value]:

@@ -110,7 +110,7 @@ def test_an_oscillation_has_its_trace_in_json(run: Runner, models: Path) -> None
     (models / "s.yaml").write_text(SCRIPT, encoding="utf-8")
     outcome = run("modes", "simulate", "bad.yaml", "s.yaml")
     assert outcome.status == 1
-    assert "  oscillates: arm active.QUICK again\n" in outcome.out
+    assert "  arm: its rules oscillate, and are not applied until the next request\n" in outcome.out
 
 
 @pytest.mark.usefixtures("models")
@@ -121,18 +121,25 @@ def test_simulate_prints_the_trace(run: Runner) -> None:
         outcome.out
         == """\
 0 s       request arm active.QUICK
-            command arm active.QUICK
-            command gripper active.FIRM
-            command joint active.RUSH
-            status gripper active.FIRM
+            status arm activating
+            call gripper change_state configure
+            call joint change_state configure
+0.01 s      status gripper inactive
+            status joint inactive
+            call gripper set_parameters_atomically
+            call joint set_parameters_atomically
+0.02 s      call gripper change_state activate
+            call joint change_state activate
+0.03 s      status gripper active.FIRM
             status joint active.RUSH
             status arm active.QUICK
 1.5 s     fail joint inactive
+            joint: others changed it from active.RUSH to inactive
+            arm: rule without_joint: inactive
             status joint inactive
-            rule without_joint: arm inactive
-            command joint inactive
-            command gripper inactive
-            status gripper inactive
+            status arm deactivating
+            call gripper change_state deactivate
+1.51 s      status gripper inactive
             status arm inactive
 end       arm inactive
           gripper inactive
@@ -145,17 +152,24 @@ end       arm inactive
 def test_simulate_as_json(run: Runner) -> None:
     data = json.loads(run("modes", "simulate", "arm.yaml", "faults.yaml", "--format", "json").out)
     assert (data["version"], data["stable"]) == (1, True)
-    assert [(event["time_us"], event["event"]) for event in data["events"]] == [
-        (0, "request arm active.QUICK"),
-        (1_500_000, "fail joint inactive"),
-    ]
-    assert data["events"][1]["steps"][1] == {
-        "kind": "rule",
-        "part": "arm",
-        "status": "inactive",
-        "rule": "without_joint",
-    }
-    assert data["end"][0] == {"part": "arm", "status": "inactive", "target": "inactive"}
+    steps = [(step["time_us"], step["kind"], step["part"], step["text"]) for step in data["steps"]]
+    assert steps[0] == (0, "event", "arm", "request arm active.QUICK")
+    assert (0, "call", "joint", "change_state configure") in steps
+    at = steps.index((1_500_000, "event", "joint", "fail joint inactive"))
+    assert steps[at + 2] == (1_500_000, "log", "arm", "rule without_joint: inactive")
+    end = {"part": "arm", "status": "inactive", "target": "inactive", "failure": ""}
+    assert data["end"][0] == end
+
+
+@pytest.mark.usefixtures("models")
+def test_simulate_takes_the_options_of_the_manager(run: Runner) -> None:
+    options = ("--reconfigure", "gripper", "--mode-services", "joint", "--timeout", "0.5")
+    outcome = run("modes", "simulate", "arm.yaml", "faults.yaml", *options)
+    assert (outcome.status, outcome.err) == (0, "")
+    assert "  call joint change_mode RUSH\n" in outcome.out
+    outcome = run("modes", "simulate", "arm.yaml", "faults.yaml", "--mode-services", "arm")
+    assert outcome.status == 2
+    assert "'arm' is no node of the scope. Nodes: gripper, joint [MG-8873]" in outcome.err
 
 
 def test_graph_writes_what_it_prints(run: Runner, models: Path) -> None:

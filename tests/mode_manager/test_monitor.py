@@ -66,7 +66,7 @@ def test_a_failed_part_and_one_on_its_way() -> None:
     assert (rows["arm"].level, rows["arm"].message) == (1, "it is on its way")
     assert (rows["gripper"].level, rows["gripper"].target) == (1, "active.FIRM")
     assert rows["joint"].retries > 0
-    world.run(5)
+    world.let(5)
     rows = {row.part: row for row in rows_of(world.manager)}
     assert (rows["joint"].level, rows["joint"].message) == (2, "it refuses change_mode RUSH: no")
     assert (rows["arm"].level, rows["arm"].message) == (2, "it is not in its target")
@@ -151,7 +151,7 @@ def test_sources_of_problems_are_joined() -> None:
     problems = Problems(world.manager, [deadlines])
     deadlines.missed = True
     problems.step()
-    world.run(1)
+    world.let(1)
     rows = {row.part: row for row in rows_of(world.manager)}
     assert (rows["gripper"].message, rows["gripper"].actual) == (
         "a deadline of 10 ms was missed",

@@ -7,7 +7,6 @@ import json
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
 from contextlib import ExitStack
 from typing import Any
 
@@ -15,7 +14,6 @@ import pytest
 
 from microros_gen.mode_manager.diagnosis import TOPIC, TYPE
 from microros_gen.ros.peer import Peer
-from tests.support.agent.process import environment, own_domain
 from tests.support.mode_manager.device import Device, alive
 from tests.support.mode_manager.processes import Asking, Running, manager, node, running
 from tests.support.modes.models import MODELS
@@ -25,20 +23,6 @@ pytestmark = pytest.mark.ros
 ARM = str(MODELS / "arm.yaml")
 GRIPPER = {"force": 0.5}
 JOINT = {"speed": 0.1, "law": "TORQUE"}
-
-
-@pytest.fixture
-def domain(monkeypatch: pytest.MonkeyPatch) -> int:
-    number = own_domain()
-    for name, value in environment(number).items():
-        monkeypatch.setenv(name, value)
-    return number
-
-
-@pytest.fixture
-def stack() -> Iterator[ExitStack]:
-    with ExitStack() as opened:
-        yield opened
 
 
 def start(stack: ExitStack, domain: int, *arguments: str, **nodes: dict[str, Any]) -> tuple[Asking, Running]:

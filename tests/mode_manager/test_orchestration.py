@@ -85,7 +85,7 @@ def test_six_parts_take_three_round_trips(link: Link) -> None:
     """Each response takes a second; that of the last of three calls arrives in the fourth."""
     nodes = {f"n{i}": Node(link, delay_s=1.0, values={"rate": 1}) for i in range(6)}
     world = World(model_of(six()), nodes)
-    world.run(3)
+    world.let(3)
     begin = world.now
     world.request("s", active("GO"), 4)
     assert world.status("s") == "active.GO"
@@ -167,10 +167,10 @@ def test_a_node_without_a_life_cycle_is_always_active() -> None:
 def test_configuring_and_cleaning_up_a_system() -> None:
     world = arm()
     world.manager.request("arm", Status("inactive"), must_configure=True)
-    world.run(2)
+    world.let(2)
     assert [node.state for node in world.nodes.values()] == ["inactive"] * 2
     world.manager.clean_up("arm")
-    world.run(2)
+    world.let(2)
     assert [node.state for node in world.nodes.values()] == ["unconfigured"] * 2
     assert world.status("arm") == "inactive"
 

@@ -9,7 +9,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.modes import Event, Manager, Model, Status, parse_model, simulate
+from microros_gen.mode_manager.simulation import simulate
+from microros_gen.modes import Event, Manager, Model, Status, parse_model
 from microros_gen.modes.behavior import settle_all
 from microros_gen.modes.stability import MOST_COMBINATIONS, trace
 from tests.support.examples import examples

@@ -7,7 +7,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from microros_gen.diagnostics import Diagnostics, Source, UserError
-from microros_gen.modes import draw, parse_model, simulate
+from microros_gen.mode_manager.simulation import simulate
+from microros_gen.modes import draw, parse_model
 from microros_gen.modes.script import parse_script
 from microros_gen.modes.verification import check_model
 from tests.support.examples import examples

@@ -8,7 +8,13 @@ from pathlib import Path
 import click
 
 from microros_gen.agent.server import stopped_by_signals
-from microros_gen.cli.modes.options import domain_option, model_argument, modes_peer
+from microros_gen.cli.modes.options import (
+    domain_option,
+    model_argument,
+    modes_peer,
+    reconfigure_option,
+    timeout_option,
+)
 from microros_gen.mode_manager.calls import Settings
 from microros_gen.mode_manager.scope import Scope, select_nodes, select_scope
 from microros_gen.mode_manager.server import ModeManager
@@ -31,21 +37,8 @@ from microros_gen.modes.reader import read_model
     metavar="SYSTEM",
     help="Subsystem that another manager manages: it is used by its services; can be repeated.",
 )
-@click.option(
-    "--reconfigure",
-    multiple=True,
-    metavar="NODE",
-    help="Node that takes parameters only while it is inactive: it is deactivated, gets those of the mode and is"
-    " activated again; can be repeated.",
-)
-@click.option(
-    "--timeout",
-    type=click.FloatRange(min=0.1),
-    default=Settings().call_s,
-    show_default=True,
-    metavar="S",
-    help="Seconds after which a response is late.",
-)
+@reconfigure_option
+@timeout_option
 @domain_option
 def manage_command(
     model: Path,

@@ -11,6 +11,7 @@ import click
 
 from microros_gen.cli.ros_node import node_of
 from microros_gen.diagnostics import Diagnostic
+from microros_gen.mode_manager.calls import Settings
 from microros_gen.ros.peer import Peer
 
 model_argument = click.argument("model", metavar="SYSTEM.yaml", type=click.Path(path_type=Path))
@@ -22,6 +23,23 @@ format_option = click.option(
     default="table",
     show_default=True,
     help="Lines for people, or JSON for programs.",
+)
+
+reconfigure_option = click.option(
+    "--reconfigure",
+    multiple=True,
+    metavar="NODE",
+    help="Node that takes parameters only while it is inactive: it is deactivated, gets those of the mode and is"
+    " activated again; can be repeated.",
+)
+
+timeout_option = click.option(
+    "--timeout",
+    type=click.FloatRange(min=0.1),
+    default=Settings().call_s,
+    show_default=True,
+    metavar="S",
+    help="Seconds after which a response is late.",
 )
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`microros-gen modes simulate`: plays a script of requests and failures."""
+"""`microros-gen modes simulate`: plays a script of requests and faults."""
 
 from __future__ import annotations
 
@@ -7,25 +7,52 @@ from pathlib import Path
 
 import click
 
-from microros_gen.cli.modes.options import format_option, json_text, model_argument
+from microros_gen.cli.modes.options import (
+    format_option,
+    json_text,
+    model_argument,
+    reconfigure_option,
+    timeout_option,
+)
+from microros_gen.mode_manager.calls import Settings
+from microros_gen.mode_manager.scope import select_nodes, select_scope
+from microros_gen.mode_manager.simulation import simulate
 from microros_gen.modes.reader import read_model
 from microros_gen.modes.script import read_script
-from microros_gen.modes.simulation import simulate
 
 
 @click.command()
 @model_argument
 @click.argument("script", metavar="SCRIPT", type=click.Path(path_type=Path))
+@click.option(
+    "--mode-services",
+    "with_services",
+    multiple=True,
+    metavar="NODE",
+    help="Node with services of its own for modes, as firmware has them; can be repeated.",
+)
+@reconfigure_option
+@timeout_option
 @format_option
-def simulate_command(model: Path, script: Path, kind: str) -> int:
-    """Play the requests and failures of SCRIPT on a system of nodes with modes, without nodes.
+def simulate_command(
+    model: Path,
+    script: Path,
+    with_services: tuple[str, ...],
+    reconfigure: tuple[str, ...],
+    timeout: float,
+    kind: str,
+) -> int:
+    """Play the requests and faults of SCRIPT with the decisions of the mode manager, without nodes.
 
-    Exit status: 0; 1 when rules oscillate.
+    Time is simulated, too: nothing is waited for. Exit status: 0; 1 when rules oscillate, or parts never come to rest.
 
     \b
     microros-gen modes simulate robot.yaml faults.yaml
     """
     system = read_model(model)
-    played = simulate(system, read_script(script, system))
+    scope = select_scope(system)
+    settings = Settings(call_s=timeout, reconfigured=select_nodes(system, scope, reconfigure))
+    services = select_nodes(system, scope, with_services)
+    played = simulate(system, read_script(script, system), settings, services)
     click.echo(json_text(played.data()) if kind == "json" else played.text(), nl=False)
     return 0 if played.is_stable else 1

@@ -11,10 +11,10 @@ from typing import Any
 from microros_gen.mode_manager.calls import STATE_IDS
 from microros_gen.mode_manager.messages import mode_event, transition_event
 from microros_gen.mode_manager.server import CLIENTS_TOPIC, CLIENTS_TYPE
+from microros_gen.mode_manager.simulated_node import GOALS
 from microros_gen.modes import Status
 from microros_gen.ros.peer import Peer
 from microros_gen.ros.qos import Qos
-from tests.support.mode_manager.world import GOALS
 
 
 class Device:
