@@ -29,7 +29,10 @@ class Demand:
 
 
 def declared_components(application: Application) -> Iterator[Demand]:
-    """Yield the micro-ROS component that each declaration of a node needs in order to be created at all."""
+    """Yield the micro-ROS component that each declaration of a node needs in order to be created at all.
+
+    A profile, or the application, chooses them: what is declared without its component is an error.
+    """
     for node in application.nodes:
         for endpoint in node.endpoints:
             yield Demand(KIND[endpoint.kind].component, _article(endpoint.kind), endpoint.span)
@@ -41,14 +44,20 @@ def declared_components(application: Application) -> Iterator[Demand]:
                 yield Demand("lifecycle", "a managed timer", timer.span)
         for parameter in node.parameters:
             yield Demand("parameters", "a parameter", parameter.span)
-        for mode in node.modes[:1]:
-            yield Demand("node_modes", "a mode", mode.span)
         for client in node.parameter_clients:
             yield Demand("parameter_client", "a client of parameters", client.span)
             if "watch" in client.operations:
                 yield Demand(KIND["subscription"].component, "a client that watches parameters", client.span)
         for executor in node.executors:
             yield Demand("executor", "an executor", executor.span)
+
+
+def selecting_demands(application: Application) -> Iterator[Demand]:
+    """Yield the component that a key of a node selects by itself, since nothing else can be meant by it."""
+    yield from holder_demands(application)
+    for node in application.nodes:
+        for mode in node.modes[:1]:
+            yield Demand("node_modes", f"modes: of a node{at(mode.span)}", mode.span)
 
 
 def holder_demands(application: Application) -> Iterator[Demand]:

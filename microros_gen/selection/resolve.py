@@ -22,7 +22,7 @@ from microros_gen.selection.component import (
     ResolvedProfile,
 )
 from microros_gen.selection.contradictions import check_contradictions
-from microros_gen.selection.declared import check_holder, holder_demands, stream_demands
+from microros_gen.selection.declared import check_holder, selecting_demands, stream_demands
 from microros_gen.selection.implied import with_default_node
 from microros_gen.selection.model import Chosen, ChosenAxis, ChosenComponent, Selection
 from microros_gen.selection.picker import Picker
@@ -58,7 +58,7 @@ def resolve_selection(
     for choice in axes.values():
         _pick_axis(picker, choice, middleware)
     check_holder(application, picker.causes.keys(), diagnostics)
-    for demand in holder_demands(application):
+    for demand in selecting_demands(application):
         picker.pick(demand.component, demand.text, demand.span)
     picker.close()
     chosen = [picker.catalogue[name] for name in picker.causes]

@@ -201,11 +201,23 @@ def built(tmp_path: Path, text: str) -> str:
     return "\n".join(d.render() for d in raised.value.diagnostics)
 
 
-def test_modes_need_their_component(tmp_path: Path) -> None:
+def test_modes_select_their_component(tmp_path: Path) -> None:
     """The component brings parameters and life cycle along."""
-    reported = built(tmp_path, TEXT.replace("components: [+node_modes]\n", ""))
-    assert "15:7: error: a mode needs the component 'node_modes', which nothing selects" in reported
-    assert "Add `components: [+node_modes]`" in reported
+    files = []
+    for name, text in (("by_key", TEXT.replace("components: [+node_modes]\n", "")), ("by_name", TEXT)):
+        config = tmp_path / f"{name}.yaml"
+        config.write_text(text, encoding="utf-8")
+        compiler.generate(compiler.Options(config=config), tmp_path / name)
+        files.append({p.relative_to(tmp_path / name) for p in (tmp_path / name / "src").rglob("*.c")})
+    assert files[0] == files[1]
+    assert any(path.parts[1] == "node_modes" for path in files[0])
+
+
+def test_modes_and_a_dropped_component_contradict(tmp_path: Path) -> None:
+    reported = built(tmp_path, TEXT.replace("+node_modes", "-node_modes"))
+    assert "MG-4034" in reported
+    assert "'-node_modes' drops a component that is selected by modes: of a node" in reported
+    assert "Change `modes:`, or remove '-node_modes'" in reported
 
 
 def test_the_component_needs_modes(tmp_path: Path) -> None:
