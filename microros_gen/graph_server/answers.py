@@ -15,7 +15,7 @@ from microros_gen.ros.graph import Graph, GraphEndpoint, Names
 OK, UNKNOWN_NODE, INVALID = 0, 1, 2
 """`status` of both services."""
 NODES, TOPICS, SERVICES, PUBLISHERS_OF, SUBSCRIPTIONS_OF, SERVICES_OF, CLIENTS_OF = range(7)
-DDS_TOPICS, DDS_PUBLISHERS_OF, DDS_SUBSCRIPTIONS_OF = range(7, 10)
+DDS_TOPICS, DDS_PUBLISHERS_OF, DDS_SUBSCRIPTIONS_OF, NODES_WITH_ENCLAVES = range(7, 11)
 """`what` of microros_graph_msgs/srv/ListNames."""
 PUBLISHERS, SUBSCRIPTIONS, SERVERS, CLIENTS = range(4)
 """`what` of microros_graph_msgs/srv/ListEndpoints."""
@@ -105,6 +105,8 @@ def _names(graph: Graph, what: int, node: str) -> Names | int:
         return UNKNOWN_NODE if found is None else found
     if what == NODES:
         return tuple((name, ()) for name in graph.nodes())
+    if what == NODES_WITH_ENCLAVES:
+        return tuple((name, (enclave,)) for name, enclave in graph.nodes_with_enclaves())
     if what in (TOPICS, DDS_TOPICS):
         return graph.topics(demangle=what == TOPICS)
     return graph.services() if what == SERVICES else INVALID

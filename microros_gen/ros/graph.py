@@ -52,6 +52,11 @@ class Graph:
         found = self._node.get_node_names_and_namespaces()
         return tuple(sorted(full_name(name, namespace) for name, namespace in found))
 
+    def nodes_with_enclaves(self) -> tuple[tuple[str, str], ...]:
+        """Return what `nodes` does, each with its enclave: "/", unless the node was started with another one."""
+        found = self._node.get_node_names_and_namespaces_with_enclaves()
+        return tuple(sorted((full_name(name, namespace), enclave) for name, namespace, enclave in found))
+
     def topics(self, demangle: bool = True) -> Names:
         """Return all topics that have an endpoint; not demangled as DDS has them, those of services too."""
         return _names(self._handles.rclpy_get_topic_names_and_types(self._node, not demangle))

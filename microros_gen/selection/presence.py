@@ -18,8 +18,10 @@ EXAMPLE_FILE = "example.c.j2"
 EXAMPLE_POINTS = ("variables", "init", "executor", "fini", "functions", "turn")
 """The points of examples/<profile>/main.c; docs/architecture.md says where each is."""
 
-_CONVERSION = re.compile(r"%(?:%|[-+ #0-9.*]*(?:hh?|ll?|[jztL])?([A-Za-z]))")
-"""A conversion of printf, with its letter (ISO C99, 7.19.6.1); `%%` has none."""
+_CONVERSION = re.compile(r"%(?:%|[-+ #0-9.*]*(hh?|ll?|[jztL])?([A-Za-z]))")
+"""A conversion of printf, with its length and letter (ISO C99, 7.19.6.1); `%%` has none."""
+_WIDE = {"ls": "S", "lc": "C"}
+"""Letters for the conversions of wide characters, whose arguments have other types than those of `s` and `c`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,7 +68,8 @@ class MemoryUse(Conditional):
 class SelectingCall:
     """Functions and macros that select the component where migrated sources use them; `x_*`: all that begin so.
 
-    `conversions` are letters of conversions of printf: only calls with one of them in a string count.
+    `conversions` are letters of conversions of printf, S and C of `ls` and `lc`: only calls with one of them in a
+    string count.
     """
 
     name: str
@@ -77,8 +80,14 @@ class SelectingCall:
         start = self.name.removesuffix("*")
         if not (function.startswith(start) if start != self.name else function == start):
             return False
-        found = {match[1] for text in texts for match in _CONVERSION.finditer(text)}
+        found = {_letter(match) for text in texts for match in _CONVERSION.finditer(text)}
         return not self.conversions or not found.isdisjoint(self.conversions)
+
+
+def _letter(conversion: re.Match[str]) -> str:
+    """Return the letter of a conversion; empty for `%%` and for S and C, which C99 does not have."""
+    length, letter = conversion.groups(default="")
+    return _WIDE.get(length + letter, "" if letter in _WIDE.values() else letter)
 
 
 @dataclass(frozen=True)

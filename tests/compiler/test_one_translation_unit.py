@@ -17,7 +17,7 @@ version: 1
 profiles: [pure_reader]
 components: [+publish, +services, +executor, +timers, +multithread, +session_state, +micro_ros_utilities, +time_sync,
   +parameters, +parameter_storage, +parameter_client, +lifecycle, +node_modes,
-  +graph, +logger_services, +logging_float, +name_substitutions, +publish_statistics,
+  +graph, +logger_services, +logging_float, +logging_wide, +name_substitutions, +publish_statistics,
   +ping, +session_close, +clock_ros, {choice}]
 logging: [rosout, {{to: ring, level: debug}}, console, callback]
 nodes:

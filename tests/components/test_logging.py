@@ -57,6 +57,12 @@ def test_floating_point_where_it_is_selected(tmp_path: Path) -> None:
     assert int(unit(out, "unit_log_float.c", tmp_path, "-O1").split()[0]) > 90_000
 
 
+def test_wide_characters_where_they_are_selected(tmp_path: Path) -> None:
+    """Against vsnprintf in a locale of UTF-8."""
+    out = rendered(tmp_path, BARE + "logging: console\ncomponents: [+logging_wide]\n")
+    assert int(unit(out, "unit_log_wide.c", tmp_path).split()[0]) > 700
+
+
 def test_an_image_has_floating_point_only_where_it_is_selected(verbose: Path, tmp_path: Path) -> None:
     """Without it, not even a conversion of a double is linked (Arm, numbers in software)."""
     chosen = rendered(tmp_path, BARE + "logging: console\ncomponents: [+logging_float]\n")

@@ -98,6 +98,10 @@ def test_names_are_those_that_rclpy_sees(peer: Peer) -> None:
         node = arm.name
         sides: list[tuple[Callable[[], Any], Callable[[], Any]]] = [
             (lambda: tuple((n, ()) for n in graph.nodes()), lambda: querying.listed(answers.NODES)),
+            (
+                lambda: tuple((n, (enclave,)) for n, enclave in graph.nodes_with_enclaves()),
+                lambda: querying.listed(answers.NODES_WITH_ENCLAVES),
+            ),
             (graph.topics, lambda: querying.listed(answers.TOPICS)),
             (graph.services, lambda: querying.listed(answers.SERVICES)),
             (lambda: graph.publishers_of(node), lambda: querying.listed(answers.PUBLISHERS_OF, node=node)),

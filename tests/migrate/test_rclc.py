@@ -472,6 +472,12 @@ def test_floating_point_in_a_log_message_selects_its_component() -> None:
     )
 
 
+def test_wide_characters_in_a_log_message_select_their_component() -> None:
+    narrow = 'RCUTILS_LOG_INFO("%s %c", "two", 120);'
+    assert "+logging_wide" not in adopted(program(narrow)).draft.components
+    assert "+logging_wide" in adopted(program('RCUTILS_LOG_INFO("%d %ls", 1, L"two");')).draft.components
+
+
 def test_a_program_without_a_node_is_taken() -> None:
     """It may ping, or synchronize its clock, and no more."""
     draft = adopted("int main(void) { rmw_uros_ping_agent(100, 1); return 0; }").draft

@@ -71,6 +71,7 @@ class Device:
 def device(program: Path) -> Iterator[Device]:
     graph = MadeGraph(
         node_names=("/arm/device", "/a/b/deep", "/root"),
+        enclaves={"/root": "/factory/root"},
         topic_names=TOPICS,
         service_names=(("/set", (SET_BOOL,)), ("/two", (SET_BOOL, "a/srv/B"))),
         dds_names=DDS_TOPICS,
@@ -121,6 +122,29 @@ def test_names_of_a_node_that_no_node_can_have(device: Device) -> None:
 def test_nodes(device: Device) -> None:
     assert device.items("nodes") == ["/arm device", "/a/b deep", "/ root"]
     assert all(request["types_max"] == 0 for _, request in device.agent.requests)
+
+
+def test_nodes_with_enclaves(device: Device) -> None:
+    assert device.items("enclaves") == ["/arm device /", "/a/b deep /", "/ root /factory/root"]
+    assert len(device.agent.requests) == 2
+
+
+def test_an_enclave_that_does_not_fit(device: Device) -> None:
+    device.agent.graph.enclaves["/root"] = "/" + "x" * 300
+    assert "raise limits of microros_graph_msgs" in device.fails("enclaves", ERROR)
+
+
+def test_a_server_that_tells_no_enclaves(device: Device) -> None:
+    """All that was allocated is free again."""
+
+    def without(response: dict[str, Any]) -> dict[str, Any]:
+        return response | {"names": [name | {"types": []} for name in response["names"]]}
+
+    device.agent.change = without
+    for _ in range(5):
+        assert "a node without an enclave" in device.fails("enclaves", ERROR)
+    device.agent.change = lambda response: response
+    assert len(device.items("enclaves")) == 3
 
 
 def test_endpoints_of_a_topic(device: Device) -> None:
@@ -427,7 +451,13 @@ def test_a_node_name_without_a_slash(device: Device) -> None:
     assert device.items("nodes") == ["/ "]
 
 
-QUERIES = ("names services", "nodes", "infos subscriptions /arm/count", "count publishers /arm/count")
+QUERIES = (
+    "names services",
+    "nodes",
+    "enclaves",
+    "infos subscriptions /arm/count",
+    "count publishers /arm/count",
+)
 
 
 @pytest.mark.parametrize("query", QUERIES)

@@ -65,7 +65,13 @@ CAPTURED = bytes.fromhex(
     "2f7365740000000001000000150000007374645f737276732f7372762f536574426f6f6c00"
 )
 """A sample of micro_ros_agent 5.0.2 (af00787), of three nodes. It lists every service at every node, both ways."""
-QUERIES = ("names topics", "nodes", "infos subscriptions /arm/count", "count publishers /arm/count")
+QUERIES = (
+    "names topics",
+    "nodes",
+    "enclaves",
+    "infos subscriptions /arm/count",
+    "count publishers /arm/count",
+)
 
 
 @pytest.fixture(scope="module")
@@ -160,6 +166,8 @@ def test_names_of_a_node_that_no_node_can_have(device: Device) -> None:
 
 def test_nodes(device: Device) -> None:
     assert device.items("nodes") == ["/arm device", "/a/b deep", "/ root", "/ silent"]
+    enclaves = ["/arm device /", "/a/b deep /", "/ root /", "/ silent /"]
+    assert device.items("enclaves") == enclaves
 
 
 def test_endpoints_of_a_topic(device: Device) -> None:

@@ -3,13 +3,18 @@
 
 from __future__ import annotations
 
+import json
+import os
 import struct
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
 import pytest
 
+from tests.support.agent.process import own_domain
 from tests.support.runtime.driver import Client
 from tests.support.runtime.fake_agent import FakeAgent
 from tests.support.runtime.harness import build
@@ -111,6 +116,104 @@ def test_lines_before_the_session_are_sent_in_it(client: Client, agent: FakeAgen
     assert len(first.file) == 20
     assert first.line > 50
     assert (first.sec, first.nanosec) == (1700000000, 123000000)
+
+
+ROOM = f"""\
+version: 1
+profiles: [pure_sender]
+logging: [{{to: rosout, level: warn, size: {SIZE}}}]
+nodes:
+  - {{name: device, namespace: /arm, publishers: [{{topic: count, type: std_msgs/msg/Int32}}]}}
+limits: {{rcl_interfaces/msg/Log: {{name: 24, msg: 40, file: 20, function: 12}}}}
+"""
+OK, BAD_ALLOC, INVALID, NOT_FOUND = 0, 10, 11, 107
+SUBLOGGERS = (
+    ("add", "arm.device", "child", OK),
+    ("add", "arm.device", "child", OK),
+    ("remove", "arm.device", "child", OK),
+    ("remove", "arm.device", "child", OK),
+    ("remove", "arm.device", "child", NOT_FOUND),
+    ("add", "arm.device", "", INVALID),
+    ("add", "arm.device", None, INVALID),
+    ("add", None, "child", INVALID),
+    ("add", "", "child", NOT_FOUND),
+    ("add", "none", "child", NOT_FOUND),
+    ("add", "arm.devic", "child", NOT_FOUND),
+    ("add", "arm.device.child", "x", NOT_FOUND),
+    ("add", "arm/device", "child", NOT_FOUND),
+    ("add", "device", "child", NOT_FOUND),
+    ("remove", "arm.device", "", INVALID),
+    ("remove", None, "child", INVALID),
+    ("remove", "none", "child", NOT_FOUND),
+    ("add", "arm.device", "x", OK),
+    ("add", "arm.device.x", "y", OK),
+    ("remove", "arm.device", "x.y", OK),
+    ("add", "arm.device.x", "y", OK),
+    ("remove", "arm.device", "x", OK),
+    ("remove", "arm.device.x", "y", OK),
+    ("add", "arm.device", "last", OK),
+)
+"""Calls for the logger `arm.device`, and what rcl returns."""
+
+
+@pytest.fixture(scope="module")
+def roomy(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    tree = write_application(tmp_path_factory.mktemp("subloggers") / "tree", ROOM)
+    return build(tree.without_port(), ["port_fake.c", "client_logs.c"], "subloggers")
+
+
+def sublogger(client: Client, call: str, *names: str | None) -> int:
+    words = ("0" if name is None else name or "-" for name in names)
+    return client.call(" ".join((call, *words))).code
+
+
+def test_subloggers(roomy: Path, agent: FakeAgent) -> None:
+    with Client(roomy, agent) as client:
+        assert sublogger(client, "add", "arm.device", "child") == NOT_FOUND
+        client.ok("init")
+        for call, logger, name, code in SUBLOGGERS:
+            assert sublogger(client, call, logger, name) == code, (call, logger, name)
+        client.ok("keep no publisher")
+        assert sublogger(client, "add", "arm.device", "late") == NOT_FOUND
+        client.ok("open it again")
+        assert sublogger(client, "remove", "arm.device", "last") == NOT_FOUND
+        assert sublogger(client, "add", "arm.device", "n" * 14) == BAD_ALLOC
+        for number in range(4):
+            assert sublogger(client, "add", "arm.device", f"n{number}") == OK
+        full = client.call("add arm.device more")
+        assert (full.code, "all 4 subloggers are in use" in full.error) == (BAD_ALLOC, True)
+        assert sublogger(client, "add", "arm.device", "n3") == OK
+
+
+@pytest.mark.ros
+def test_rcl_returns_the_same_for_subloggers() -> None:
+    """In a process of its own: rcl has one table of loggers."""
+    calls = [(call, logger, name) for call, logger, name, _ in SUBLOGGERS]
+    done = subprocess.run(
+        [sys.executable, "-c", _RCL, json.dumps(calls)],
+        env={**os.environ, "ROS_DOMAIN_ID": str(own_domain())},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert json.loads(done.stdout) == [code for *_, code in SUBLOGGERS]
+
+
+_RCL = """\
+import ctypes, json, pathlib, sys
+import rclpy
+
+rclpy.init()
+node = rclpy.create_node("device", namespace="/arm")
+rcl = ctypes.CDLL(str(pathlib.Path(sys.prefix, "lib", "librcl.so")))
+rcutils = ctypes.CDLL(str(pathlib.Path(sys.prefix, "lib", "librcutils.so")))
+codes = []
+for call, *names in json.loads(sys.argv[1]):
+    function = getattr(rcl, f"rcl_logging_rosout_{call}_sublogger")
+    codes.append(function(*(name if name is None else name.encode() for name in names)))
+    rcutils.rcutils_reset_error()
+print(json.dumps(codes))
+"""
 
 
 def test_lines_without_room_are_counted_and_reported_once(client: Client, agent: FakeAgent) -> None:

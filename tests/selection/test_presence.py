@@ -131,6 +131,11 @@ def test_a_call_selects_who_declares_it_or_else_who_lists_it() -> None:
     assert selected_by("RCUTILS_LOG_INFO_NAMED", declared, catalogue) == ("logging_console", "logging_rosout")
     floating = selected_by("RCUTILS_LOG_INFO", declared, catalogue, ['"name"', '"%d %5.1lf"'])
     assert floating == ("logging_console", "logging_float", "logging_rosout")
+    wide = selected_by("RCUTILS_LOG_INFO", declared, catalogue, ['"%d %-5ls"'])
+    assert wide == ("logging_console", "logging_rosout", "logging_wide")
+    assert "logging_wide" in selected_by("RCUTILS_LOG_INFO", declared, catalogue, ['"%lc"'])
+    for text in ('"%s %c"', '"%lld %ld"', '"%%ls"', '"%S"'):
+        assert "logging_wide" not in selected_by("RCUTILS_LOG_INFO", declared, catalogue, [text]), text
     for text in ('"%d%%f"', '"100 %"', '"%hhx %zu f"', '"f %lld"'):
         assert "logging_float" not in selected_by("RCUTILS_LOG_INFO", declared, catalogue, [text]), text
     assert selected_by("rcutils_logging_set_logger_level", declared, catalogue) == ("logging",)

@@ -176,7 +176,8 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         "parameter-storage": _BUSY
         + "    parameters: [{name: gain, type: double}]\n"
         + "profiles: [pure_sender]\ncomponents: [+parameter_storage]\n",
-        "logging": _POOL + "components: [+logging_float]\nlogging: [{to: console, level: debug}, callback]\n",
+        "logging": _POOL
+        + "components: [+logging_float, +logging_wide]\nlogging: [{to: console, level: debug}, callback]\n",
         "rosout": _BUSY + "profiles: [pure_sender]\nlogging: [rosout, console]\n",
         "ring": _BUSY
         + "profiles: [pure_sender]\nlogging: [{to: rosout, level: warn}, {to: ring, level: debug}]\n",

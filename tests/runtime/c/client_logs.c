@@ -12,6 +12,7 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static rclc_support_t support;
@@ -59,6 +60,27 @@ static rcl_ret_t end(void)
   return result == RCL_RET_OK ? rclc_support_fini(&support) : result;
 }
 
+typedef rcl_ret_t (*change_t)(const char * logger, const char * name);
+
+/* Changes the sublogger of both names; `-` is an empty one, and `0` none. */
+static rcl_ret_t sublogger(const char * text, change_t change)
+{
+  char names[2][48] = {"", ""};
+  const char * given[2] = {names[0], names[1]};
+
+  if (sscanf(text, "%47s %47s", names[0], names[1]) != 2) {
+    abort();
+  }
+  for (size_t i = 0; i < 2u; ++i) {
+    if (strcmp(names[i], "0") == 0) {
+      given[i] = NULL;
+    } else if (strcmp(names[i], "-") == 0) {
+      names[i][0] = '\0';
+    }
+  }
+  return change(given[0], given[1]);
+}
+
 static rcl_ret_t call(const char * line)
 {
   const char * space = strchr(line, ' ');
@@ -82,6 +104,10 @@ static rcl_ret_t call(const char * line)
       return rcl_logging_rosout_fini_publisher_for_node(&node);
     case 'o': /* open it again */
       return rcl_logging_rosout_init_publisher_for_node(&node);
+    case 'a': /* add LOGGER SUBLOGGER */
+      return sublogger(text, rcl_logging_rosout_add_sublogger);
+    case 'r': /* remove LOGGER SUBLOGGER */
+      return sublogger(text, rcl_logging_rosout_remove_sublogger);
     case 'c': /* counts */
       return print_counts();
     case 'e': /* end */

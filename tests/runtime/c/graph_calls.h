@@ -168,6 +168,47 @@ static rcl_ret_t calls_nodes(void)
   return rcutils_string_array_fini(&namespaces) == RCUTILS_RET_OK ? RCL_RET_OK : RCL_RET_ERROR;
 }
 
+static rcl_ret_t calls_free(
+  rcutils_string_array_t * names, rcutils_string_array_t * namespaces, rcutils_string_array_t * enclaves)
+{
+  const rcutils_ret_t first = rcutils_string_array_fini(names);
+  const rcutils_ret_t second = rcutils_string_array_fini(namespaces);
+  const rcutils_ret_t third = rcutils_string_array_fini(enclaves);
+
+  return first == RCUTILS_RET_OK && second == RCUTILS_RET_OK && third == RCUTILS_RET_OK ? RCL_RET_OK
+                                                                                        : RCL_RET_ERROR;
+}
+
+static rcl_ret_t calls_enclaves(void)
+{
+  rcutils_string_array_t names = rcutils_get_zero_initialized_string_array();
+  rcutils_string_array_t namespaces = rcutils_get_zero_initialized_string_array();
+  rcutils_string_array_t enclaves = rcutils_get_zero_initialized_string_array();
+  const rcl_ret_t result =
+    rcl_get_node_names_with_enclaves(&node, allocator, &names, &namespaces, &enclaves);
+
+  if (result != RCL_RET_OK) {
+    if (names.data != NULL || namespaces.data != NULL || enclaves.data != NULL) {
+      abort();
+    }
+    return result;
+  }
+  for (size_t i = 0; i < names.size; ++i) {
+    printf("item");
+    calls_print_text(namespaces.data[i]);
+    calls_print_text(names.data[i]);
+    calls_print_text(enclaves.data[i]);
+    printf("\n");
+  }
+  /* Lists that are not empty are refused. */
+  if (
+    names.size != 0u && rcl_get_node_names_with_enclaves(&node, allocator, &names, &namespaces, &enclaves) !=
+                          RCL_RET_INVALID_ARGUMENT) {
+    abort();
+  }
+  return calls_free(&names, &namespaces, &enclaves);
+}
+
 static void calls_print_bytes(const uint8_t * bytes, size_t size)
 {
   printf(" ");
@@ -299,6 +340,9 @@ static rcl_ret_t calls_call(char * line)
   }
   if (strcmp(word[0], "nodes") == 0) {
     return calls_nodes();
+  }
+  if (strcmp(word[0], "enclaves") == 0) {
+    return calls_enclaves();
   }
   if (strcmp(word[0], "infos") == 0) {
     return calls_infos(strcmp(word[1], "publishers") == 0, word[2]);

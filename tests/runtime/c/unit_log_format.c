@@ -8,6 +8,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <wchar.h>
 
 enum { FLAGS = 5 };
 
@@ -122,6 +123,8 @@ static void unknown(void)
   char text[UNIT_TEXT_SIZE];
 
   CHECK(strcmp(formatted(text, sizeof(text), "%d %k %d", 1, 2, 3), "1 %k %d") == 0);
+  CHECK(strcmp(formatted(text, sizeof(text), "%d %-4ls %d", 1, L"ab", 3), "1 %-4ls %d") == 0);
+  CHECK(strcmp(formatted(text, sizeof(text), "%d %lc %d", 1, (wint_t)L'a', 3), "1 %lc %d") == 0);
   CHECK(strcmp(formatted(text, sizeof(text), "%d %", 1), "1 %") == 0);
 }
 

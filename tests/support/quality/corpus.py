@@ -176,7 +176,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "lent_custom_framed": _READER + _ALONE + "transport: {type: custom, framing: true}\n",
         "lent_custom_packets": _READER + _ALONE + "transport: {type: custom, framing: false}\n",
         "logging": _INT32 + "components: [+multithread]\nlogging: [{to: console, level: debug}, callback]\n",
-        "log_float": _INT32 + "components: [+logging_float]\nlogging: callback\n",
+        "log_float": _INT32 + "components: [+logging_float, +logging_wide]\nlogging: callback\n",
         "rosout": _BOTH + "components: [+multithread]\nlogging: rosout\n",
         "logger_services": _BOTH + "components: [+logger_services, +multithread]\nlogging: callback\n",
         "ring_board": _BOTH

@@ -26,6 +26,7 @@ class MadeGraph:
     """What microros_gen.ros.graph.Graph tells, by hand."""
 
     node_names: tuple[str, ...] = ()
+    enclaves: dict[str, str] = field(default_factory=dict)
     topic_names: Names = ()
     dds_names: Names = ()
     service_names: Names = ()
@@ -37,6 +38,9 @@ class MadeGraph:
 
     def nodes(self) -> tuple[str, ...]:
         return self.node_names
+
+    def nodes_with_enclaves(self) -> tuple[tuple[str, str], ...]:
+        return tuple((name, self.enclaves.get(name, "/")) for name in self.node_names)
 
     def topics(self, demangle: bool = True) -> Names:
         return self.topic_names if demangle else self.dds_names

@@ -2,6 +2,7 @@
 #include "microros/rcutils_format.h"
 
 #include "microros/rcutils_format_float.h"
+#include "microros/rcutils_format_wide.h"
 
 #include <string.h>
 
@@ -37,24 +38,28 @@ static void format_field(
 {
   const int32_t fill = size < (size_t)how->width ? how->width - (int32_t)size : 0;
 
-  microros_format_repeat(out, ' ', how->minus ? 0 : fill);
+  if (!how->minus) {
+    microros_format_repeat(out, ' ', fill);
+  }
   for (size_t i = 0; i < size; ++i) {
     microros_format_put(out, text[i]);
   }
-  microros_format_repeat(out, ' ', how->minus ? fill : 0);
+  if (how->minus) {
+    microros_format_repeat(out, ' ', fill);
+  }
 }
 
-/* A text need not end with a NUL within its precision. */
+/* A text need not end with a NUL within its precision; without one the bound is above all sizes. */
 static void format_text(microros_format_t * out, const microros_conversion_t * how, const char * text)
 {
-  const bool bounded = how->precision >= 0;
+  const size_t most = (size_t)how->precision;
   const char * shown = text;
   size_t size = 0;
 
   if (shown == NULL) {
-    shown = bounded && how->precision < FALLBACK_TEXT ? "" : "(null)";
+    shown = most < (size_t)FALLBACK_TEXT ? "" : "(null)";
   }
-  while ((!bounded || size < (size_t)how->precision) && shown[size] != '\0') {
+  while (size < most && shown[size] != '\0') {
     ++size;
   }
   format_field(out, how, shown, size);
@@ -164,7 +169,7 @@ static char format_length(const char ** next)
 {
   const char first = **next;
 
-  if (first == '\0' || strchr("hlzjtL", first) == NULL) {
+  if (first == '\0' || strchr("hljztL", first) == NULL) {
     return '\0';
   }
   ++*next;
@@ -244,12 +249,18 @@ static bool format_convert(
       microros_format_integer(out, how, format_unsigned(how->length, args), false);
       return true;
     case 's':
+      if (how->length == 'l') {
+        return microros_format_wide(out, how, args);
+      }
       format_text(out, how, va_arg(*args, const char *));
       return true;
     case 'p':
       format_pointer(out, how, va_arg(*args, const void *));
       return true;
     case 'c':
+      if (how->length == 'l') {
+        return microros_format_wide(out, how, args);
+      }
       format_character(out, how, args);
       return true;
     case '%':

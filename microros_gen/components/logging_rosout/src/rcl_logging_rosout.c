@@ -24,7 +24,7 @@ static const rosidl_message_type_support_t rosout_type = {
   .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &rosout_message};
 
 static rmw_publisher_t * rosout_publisher;
-static const rmw_node_t * rosout_node; /* the owner */
+static bool rosout_closed[MICROROS_NODES_MAX]; /* nodes that were closed and perhaps opened again */
 
 static void rosout_use(const xrce_endpoint_t * writer)
 {
@@ -43,7 +43,6 @@ rcl_ret_t rcl_rosout_open(const rcl_node_t * node)
   }
   qos.durability = RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL;
   qos.depth = ROSOUT_DEPTH;
-  rosout_node = node->impl;
   result = rmw_publisher_open(node->impl, &rosout_type, "/rosout", &qos, &rosout_publisher);
   if (result == RCL_RET_OK) {
     rosout_use(rosout_publisher->data);
@@ -53,10 +52,21 @@ rcl_ret_t rcl_rosout_open(const rcl_node_t * node)
 
 void rcl_rosout_close(const rcl_node_t * node)
 {
-  if (rmw_publisher_is_open(rosout_publisher) && rosout_node == node->impl) {
+  const uint16_t index = rmw_node_index(node->impl);
+
+  rosout_closed[index] = true;
+  if (index == 0u && rmw_publisher_is_open(rosout_publisher)) { /* the node that it was opened with */
     rosout_use(NULL);
     rmw_publisher_close(rosout_publisher);
   }
+}
+
+bool rcl_rosout_was_closed(uint16_t node)
+{
+  const bool was_closed = rosout_closed[node];
+
+  rosout_closed[node] = false;
+  return was_closed;
 }
 
 rcl_ret_t rcl_logging_rosout_init(const rcl_allocator_t * allocator)

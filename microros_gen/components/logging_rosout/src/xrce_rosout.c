@@ -47,6 +47,11 @@ bool xrce_rosout_is_open(const xrce_client_t * client)
   return rosout_writer != NULL && rosout_writer->client == client;
 }
 
+const xrce_client_t * xrce_rosout_client(void)
+{
+  return rosout_writer == NULL ? NULL : rosout_writer->client;
+}
+
 bool xrce_rosout_put(const uint8_t * body, uint32_t size)
 {
   const uint8_t header[LINE_HEADER] = {(uint8_t)(size >> 8), (uint8_t)(size & 0xffu)};

@@ -30,7 +30,8 @@ typedef enum rcl_graph_what_t {
   RCL_GRAPH_CLIENTS_OF_NODE = 6,
   RCL_GRAPH_DDS_TOPICS = 7,
   RCL_GRAPH_DDS_PUBLISHERS_OF_NODE = 8,
-  RCL_GRAPH_DDS_SUBSCRIPTIONS_OF_NODE = 9
+  RCL_GRAPH_DDS_SUBSCRIPTIONS_OF_NODE = 9,
+  RCL_GRAPH_NODES_WITH_ENCLAVES = 10
 } rcl_graph_what_t;
 
 /* Endpoints; the values are those of microros_graph_msgs/srv/ListEndpoints and of micro_ros_msgs/msg/Entity. */
@@ -95,6 +96,11 @@ rcl_ret_t rcl_graph_list_names(
 /* Lists the nodes; the arguments are valid. */
 rcl_ret_t rcl_graph_list_nodes(
   const rcutils_allocator_t * allocator, rcutils_string_array_t * nodes, rcutils_string_array_t * namespaces);
+
+/* Lists the nodes with their enclaves; the arguments are valid. */
+rcl_ret_t rcl_graph_list_nodes_with_enclaves(
+  const rcutils_allocator_t * allocator, rcutils_string_array_t * nodes, rcutils_string_array_t * namespaces,
+  rcutils_string_array_t * enclaves);
 
 /* Lists the publishers or subscriptions of a topic; the arguments are valid. */
 rcl_ret_t rcl_graph_list_endpoints(

@@ -76,6 +76,22 @@ typedef struct rcl_graph_names_t {
 /* Asks for a page of names. */
 rcl_ret_t rcl_graph_ask_names(rcl_graph_names_t * names, uint32_t first, rcl_graph_page_t * page);
 
+/* --- rcl_graph_list_nodes.c --- */
+
+/* Names of nodes: the request, and where they are stored. */
+typedef struct rcl_graph_nodes_t {
+  rcl_graph_names_t names;
+  rcutils_string_array_t * nodes;
+  rcutils_string_array_t * namespaces;
+  const rcl_allocator_t * allocator;
+} rcl_graph_nodes_t;
+
+/* The functions of a reader; `list` is a rcl_graph_nodes_t, or begins with one. */
+rcl_ret_t rcl_graph_nodes_ask(void * list, uint32_t first, rcl_graph_page_t * page);
+rcl_ret_t rcl_graph_nodes_make(void * list, size_t size);
+rcl_ret_t rcl_graph_nodes_put(void * list, size_t item, size_t index);
+void rcl_graph_nodes_drop(void * list);
+
 #ifdef __cplusplus
 }
 #endif

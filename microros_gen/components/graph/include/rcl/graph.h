@@ -87,6 +87,12 @@ rcl_ret_t rcl_get_node_names(
   const rcl_node_t * node, rcl_allocator_t allocator, rcutils_string_array_t * node_names,
   rcutils_string_array_t * node_namespaces);
 
+/* As above, and enclave i of node i: "/", unless the node was started with another one. From ros_to_microros_graph, which
+ * has no enclaves, always "/". */
+rcl_ret_t rcl_get_node_names_with_enclaves(
+  const rcl_node_t * node, rcl_allocator_t allocator, rcutils_string_array_t * node_names,
+  rcutils_string_array_t * node_namespaces, rcutils_string_array_t * enclaves);
+
 /* --- endpoints of a topic --- */
 
 rcl_ret_t rcl_get_publishers_info_by_topic(

@@ -6,7 +6,8 @@
  * default level. Nothing here takes memory from a heap; a text longer than MICROROS_LOG_TEXT_SIZE ends with `...`.
  *
  * Formats: %d %i %u %x %X %o %c %s %p %%, with flags, width, precision and the lengths hh h l ll z j t; with the
- * component `logging_float` also %f %F %e %E %g %G. Other floating-point conversions are printed unchanged.
+ * component `logging_float` also %f %F %e %E %g %G, and with `logging_wide` %ls and %lc, as UTF-8. Other floating-point
+ * conversions are printed unchanged. So is any other conversion with all that follows it: its argument is unknown.
  *
  * With the component `multithread` every task may call these functions; the output handler is set before other tasks
  * log, and several tasks may be in it at once. Not for interrupts: set a flag there, and log in a task.

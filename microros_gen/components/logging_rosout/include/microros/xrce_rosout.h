@@ -22,6 +22,9 @@ void xrce_rosout_use(const xrce_endpoint_t * writer);
 /* Returns whether the data writer is open in this client's session. */
 bool xrce_rosout_is_open(const xrce_client_t * client);
 
+/* Returns the client whose session the data writer is open in; NULL: none is open. */
+const xrce_client_t * xrce_rosout_client(void);
+
 /* Keeps a line, an encoded rcl_interfaces/msg/Log. Returns false without room for it: nothing has changed. */
 bool xrce_rosout_put(const uint8_t * body, uint32_t size);
 

@@ -26,6 +26,17 @@ rcl_ret_t rcl_logging_rosout_fini(void);
 rcl_ret_t rcl_logging_rosout_init_publisher_for_node(rcl_node_t * node);
 rcl_ret_t rcl_logging_rosout_fini_publisher_for_node(rcl_node_t * node);
 
+/*
+ * Add a logger below that of an open node or below another sublogger, and remove it. Its name is `logger_name.sublogger_name`.
+ * What is added several times is removed as many times; closing its node removes it. Lines go to /rosout whether or not
+ * their logger was added, also after its removal: no line of a board is lost for want of a name.
+ * RCL_RET_OK; RCL_RET_INVALID_ARGUMENT for NULL or an empty sublogger name; RCL_RET_NOT_FOUND: no such logger, or
+ * /rosout is closed; RCL_RET_BAD_ALLOC: MICROROS_LOGGERS_MAX subloggers exist, or the name is longer than
+ * MICROROS_LOG_ROSOUT_NAME. Every task may call them.
+ */
+rcl_ret_t rcl_logging_rosout_add_sublogger(const char * logger_name, const char * sublogger_name);
+rcl_ret_t rcl_logging_rosout_remove_sublogger(const char * logger_name, const char * sublogger_name);
+
 /* Keeps a message for /rosout, whatever the level of that writer; for output handlers. */
 void rcl_logging_rosout_output_handler(
   const rcutils_log_location_t * location, int severity, const char * name,
