@@ -35,6 +35,7 @@ from microros_gen.interfaces.derived import declaring_name, derived_name
 from microros_gen.interfaces.find import InterfaceFinder
 from microros_gen.interfaces.types import TypeName
 from microros_gen.platform.capabilities import capabilities
+from microros_gen.platform.emulated import with_emulated_console
 from microros_gen.platform.part_file import own_part_files
 from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
@@ -117,7 +118,9 @@ def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
     diagnostics.check()
     application = with_endpoints(with_implied(application, selection, diagnostics), selection)
     application = with_limits(application, selection)
-    request = replace(request, application=with_clock(application, selection, diagnostics))
+    found = replace(request.found_target, target=with_emulated_console(target, selection))
+    application = with_clock(application, selection, diagnostics)
+    request = replace(request, application=application, found_target=found)
     diagnostics.check()
     return Resolved(request, own, catalogue, selection)
 

@@ -14,7 +14,6 @@ from microros_gen.application.parser import parse_agent_address, parse_applicati
 from microros_gen.compiler.options import Options
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, Span
 from microros_gen.documents.named import Named
-from microros_gen.platform.emulated import with_emulated_console
 from microros_gen.platform.find import FoundTarget, builtin_targets, read_target
 from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
@@ -73,8 +72,6 @@ def request_of(source: Source | None, near: Path, options: Options, diagnostics:
     target = read_target(application.target.name, near, application.target.span, diagnostics, extensions)
     diagnostics.check()
     assert target is not None
-    if any(writer.to == "console" for writer in application.logging):
-        target = replace(target, target=with_emulated_console(target.target))
     return Request(
         application,
         source is not None,

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from microros_gen.platform.target import Stdio, Target
+from microros_gen.selection.model import Selection
 
 _SEMIHOSTING = ("-semihosting-config", "enable=on,target=native")
 """QEMU accepts requests of the image to its debugger, and has the text on its standard error."""
@@ -13,8 +14,11 @@ _OTHERS = frozenset({"console", "console_send", "stdio_put"})
 """What an application may provide for the console instead."""
 
 
-def with_emulated_console(target: Target) -> Target:
-    """Return a target whose emulator prints the lines of the console, unless something else does."""
+def with_emulated_console(target: Target, selection: Selection) -> Target:
+    """Return a target whose emulator prints the lines of the console, where one is asked for and nothing else does."""
+    asked = (ask.capability for chosen in selection.components for ask in chosen.component.asks)
+    if "console" not in asked:
+        return target
     if target.emulator is None or target.stdio is not None or _OTHERS & set(target.provides):
         return target
     emulator = replace(target.emulator, arguments=(*target.emulator.arguments, *_SEMIHOSTING))

@@ -329,10 +329,12 @@ def test_a_console_that_waits_is_reported(
 
 
 @pytest.mark.parametrize("name", BOARDS)
-def test_an_emulated_board_has_a_console(tmp_path: Path, name: str) -> None:
+@pytest.mark.parametrize("selects", ["logging: console\n", "components: [+logging_console]\n"])
+def test_an_emulated_board_has_a_console(tmp_path: Path, name: str, selects: str) -> None:
     """QEMU prints it, and nothing is left to the application; without it the image is as before."""
     base = f"version: 1\nprofiles: [pure_sender]\ntarget: {{name: {name}}}\n"
-    found = planned(tmp_path, base + "logging: console\n")
+    found = planned(tmp_path, base + selects)
+    assert not [warning for warning in found.warnings if "stdio_put" in warning.message]
     files = compiler.render(found)
     assert "-semihosting-config" in json.loads(files[MANIFEST])["emulator"]["arguments"]
     assert any(path.endswith("/port_bare_stdio_semihosting.c") for path in files)
