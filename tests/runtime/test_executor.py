@@ -38,9 +38,14 @@ UNITS = {
     "unit_executor.c": EXECUTOR,
     "unit_executor_changes.c": CHANGES,
     "unit_days.c": EXECUTOR,
+    "unit_service_call.c": CHANGES,
+    "unit_executor_nodes.c": CHANGES,
     "unit_ticks.c": TICKS,
     "unit_clock_ros.c": ROS_TIME,
 }
+
+SELECTED = {"unit_service_call.c": ("service_call",), "unit_executor_nodes.c": ("executor_nodes",)}
+"""Components that a unit has besides those of its plan."""
 
 
 @pytest.mark.parametrize("unit", UNITS)
@@ -60,7 +65,7 @@ def test_unit(unit: str, compiler: str, flags: tuple[str, ...], tmp_path: Path) 
 
 def _run(unit: str, plan: RuntimePlan, compiler: str, flags: tuple[str, ...], tmp_path: Path) -> None:
     names = [name for name in components(plan) if name != "port_posix"]
-    tree = render(tmp_path, plan, names)
+    tree = render(tmp_path, plan, [*names, *SELECTED.get(unit, ())])
     fixtures = ["port_agent.c", "types_read.c", *(["types_clock.c"] if plan.clock.has_ros_time else []), unit]
     program = build(tree, fixtures, "unit", compiler, flags)
     done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
