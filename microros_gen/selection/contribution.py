@@ -70,6 +70,7 @@ HOOK_POINTS: Mapping[str, HookPoint] = MappingProxyType(
         "support_closed": HookPoint(("support",)),
         "node_opened": HookPoint(("node",), value=True),
         "node_closing": HookPoint(("node",)),
+        "receiver_opened": HookPoint(("place",)),
         "pumped": HookPoint(()),
         "round_begins": HookPoint(("executor",)),
         "round_ends": HookPoint(("executor",)),

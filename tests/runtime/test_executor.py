@@ -40,11 +40,16 @@ UNITS = {
     "unit_days.c": EXECUTOR,
     "unit_service_call.c": CHANGES,
     "unit_executor_nodes.c": CHANGES,
+    "unit_new_data.c": CHANGES,
     "unit_ticks.c": TICKS,
     "unit_clock_ros.c": ROS_TIME,
 }
 
-SELECTED = {"unit_service_call.c": ("service_call",), "unit_executor_nodes.c": ("executor_nodes",)}
+SELECTED = {
+    "unit_service_call.c": ("service_call",),
+    "unit_executor_nodes.c": ("executor_nodes",),
+    "unit_new_data.c": ("new_data_callbacks",),
+}
 """Components that a unit has besides those of its plan."""
 
 

@@ -51,6 +51,7 @@ _ELSEWHERE: Mapping[str, tuple[str, ...]] = {
     "woken": ("woken",),
     "support": ("support_opened", "support_closed"),
     "node": ("node_opened", "node_closing"),
+    "receiver": ("receiver_opened",),
     "pumped": ("pumped",),
     "round": ("round_begins", "round_ends"),
     "clock_jump": ("clock_jump",),
