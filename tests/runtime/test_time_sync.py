@@ -35,9 +35,21 @@ def epoch(client: Client) -> tuple[bool, int, int]:
     return bool(result.code), int(milliseconds), int(nanoseconds)
 
 
+def stamp(client: Client) -> tuple[bool, int, int]:
+    """Return whether the stamp is the agent's time, its seconds and nanoseconds; (False, -1, 10**9): not written."""
+    result = client.call("epoch_stamp")
+    (line,) = (x for x in result.lines if x.startswith("stamp"))
+    _, seconds, nanoseconds = line.split()
+    return bool(result.code), int(seconds), int(nanoseconds)
+
+
+UNWRITTEN = (False, -1, 10**9)
+
+
 def test_before_a_context_there_is_no_time(bench: Bench) -> None:
     client = bench.start(PLAN)
     assert epoch(client) == (False, 0, 0)
+    assert stamp(client) == UNWRITTEN
     result = client.call("epoch_sync 1000")
     assert (result.code, result.error) == (1, "session: NULL or not initialized")
 
@@ -45,6 +57,7 @@ def test_before_a_context_there_is_no_time(bench: Bench) -> None:
 def test_before_it_was_asked_time_is_that_since_the_start(bench: Bench) -> None:
     client, agent = start(bench, lambda _: [])
     assert epoch(client) == (False, START_MS, START_MS * 10**6)
+    assert stamp(client) == (False, START_MS // 1000, START_MS % 1000 * 10**6)
     assert agent.requests == []
 
 
@@ -61,6 +74,8 @@ def test_the_offset_follows_from_four_moments(bench: Bench, agent_ns: int) -> No
     assert synchronized
     assert abs(2 * (nanoseconds - ended) - twice_the_offset) <= 1
     assert abs(milliseconds * 10**6 - nanoseconds) < 10**6
+    fits = nanoseconds // 10**9 <= MOST_S
+    assert stamp(client) == ((True, *divmod(nanoseconds, 10**9)) if fits else UNWRITTEN)
 
 
 def test_time_goes_on_after_it(bench: Bench) -> None:

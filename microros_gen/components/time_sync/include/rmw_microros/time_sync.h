@@ -30,6 +30,14 @@ bool rmw_uros_epoch_synchronized(void);
 int64_t rmw_uros_epoch_millis(void);
 int64_t rmw_uros_epoch_nanos(void);
 
+/*
+ * Writes the same time as a builtin_interfaces/msg/Time has it, with one reading of the clock:
+ * rmw_uros_epoch_stamp(&msg.header.stamp.sec, &msg.header.stamp.nanosec). Returns whether it is the agent's
+ * time. False, with nothing written, for NULL, without a context, and for times from 2038-01-19 03:14:08 UTC
+ * on, which the type cannot express.
+ */
+bool rmw_uros_epoch_stamp(int32_t * sec, uint32_t * nanosec);
+
 #ifdef __cplusplus
 }
 #endif
