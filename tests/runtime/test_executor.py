@@ -41,6 +41,7 @@ UNITS = {
     "unit_service_call.c": CHANGES,
     "unit_executor_nodes.c": CHANGES,
     "unit_new_data.c": CHANGES,
+    "unit_qos_events.c": changed(CHANGES, entities__timed_qos=True),
     "unit_ticks.c": TICKS,
     "unit_clock_ros.c": ROS_TIME,
 }
@@ -49,6 +50,7 @@ SELECTED = {
     "unit_service_call.c": ("service_call",),
     "unit_executor_nodes.c": ("executor_nodes",),
     "unit_new_data.c": ("new_data_callbacks",),
+    "unit_qos_events.c": ("qos_events",),
 }
 """Components that a unit has besides those of its plan."""
 

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/xrce_new_data.h"
 
-#include "microros/xrce_read.h"
-#include "microros/xrce_wire.h"
+#include "microros/xrce_arrivals.h"
 
-#include <stdbool.h>
 #include <stddef.h>
 
 /* `before`: samples before the current message of the agent. */
@@ -16,18 +14,6 @@ typedef struct new_data_t {
 
 /* Outside of the client: a saved session restores no pointers of the application. */
 static new_data_t new_data[XRCE_RECEIVERS];
-
-/*
- * Returns a number that a sample raises by one when it arrives. A best-effort sample may replace older
- * ones, which are then dropped; a reliable one that is dropped has not arrived.
- */
-static uint32_t new_data_count(const xrce_client_t * client, uint16_t index)
-{
-  const xrce_receiver_t * receiver = &client->receivers[index];
-  const bool reliable = (client->endpoints[MICROROS_PUBLISHERS_MAX + index].qos & XRCE_QOS_RELIABLE) != 0u;
-
-  return receiver->count + (reliable ? 0u : receiver->dropped);
-}
 
 void xrce_new_data_set(
   const xrce_endpoint_t * endpoint, rmw_event_callback_t callback, const void * user_data)
@@ -50,14 +36,14 @@ void xrce_new_data_clear(const xrce_endpoint_t * endpoint)
 void xrce_new_data_before(const xrce_client_t * client)
 {
   for (uint16_t i = 0; i < (uint16_t)XRCE_RECEIVERS; ++i) {
-    new_data[i].before = new_data_count(client, i);
+    new_data[i].before = xrce_arrivals(client, i);
   }
 }
 
 void xrce_new_data_after(const xrce_client_t * client)
 {
   for (uint16_t i = 0; i < (uint16_t)XRCE_RECEIVERS; ++i) {
-    const uint32_t arrived = new_data_count(client, i) - new_data[i].before;
+    const uint32_t arrived = xrce_arrivals(client, i) - new_data[i].before;
 
     if (arrived != 0u && new_data[i].callback != NULL) {
       new_data[i].callback(new_data[i].user_data, arrived);

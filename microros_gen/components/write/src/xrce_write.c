@@ -6,6 +6,7 @@
 #include "microros/xrce_gate.h"
 #include "microros/xrce_routes.h"
 #include "microros/xrce_wire.h"
+#include "microros/xrce_written.h"
 
 #include <string.h>
 
@@ -88,6 +89,7 @@ static xrce_write_t write_end(xrce_endpoint_t * writer, uint8_t * room, size_t s
   if (!xrce_route_commit(client, write_is_reliable(writer), WRITE_BODY_OFFSET + size)) {
     return xrce_write_on_unsent(writer, WRITE_BODY_OFFSET + size);
   }
+  xrce_written(writer);
   return XRCE_WRITTEN;
 }
 

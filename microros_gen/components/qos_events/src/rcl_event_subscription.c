@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/rcl_event.h"
+
+#include <stddef.h>
+
+/* Returns why there is no event of this type; NULL: there is. */
+static const char * subscription_event_refusal(rcl_subscription_event_type_t event_type)
+{
+  switch (event_type) {
+    case RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED:
+      return NULL;
+    case RCL_SUBSCRIPTION_LIVELINESS_CHANGED:
+      return MICROROS_ERROR_WORDS("liveliness: XRCE carries none");
+    case RCL_SUBSCRIPTION_MATCHED:
+      return MICROROS_ERROR_WORDS("matched endpoints: XRCE reports none: count them with component graph");
+    case RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS:
+      return MICROROS_ERROR_WORDS("incompatible QoS: XRCE reports none");
+    case RCL_SUBSCRIPTION_MESSAGE_LOST:
+      return MICROROS_ERROR_WORDS("lost messages: XRCE reports none: see rmw_uros_get_subscription_statistics");
+    case RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE:
+    default:
+      return MICROROS_ERROR_WORDS("incompatible type: XRCE reports none");
+  }
+}
+
+rcl_ret_t rcl_subscription_event_init(
+  rcl_event_t * event, const rcl_subscription_t * subscription, const rcl_subscription_event_type_t event_type)
+{
+  const char * refusal = subscription_event_refusal(event_type);
+
+  if (event == NULL) {
+    return microros_error_refuse(RCL_RET_EVENT_INVALID, "event");
+  }
+  if (!rcl_subscription_is_valid(subscription)) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "subscription");
+  }
+  if (refusal != NULL) {
+    return microros_error_named(RCL_RET_UNSUPPORTED, microros_error_event, refusal);
+  }
+  return rcl_event_open(event, subscription->impl->data);
+}
