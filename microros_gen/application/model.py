@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import field
 
+from microros_gen.application.action_decl import ActionDecl
 from microros_gen.application.mode_decl import ModeDecl
 from microros_gen.diagnostics import Span
 from microros_gen.documents.named import Named
@@ -279,6 +280,7 @@ class NodeDecl:
     parameters_at: Named | None = None
     parameter_clients: tuple[ParameterClientDecl, ...] = ()
     modes: tuple[ModeDecl, ...] = ()
+    actions: tuple[ActionDecl, ...] = ()
     executors: tuple[ExecutorDecl, ...] = ()
     name_span: Span | None = None
     given_name: str = ""

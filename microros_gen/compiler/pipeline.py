@@ -31,7 +31,7 @@ from microros_gen.diagnostics import Diagnostic, Diagnostics
 from microros_gen.documents.named import Named
 from microros_gen.documents.templates import compile_also, compiled_before
 from microros_gen.interfaces.closure import InterfaceSet, resolve_interfaces, split_type_name
-from microros_gen.interfaces.derived import declaring_name, derived_name
+from microros_gen.interfaces.derived import declaring_name, derived_name, event_name
 from microros_gen.interfaces.find import InterfaceFinder
 from microros_gen.interfaces.types import TypeName
 from microros_gen.platform.capabilities import capabilities
@@ -323,9 +323,7 @@ def _capacities(resolved: Resolved, interfaces: InterfaceSet, diagnostics: Diagn
     ]
     known = {root.type for root in declared}
     # A declared service exchanges a request and a response; its event, which ROS 2 derives, needs no limits.
-    known |= {
-        derived_name(declaring_name(root.type), "Event") for root in declared if root.type.kind == "srv"
-    }
+    known |= {event_name(r.type) for r in declared if r.entity is not None and KIND[r.entity.kind].service_type}
     roots = declared + [
         _root(name, application, room) for name in interfaces.message_roots if name not in known
     ]

@@ -54,6 +54,14 @@ def derived_name(name: TypeName, suffix: str) -> TypeName:
     return TypeName(name.package, name.kind, f"{name.name}_{suffix}")
 
 
+def event_name(message: TypeName) -> TypeName:
+    """Return the event of the service that a message is the request or response of: `…/srv/SetBool_Event`.
+
+    `…/action/Fibonacci_SendGoal_Request` belongs to a service of an action.
+    """
+    return TypeName(message.package, message.kind, f"{message.name.rpartition('_')[0]}_Event")
+
+
 def declaring_name(name: TypeName) -> TypeName:
     """Return the service or action that a type belongs to: `…/srv/SetBool_Event` → `…/srv/SetBool`.
 

@@ -44,6 +44,8 @@ def declared_components(application: Application) -> Iterator[Demand]:
                 yield Demand("lifecycle", "a managed timer", timer.span)
         for parameter in node.parameters:
             yield Demand("parameters", "a parameter", parameter.span)
+        for action in node.actions:
+            yield Demand("action_server", "an action server", action.span)
         for client in node.parameter_clients:
             yield Demand("parameter_client", "a client of parameters", client.span)
             if "watch" in client.operations:

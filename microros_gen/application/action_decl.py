@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Actions in the application file, as data."""
+
+from __future__ import annotations
+
+from microros_gen.diagnostics import Span
+from microros_gen.records import dataclass
+
+
+@dataclass(frozen=True)
+class ActionDecl:
+    """An action server of a node; `type` is `pkg/action/Type`.
+
+    `goals` are kept at once, ended ones included: their results stay for `result_timeout_ms`. `waiting`: how many
+    requests for the result of a goal wait for its end.
+    """
+
+    name: str
+    type: str
+    goals: int = 1
+    result_timeout_ms: int = 10_000
+    waiting: int = 1
+    span: Span | None = None
+    type_span: Span | None = None

@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The endpoints of action servers, and the memory of their goals.
+
+Source of names, types and quality of service: rcl_action of ROS 2 Jazzy, and design.ros2.org, "Actions".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from microros_gen.application.action_decl import ActionDecl
+from microros_gen.application.model import Application, EndpointDecl, LimitRule, NodeDecl, Qos
+from microros_gen.client.plan.declared import declarations, full_name, type_name
+from microros_gen.client.plan.features import PlanContext, refuse_own_limits
+from microros_gen.client.plan.receiving import buffers_of
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.interfaces.dds_names import dds_type
+from microros_gen.interfaces.derived import derived_name
+from microros_gen.records import dataclass
+from microros_gen.typesupport.plan.names import c_name, include_path, type_files
+
+_CANCEL = "action_msgs/srv/CancelGoal"
+_STATUS = "action_msgs/msg/GoalStatusArray"
+_STATUS_QOS = Qos(durability="transient_local", depth=1)
+"""rcl_action_qos_profile_status_default; the feedback has rmw_qos_profile_default."""
+SERVICES = ("send_goal", "cancel_goal", "get_result")
+TOPICS = ("feedback", "status")
+
+
+@dataclass(frozen=True)
+class ActionServer:
+    """A server: `c_type` begins the C names of its type; `send_goal` and `get_result` are DDS names of service types.
+
+    `places` in the table of declared endpoints, in the order of SERVICES and TOPICS. `storage` begins the C names of
+    the storage of a goal request, whose `buffers` are empty then; empty: nothing of it has a variable size.
+    """
+
+    index: int
+    node: int
+    name: str
+    package: str
+    type: str
+    c_type: str
+    header: str
+    send_goal: str
+    get_result: str
+    places: tuple[int, ...]
+    goals: int
+    result_timeout_ms: int
+    storage: str = ""
+    storage_header: str = ""
+    buffers: tuple[str, ...] = ()
+
+    @property
+    def binder(self) -> str:
+        """Return the C function that binds a goal request to storage; NULL where it needs none."""
+        return f"server_{self.index}_bind" if self.storage else "NULL"
+
+
+@dataclass(frozen=True, kw_only=True)
+class ActionServerPlan:
+    """`result_size`: bytes of the largest response with a result."""
+
+    servers: tuple[ActionServer, ...]
+    result_size: int
+
+    @property
+    def count(self) -> int:
+        """Return the number of servers."""
+        return len(self.servers)
+
+    @property
+    def goals(self) -> int:
+        """Return the number of goals of all servers."""
+        return sum(server.goals for server in self.servers)
+
+    @property
+    def shown(self) -> str:
+        """Return each action with its goals."""
+        return ", ".join(f"{server.name} ({server.goals} at once)" for server in self.servers)
+
+    @property
+    def types(self) -> tuple[str, ...]:
+        """Return the headers of the types, sorted."""
+        return tuple(sorted({server.header for server in self.servers}))
+
+    @property
+    def headers(self) -> tuple[str, ...]:
+        """Return the headers of the types and of their storage, sorted."""
+        return tuple(sorted({*self.types, *(s.storage_header for s in self.servers if s.storage)}))
+
+
+def endpoints(node: NodeDecl) -> Iterator[EndpointDecl]:
+    """Yield the three services and two topics of each action; one of them has the handle in an executor."""
+    for action in node.actions:
+        types = {"send_goal": f"{action.type}_SendGoal", "cancel_goal": _CANCEL}
+        for service in SERVICES:
+            yield EndpointDecl(
+                *("service", f"{action.name}/_action/{service}"),
+                types.get(service, f"{action.type}_GetResult"),
+                queue=1,
+                stored=False,
+                of_the_library=True,
+                executed=service == SERVICES[0],
+                span=action.span,
+                type_span=action.type_span,
+            )
+        for topic, kind, qos in (
+            ("feedback", f"{action.type}_FeedbackMessage", Qos()),
+            ("status", _STATUS, _STATUS_QOS),
+        ):
+            yield EndpointDecl(
+                *("publisher", f"{action.name}/_action/{topic}", kind, qos),
+                of_the_library=True,
+                span=action.span,
+                type_span=action.type_span,
+            )
+
+
+def plan(context: PlanContext, diagnostics: Diagnostics) -> ActionServerPlan:
+    """Return the servers in the order of the file."""
+    application = context.application
+    refuse_own_limits(context, "action_server", diagnostics)
+    declared = [(i, node, action) for i, node in enumerate(application.nodes) for action in node.actions]
+    if not declared:
+        message = "the component 'action_server' has no server: no node declares an action"
+        span = application.spans.get("components") or application.spans.get("profiles")
+        hint = "Add to a node: `actions: [{name: fibonacci, type: example_interfaces/action/Fibonacci}]`"
+        diagnostics.error(message, span, hint, id="MG-7093")
+    servers = tuple(_server(context, index, *item) for index, item in enumerate(declared))
+    results = (derived_name(type_name(action.type), "GetResult_Response") for _, _, action in declared)
+    return ActionServerPlan(
+        servers=servers,
+        result_size=max((context.types[name].max_encoded_size for name in results), default=0),
+    )
+
+
+def _server(context: PlanContext, index: int, at: int, node: NodeDecl, action: ActionDecl) -> ActionServer:
+    kind = type_name(action.type)
+    request = context.types[derived_name(kind, "SendGoal_Request")]
+    places = tuple(_place(context, at, f"{action.name}/_action/{part}") for part in (*SERVICES, *TOPICS))
+    messages = {name: plan.message for name, plan in context.types.items()}
+    goal = full_name(node, EndpointDecl("service", f"{action.name}/_action/{SERVICES[0]}", action.type))
+    return ActionServer(
+        index=index,
+        node=at,
+        name=full_name(node, EndpointDecl("service", action.name, action.type)),
+        package=kind.package,
+        type=kind.name,
+        c_type=c_name(kind),
+        header=include_path(type_files(kind).header),
+        send_goal=dds_type(derived_name(kind, "SendGoal")),
+        get_result=dds_type(derived_name(kind, "GetResult")),
+        places=places,
+        goals=action.goals,
+        result_timeout_ms=action.result_timeout_ms,
+        storage=request.storage_name(goal) if request.storage else "",
+        storage_header=include_path(request.files.storage) if request.storage else "",
+        buffers=tuple(buffers_of(request.message, messages)) if request.storage else (),
+    )
+
+
+def _place(context: PlanContext, node: int, name: str) -> int:
+    """Return the position of an endpoint in the table of declared endpoints."""
+    first = 0
+    for kind in ("publisher", "subscription", "service", "client"):
+        declared = declarations(context.application, kind)
+        for index, (owner, _, endpoint) in enumerate(declared):
+            if owner == node and endpoint.topic == name and endpoint.of_the_library:
+                return first + index
+        first += len(declared)
+    raise KeyError(name)
+
+
+def record(part: ActionServerPlan) -> object:
+    """Return what the plan id is made of."""
+    return {
+        "servers": [
+            [s.node, s.name, s.c_type, list(s.places), s.goals, s.result_timeout_ms, s.storage]
+            for s in part.servers
+        ],
+        "result": part.result_size,
+    }
+
+
+def limits(application: Application) -> tuple[LimitRule, ...]:
+    """Return the limits of what is exchanged about several goals."""
+    goals = max((action.goals for node in application.nodes for action in node.actions), default=1)
+    rules = (
+        LimitRule((_STATUS, "status_list"), goals, goals, single=True),
+        LimitRule((f"{_CANCEL}_Response", "goals_canceling"), goals, goals, single=True),
+    )
+    configured = {rule.path for rule in application.limits}
+    return tuple(rule for rule in rules if rule.path not in configured)

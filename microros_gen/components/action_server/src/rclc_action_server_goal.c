@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/error.h"
+#include "microros/lock.h"
+#include "microros/port.h"
+#include "microros/rclc_action_server.h"
+#include "microros/rmw_service.h"
+
+#include <string.h>
+
+enum { NS_PER_S = 1000000000, NS_PER_MS = 1000000 };
+
+rclc_action_goal_handle_t * rclc_action_find(const rclc_action_server_t * server, const uint8_t * uuid)
+{
+  for (size_t i = 0; i < server->goal_handles_memory_size; ++i) {
+    rclc_action_goal_handle_t * goal = &server->declared->goals[i];
+
+    if (goal->is_used && memcmp(goal->goal_id.uuid, uuid, UUID_SIZE) == 0) {
+      return goal;
+    }
+  }
+  return NULL;
+}
+
+/* Returns whether the place of `goal` is used again rather than that of `other`. */
+static bool goal_is_older(
+  const rclc_action_goal_handle_t * goal, const rclc_action_goal_handle_t * other, uint32_t now)
+{
+  return other == NULL || now - goal->ended_ms > now - other->ended_ms;
+}
+
+rclc_action_goal_handle_t * rclc_action_take_place(const rclc_action_server_t * server)
+{
+  const uint32_t now = port_time_ms();
+  rclc_action_goal_handle_t * oldest = NULL;
+
+  for (size_t i = 0; i < server->goal_handles_memory_size; ++i) {
+    rclc_action_goal_handle_t * goal = &server->declared->goals[i];
+
+    if (!goal->is_used) {
+      return goal;
+    }
+    if (
+      rclc_action_has_ended(goal) && goal->result_sent && goal->waiting == 0u &&
+      goal_is_older(goal, oldest, now)) {
+      oldest = goal;
+    }
+  }
+  return oldest;
+}
+
+uint32_t rclc_action_expire(const rclc_action_server_t * server, bool frees)
+{
+  const uint32_t now = port_time_ms();
+  uint32_t left = UINT32_MAX;
+
+  for (size_t i = 0; i < server->goal_handles_memory_size; ++i) {
+    rclc_action_goal_handle_t * goal = &server->declared->goals[i];
+
+    if (goal->is_used && rclc_action_has_ended(goal) && goal->waiting == 0u) {
+      const uint32_t age = now - goal->ended_ms;
+      const uint32_t due =
+        age < server->declared->result_timeout_ms ? server->declared->result_timeout_ms - age : 0u;
+
+      if (due == 0u && frees) {
+        goal->is_used = false;
+      } else if (due < left) {
+        left = due;
+      }
+    }
+  }
+  return left;
+}
+
+bool rclc_action_go(rclc_action_goal_handle_t * goal, rcl_action_goal_event_t event)
+{
+  const rcl_action_goal_state_t state = rcl_action_transition_goal_state(goal->status, event);
+
+  if (state == GOAL_STATE_UNKNOWN) {
+    return false;
+  }
+  goal->status = state;
+  goal->action_server->status_due = true;
+  return true;
+}
+
+/* The time of day, or the time since the start as long as it is not known. */
+static builtin_interfaces__msg__Time goal_now(void)
+{
+  const int64_t epoch_ns = port_time_epoch_ns();
+  const int64_t now_ns = epoch_ns > 0 ? epoch_ns : (int64_t)port_time_ms() * NS_PER_MS;
+  builtin_interfaces__msg__Time stamp;
+
+  stamp.sec = (int32_t)(now_ns / NS_PER_S);
+  stamp.nanosec = (uint32_t)(now_ns % NS_PER_S);
+  return stamp;
+}
+
+static void goal_accept(rclc_action_server_t * server, rclc_action_goal_handle_t * goal)
+{
+  microros_lock();
+  goal->stamp = goal_now();
+  goal->status = GOAL_STATE_ACCEPTED;
+  server->status_due = true;
+  microros_unlock();
+}
+
+/* The state `accepted` is published where there is room: a client sees it before `executing`. */
+static rcl_ret_t goal_execute(rclc_action_server_t * server, rclc_action_goal_handle_t * goal)
+{
+  const rcl_ret_t result = rclc_action_has_status(server) ? rclc_action_publish_status(server) : RCL_RET_OK;
+
+  microros_lock();
+  (void)rclc_action_go(goal, GOAL_EVENT_EXECUTE); /* possible: only the executor leaves `accepted` */
+  microros_unlock();
+  return result;
+}
+
+static rcl_ret_t goal_refuse(rclc_action_server_t * server, const char * why)
+{
+  ++server->refused_goals;
+  microros_error_set(microros_error_action_goal_refused, rclc_action_name(server), why, 0, 0);
+  return RCL_RET_ERROR;
+}
+
+/* Calls the callback; returns whether it accepted the goal. */
+static bool goal_call(rclc_action_server_t * server, rclc_action_goal_handle_t * goal)
+{
+  const bool accepted = server->goal_callback(goal, server->context) == RCL_RET_ACTION_GOAL_ACCEPTED;
+
+  if (!accepted) {
+    goal->is_used = false;
+  } else if (goal->is_used) { /* the callback may have finalized the server */
+    goal_accept(server, goal);
+  }
+  return accepted;
+}
+
+rcl_ret_t rclc_action_serve_goal(rclc_action_server_t * server)
+{
+  rclc_action_incoming_t incoming = {.server = server, .goal = NULL, .refused = NULL};
+  rclc_action_answer_t answer = {.accepted = false};
+  rmw_request_id_t request;
+  bool taken = false;
+  rcl_ret_t result = rmw_replier_begin(server->goal_service.impl, &request, &incoming, &taken);
+
+  if (!taken) {
+    return result;
+  }
+  if (incoming.goal != NULL && goal_call(server, incoming.goal)) {
+    answer.accepted = true;
+    answer.stamp = incoming.goal->stamp;
+  }
+  if (!rcl_service_is_valid(&server->goal_service)) {
+    rmw_replier_abandon();
+    return RCL_RET_OK; /* the callback has finalized it */
+  }
+  result = rmw_replier_end(server->goal_service.impl, &request, &answer);
+  if (answer.accepted) {
+    const rcl_ret_t published = goal_execute(server, incoming.goal);
+
+    return result != RCL_RET_OK ? result : published;
+  }
+  return incoming.goal == NULL && result == RCL_RET_OK ? goal_refuse(server, incoming.refused) : result;
+}

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/rmw_action_server.h"
+
+#include "microros/lock.h"
+#include "microros/xrce_client.h"
+#include "microros/xrce_parameters.h"
+#include "microros/xrce_write.h"
+
+#include <stddef.h>
+
+static bool action_server_has_room(const xrce_endpoint_t * endpoint)
+{
+  bool result;
+
+  microros_lock();
+  result = xrce_write_reserve(endpoint) != NULL;
+  microros_unlock();
+  return result;
+}
+
+bool rmw_action_server_may_reply(const rmw_service_t * service)
+{
+  return action_server_has_room(service->data);
+}
+
+bool rmw_action_server_may_publish(const rmw_publisher_t * publisher)
+{
+  return action_server_has_room(publisher->data);
+}
+
+uint8_t rmw_action_server_session(const rmw_service_t * service)
+{
+  const xrce_endpoint_t * endpoint = service->data;
+  uint8_t result;
+
+  microros_lock();
+  result = endpoint->client->action_sessions;
+  microros_unlock();
+  return result;
+}
+
+void rmw_action_server_answer_large(const rmw_service_t * service)
+{
+  microros_lock();
+  xrce_parameters_keep_beginning(service->data, (uint8_t)XRCE_PARAMETERS_BEGINNING);
+  microros_unlock();
+}
