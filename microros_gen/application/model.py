@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import field
 
 from microros_gen.application.action_decl import ActionDecl
+from microros_gen.application.diagnosis_decl import DiagnosisDecl
 from microros_gen.application.mode_decl import ModeDecl
 from microros_gen.diagnostics import Span
 from microros_gen.documents.named import Named
@@ -385,6 +386,7 @@ class Application:
     error_text: bool = True
     clock: Named | None = None
     logging: tuple[LogWriter, ...] = ()
+    diagnosis: DiagnosisDecl | None = None
     implied: tuple[EndpointDecl, ...] = ()
     endpoints: tuple[EndpointChange, ...] = ()
     spans: Mapping[str, Span] = field(default_factory=dict)

@@ -8,6 +8,7 @@ import re
 from pathlib import Path
 from types import MappingProxyType
 
+from microros_gen.application.diagnosis import parse_diagnosis
 from microros_gen.application.limits import application_limits, endpoint_limits
 from microros_gen.application.model import (
     BUFFERED_LOG_WRITERS,
@@ -114,6 +115,7 @@ def _application(tree: MappingNode, diagnostics: Diagnostics) -> Application:
         error_text=text_of(child(tree, "errors")) != "code",
         clock=named_of(child(tree, "clock")),
         logging=_log_writers(child(tree, "logging"), diagnostics),
+        diagnosis=parse_diagnosis(child(tree, "diagnosis"), nodes, diagnostics),
         spans=MappingProxyType(_spans(tree)),
     )
 

@@ -74,6 +74,9 @@ HOOK_POINTS: Mapping[str, HookPoint] = MappingProxyType(
         "pumped": HookPoint(()),
         "round_begins": HookPoint(("executor",)),
         "round_ends": HookPoint(("executor",)),
+        "rests": HookPoint(()),
+        "rested": HookPoint(()),
+        "contingency": HookPoint(("node", "mode"), value=True),
         "clock_jump": HookPoint(("clock", "jump", "before_jump")),
         # after a sleep: xrce_sleep.c
         "woken": HookPoint(("client", "now")),
@@ -198,6 +201,20 @@ class Setting(Conditional):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Counter(Conditional):
+    """A uint32_t that a diagnosis reports below `group`: `value` is its expression in C, which may name `client`.
+
+    `warns`: it counts faults, so a change is a warning. `header` declares what the expression calls.
+    """
+
+    group: str
+    name: str
+    value: str
+    warns: bool = False
+    header: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
 class Property(Conditional):
     """A property of the client in CREATE_CLIENT; `value` is an attribute of the plan, printed with `digits` digits."""
 
@@ -233,6 +250,7 @@ class Contributions:
     outputs: tuple[Output, ...] = ()
     errors: tuple[ErrorCode, ...] = ()
     config: tuple[Setting, ...] = ()
+    counters: tuple[Counter, ...] = ()
     properties: tuple[Property, ...] = ()
     includes: tuple[Include, ...] = ()
     variants: tuple[Variant, ...] = ()

@@ -10,12 +10,13 @@ import re
 from collections.abc import Iterator
 
 from microros_gen.diagnostics import Diagnostics, nearest
-from microros_gen.documents.tree_values import child, child_text, entries, int_of, items, text_of
+from microros_gen.documents.tree_values import bool_of, child, child_text, entries, int_of, items, text_of
 from microros_gen.documents.yaml_tree import Entry, MappingNode, ScalarNode, YamlNode
 from microros_gen.selection.contribution import (
     HOOK_POINTS,
     Conditions,
     Contributions,
+    Counter,
     ErrorCode,
     Handler,
     Hook,
@@ -39,6 +40,7 @@ KEYS = (
     "output",
     "errors",
     "config",
+    "counters",
     "properties",
     "includes",
     "variants",
@@ -78,6 +80,17 @@ def read_contributions(node: MappingNode, diagnostics: Diagnostics) -> Contribut
         outputs=tuple(_output(e) for e in entries(node.get("output"))),
         errors=tuple(_error(e) for e in entries(node.get("errors"))),
         config=tuple(_setting(section.key, e) for section, e in _sections(node.get("config"))),
+        counters=tuple(
+            Counter(
+                group=child_text(i, "group"),
+                name=child_text(i, "name"),
+                value=child_text(i, "value"),
+                warns=bool_of(child(i, "warns")) or False,
+                header=child_text(i, "header"),
+                when=conditions_of(i),
+            )
+            for i in items(node.get("counters"))
+        ),
         properties=tuple(
             Property(
                 name=e.key, value=child_text(e.value, "value"), digits=int_of(child(e.value, "digits")) or 0

@@ -52,6 +52,8 @@ def declared_components(application: Application) -> Iterator[Demand]:
                 yield Demand(KIND["subscription"].component, "a client that watches parameters", client.span)
         for executor in node.executors:
             yield Demand("executor", "an executor", executor.span)
+    if application.diagnosis is not None:
+        yield Demand("diagnosis", "`diagnosis:`", application.spans.get("diagnosis"))
 
 
 def selecting_demands(application: Application) -> Iterator[Demand]:

@@ -3,30 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from operator import attrgetter
-
 from microros_gen.application.model import Application
 from microros_gen.client.plan.board import BoardPlan
 from microros_gen.client.plan.runtime import RuntimePlan
+from microros_gen.client.plan.values import Values
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Severity
 from microros_gen.platform.capabilities import declarations
 from microros_gen.platform.provide import Provisions, provide
 from microros_gen.platform.target import Target
-from microros_gen.selection.contribution import Conditions
 from microros_gen.selection.model import Selection
-
-
-def holds(
-    when: Conditions, runtime: RuntimePlan, board: BoardPlan | None = None, target: Target | None = None
-) -> bool:
-    """Return whether conditions hold: `streams.on_full`, `board.stdio`, `target.has_image` with their values."""
-    return all(_value(key, runtime, {"board": board, "target": target}) == value for key, value in when)
-
-
-def _value(key: str, runtime: RuntimePlan, others: Mapping[str, object]) -> object:
-    first, _, rest = key.partition(".")
-    return attrgetter(rest)(others[first]) if first in others else attrgetter(key)(runtime)
 
 
 def plan_provisions(
@@ -42,7 +27,7 @@ def plan_provisions(
         (chosen.component for chosen in selection.components),
         tuple(part.component.name for part in target.parts),
         target.own_capabilities,
-        lambda when: holds(when, runtime, board, target),
+        Values(runtime, selection, board, target).holds,
     )
     for clash in found.clashes:
         diagnostics.error(

@@ -52,8 +52,9 @@ _ELSEWHERE: Mapping[str, tuple[str, ...]] = {
     "support": ("support_opened", "support_closed"),
     "node": ("node_opened", "node_closing"),
     "receiver": ("receiver_opened",),
-    "pumped": ("pumped",),
+    "waiting": ("pumped", "rests", "rested"),
     "round": ("round_begins", "round_ends"),
+    "contingency": ("contingency",),
     "clock_jump": ("clock_jump",),
 }
 _CALLERS: Mapping[str, tuple[str, ...]] = {

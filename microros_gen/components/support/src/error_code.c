@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* errors: code. Numbers replace the texts. */
 #include "microros/error.h"
+#include "microros/error_count.h"
 #include "microros/error_state.h"
 #include "microros/lock.h"
 
@@ -13,6 +14,7 @@ static void error_write(uint32_t code, const char * file, size_t line_number)
   rcutils_error_state_t * state = microros_error_state();
 
   microros_lock();
+  microros_error_count();
   state->message[0] = 'E';
   state->message[1] = (char)('0' + (char)(code / 10u));
   state->message[2] = (char)('0' + (char)(code % 10u));

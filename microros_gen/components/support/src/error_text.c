@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* errors: text. Formats the words of error_texts.c into a message; contains those that name the transport. */
 #include "microros/error.h"
+#include "microros/error_count.h"
 #include "microros/error_state.h"
 #include "microros/lock.h"
 #include "microros/xrce_transport.h"
@@ -87,6 +88,7 @@ static text_t error_begin(const char * file, size_t line_number)
   rcutils_error_state_t * state = microros_error_state();
   const text_t text = {state->message, &state->message[sizeof(state->message) - 1u]};
 
+  microros_error_count();
   state->file = file;
   state->line_number = line_number;
   return text;

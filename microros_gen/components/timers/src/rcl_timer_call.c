@@ -3,6 +3,7 @@
 #include "microros/rcl_clock.h"
 #include "microros/rcl_timer.h"
 #include "microros/rcl_timer_gate.h"
+#include "microros/rcl_timer_watch.h"
 #include "microros/time_math.h"
 
 /*
@@ -44,6 +45,7 @@ static rcl_ret_t call_now(rcl_timer_t * timer, rcl_timer_call_info_t * call_info
   since_last_call = microros_time_between(impl->last_call_time, now);
   call_info->expected_call_time = impl->next_call_time;
   call_info->actual_call_time = now;
+  rcl_timer_watch(impl, now);
   impl->last_call_time = now;
   impl->next_call_time = call_next(impl->next_call_time, impl->period, now);
   rcl_timer_source_called(impl);

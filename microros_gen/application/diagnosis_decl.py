@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a device reports of itself, as the application file declares it below `diagnosis:`."""
+
+from __future__ import annotations
+
+from microros_gen.diagnostics import Span
+from microros_gen.records import dataclass
+
+
+@dataclass(frozen=True)
+class LevelLimits:
+    """From where on a value is a warning or an error; None: never."""
+
+    warn: int | None = None
+    error: int | None = None
+    span: Span | None = None
+
+
+@dataclass(frozen=True)
+class CheckDecl:
+    """A value that the application sets. `above`: values above the limits are faults, else those below.
+
+    `node` is its position among the nodes. `timeout_ms`: how long a value holds; 0: forever. `mode`: what an error
+    requests; empty: nothing.
+    """
+
+    name: str
+    limits: LevelLimits
+    above: bool = True
+    unit: str = ""
+    node: int = 0
+    hysteresis: int = 0
+    timeout_ms: int = 0
+    mode: str = ""
+    span: Span | None = None
+
+
+@dataclass(frozen=True)
+class DiagnosisDecl:
+    """Everything below `diagnosis:`; `deadline_us` of the callbacks of a round, 0: none."""
+
+    period_ms: int = 1000
+    hardware_id: str = ""
+    deadline_us: int = 0
+    stack: LevelLimits = LevelLimits(warn=90)
+    cpu: LevelLimits = LevelLimits(warn=95)
+    supply: LevelLimits = LevelLimits()
+    checks: tuple[CheckDecl, ...] = ()
+    span: Span | None = None
+    hardware_span: Span | None = None
+    deadline_span: Span | None = None
+

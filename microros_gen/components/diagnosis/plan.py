@@ -1,0 +1,290 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The statuses of a device: which there are, their counters and checks as C, and the size of the largest message."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from microros_gen.application.diagnosis_decl import DiagnosisDecl, LevelLimits
+from microros_gen.application.model import Application, LimitRule
+from microros_gen.client.plan.features import PlanContext, refuse_own_limits
+from microros_gen.client.plan.streams import WRITE_DATA_OVERHEAD
+from microros_gen.client.plan.values import Values
+from microros_gen.components.diagnosis.tables import (
+    CheckRow,
+    CounterRow,
+    Status,
+    largest,
+    node_prefix,
+    statuses_of,
+)
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.interfaces.types import TypeName
+from microros_gen.records import dataclass
+from microros_gen.selection.contribution import Counter
+
+TYPE = TypeName("diagnostic_msgs", "msg", "DiagnosticArray")
+MOST_STATUSES = 32
+"""A bit of a word says of each whether it is to be sent."""
+_PORT = "microros/port_diagnosis.h"
+_OWN = "microros/rcl_diagnosis.h"
+_RESETS = ("unknown", "power", "pin", "software", "watchdog", "brown-out", "fault")
+"""Words of port_reset_t."""
+_MOST_VALUES = 10
+_LONGEST_GROUP = 32
+_LONGEST_MESSAGE = 40
+_LONGEST_KEY = 12
+_LONGEST_NUMBER = 11
+
+
+@dataclass(frozen=True, kw_only=True)
+class DiagnosisPlan:
+    """What the device reports. `times`: rounds are measured, `cpu`: waits as well; `stack`, `reset`, `supply` likewise.
+
+    `missing` are parts that nothing measures here, as a report names them. `size`: bytes of the largest message.
+    """
+
+    period_ms: int
+    deadline_us: int
+    hardware_id: str
+    times: bool
+    cpu: bool
+    stack: bool
+    reset: bool
+    supply: bool
+    requests: bool
+    statuses: tuple[Status, ...]
+    rows: tuple[CounterRow, ...]
+    checks: tuple[CheckRow, ...]
+    declared: tuple[str, ...]
+    missing: str
+    size: int
+
+    @property
+    def status_count(self) -> int:
+        """Return the number of statuses."""
+        return len(self.statuses)
+
+    @property
+    def row_count(self) -> int:
+        """Return the number of counters."""
+        return len(self.rows)
+
+    @property
+    def check_count(self) -> int:
+        """Return the number of checks, those of the application first."""
+        return len(self.checks)
+
+    @property
+    def declared_count(self) -> int:
+        """Return the number of checks of the application."""
+        return len(self.declared)
+
+    @property
+    def shown(self) -> str:
+        """Return what a report says: the period and the names of all statuses."""
+        names = ", ".join(status.name.partition(": ")[2] for status in self.statuses)
+        return f"every {self.period_ms} ms: {names}"
+
+    @property
+    def row_headers(self) -> tuple[str, ...]:
+        """Return the headers of what the expressions call, sorted."""
+        found = {row.header for row in self.rows if row.header}
+        return tuple(sorted(found | ({_PORT} if self.supply or self.stack else set()) - {_OWN}))
+
+    @property
+    def tables(self) -> tuple[str, ...]:
+        """Return the lists of words as C."""
+        words = ", ".join(f'"{word}"' for word in _RESETS)
+        return (f"static const char * const diagnosis_resets[] = {{{words}}};",) if self.reset else ()
+
+    @property
+    def checks_table(self) -> tuple[str, ...]:
+        """Return the table of checks as lines of C; without any there is an entry that nothing names."""
+        rows = [f"  {check.entry}," for check in self.checks] or ["  {0},"]
+        return ("const rcl_diagnosis_check_t rcl_diagnosis_checks[] = {", *rows, "};")
+
+    @property
+    def measures(self) -> tuple[str, ...]:
+        """Return the statements that set the checks of what the library measures."""
+        return tuple(line for i, check in enumerate(self.checks) for line in check.measured(i))
+
+    @property
+    def constants(self) -> tuple[str, ...]:
+        """Return the positions of the application's checks as lines of C."""
+        if not self.declared:
+            return ()
+        names = (f"  DIAGNOSIS_{name.upper()} = {i}," for i, name in enumerate(self.declared))
+        return ("", "enum {", *names, "};")
+
+    @property
+    def examples(self) -> tuple[str, ...]:
+        """Return position and a good value of each check of the application, as arguments of rclc_diagnosis_set."""
+        checks = self.checks[: self.declared_count]
+        return tuple(
+            f"(uint8_t)DIAGNOSIS_{name.upper()}, {check.good}"
+            for name, check in zip(self.declared, checks, strict=True)
+        )
+
+
+def plan(context: PlanContext, diagnostics: Diagnostics) -> DiagnosisPlan:
+    """Return the statuses; what nothing measures, and messages that do not fit, are reported."""
+    application = context.application
+    declared = application.diagnosis or DiagnosisDecl()
+    refuse_own_limits(context, "diagnosis", diagnostics)
+    times = context.selection.has("executor") and not context.runtime.session.multithread
+    cpu = times and context.runtime.transport.has_handle
+    has = {name: _offered(context, name) for name in ("stack_peak", "reset_cause", "supply_voltage")}
+    supply = has["supply_voltage"]
+    _check_measured(context, declared, times, supply, diagnostics)
+    rows = [*_own_rows(context, times, has), *_contributed(context)]
+    checks = [*_own_checks(declared, cpu, has["stack_peak"], supply)]
+    statuses, rows_in_order, checks_in_order = statuses_of(application, declared, rows, checks, diagnostics)
+    if len(statuses) > MOST_STATUSES:
+        message = f"a device has {len(statuses)} statuses, {MOST_STATUSES} at most"
+        diagnostics.error(message, declared.span, "Remove some checks", id="MG-7095")
+    size = largest(statuses, rows_in_order, checks_in_order, declared.hardware_id, _RESETS)
+    _check_size(context, size, declared, diagnostics)
+    missing = [
+        *(() if cpu else ("CPU share",)),
+        *(() if has["stack_peak"] else ("stack",)),
+        *(() if has["reset_cause"] else ("reset cause",)),
+        *(() if supply else ("supply voltage",)),
+    ]
+    return DiagnosisPlan(
+        period_ms=declared.period_ms,
+        deadline_us=declared.deadline_us if times else 0,
+        hardware_id=declared.hardware_id,
+        times=times,
+        cpu=cpu,
+        stack=has["stack_peak"],
+        reset=has["reset_cause"],
+        supply=supply,
+        requests=any(check.mode for check in declared.checks),
+        statuses=statuses,
+        rows=rows_in_order,
+        checks=checks_in_order,
+        declared=tuple(check.name for check in declared.checks),
+        missing=", ".join(missing),
+        size=size,
+    )
+
+
+def _offered(context: PlanContext, capability: str) -> bool:
+    """Return whether a part of the platform or the application provides an optional capability.
+
+    Conditions of its files on the board are not looked at: the board is planned later.
+    """
+    values = Values(context.runtime, context.selection, target=context.target)
+    provisions = (p for part in context.target.parts for p in part.component.provides)
+    return capability in context.target.own_capabilities or any(
+        values.holds(tuple(w for w in file.when if not w[0].startswith("board.")))
+        for provision in provisions
+        if provision.capability == capability
+        for file in provision.sources
+    )
+
+
+def _check_measured(
+    context: PlanContext, declared: DiagnosisDecl, times: bool, supply: bool, diagnostics: Diagnostics
+) -> None:
+    """Report settings for what is not measured in this application."""
+    if declared.deadline_us and not times:
+        why = "several tasks run it" if context.selection.has("executor") else "no executor is selected"
+        message = f"'deadline' of a diagnosis is for callbacks of one executor, and {why}"
+        diagnostics.error(message, declared.deadline_span, "Remove it", id="MG-7096")
+    if declared.supply.span is not None and not supply:
+        message = f"the target {context.target.name} measures no supply voltage"
+        hint = "Define port_supply_mv and write `provides: [supply_voltage]` into the target file"
+        diagnostics.error(message, declared.supply.span, hint, id="MG-7097")
+
+
+def _check_size(
+    context: PlanContext, size: int, declared: DiagnosisDecl, diagnostics: Diagnostics
+) -> None:
+    room = min(
+        context.types[TYPE].max_encoded_size, context.runtime.streams.mtu - WRITE_DATA_OVERHEAD
+    )
+    if size > room:
+        message = f"a status of the diagnosis takes {size} bytes, and a message has room for {room}"
+        hint = "Raise transport.mtu or the limits of diagnostic_msgs/msg/DiagnosticArray, or shorten texts"
+        diagnostics.error(message, declared.span, hint, id="MG-7098")
+
+
+def _own_rows(context: PlanContext, times: bool, has: dict[str, bool]) -> Iterator[CounterRow]:
+    """Yield the counters of this component itself."""
+    if times:
+        yield CounterRow("executor", "rounds", "rcl_diagnosis_rounds()")
+        yield CounterRow("executor", "longest_us", "rcl_diagnosis_longest_us()")
+        yield CounterRow("executor", "missed", "rcl_diagnosis_missed()", warns=True)
+    if context.selection.has("timers"):
+        yield CounterRow("timers", "overruns", "rcl_diagnosis_overruns()", warns=True)
+        yield CounterRow("timers", "latest_us", "rcl_diagnosis_latest_us()")
+    if has["stack_peak"]:
+        yield CounterRow("stack", "peak", "port_stack_peak()", header=_PORT)
+        yield CounterRow("stack", "size", "port_stack_size()", header=_PORT)
+    if has["reset_cause"]:
+        yield CounterRow(
+            "reset", "cause", "(uint32_t)port_reset_cause()", words="diagnosis_resets", header=_PORT
+        )
+    yield CounterRow("errors", "count", "rcl_diagnosis_errors()")
+
+
+def _contributed(context: PlanContext) -> Iterator[CounterRow]:
+    """Yield the counters that the selected components contribute."""
+    values = Values(context.runtime, context.selection, target=context.target)
+    counters: Iterator[Counter] = (
+        counter for chosen in context.selection.components for counter in chosen.component.contributes.counters
+    )
+    for counter in counters:
+        if values.holds(counter.when):
+            yield CounterRow(counter.group, counter.name, counter.value, counter.warns, header=counter.header)
+
+
+def _own_checks(declared: DiagnosisDecl, cpu: bool, stack: bool, supply: bool) -> Iterator[CheckRow]:
+    """Yield the checks of what the library measures."""
+    if cpu:
+        yield _measure("executor", "cpu_percent", declared.cpu, "rcl_diagnosis_busy()")
+    if stack:
+        percent = "(int32_t)(port_stack_peak() / ((port_stack_size() + 99u) / 100u))"
+        yield _measure("stack", "used_percent", declared.stack, percent)
+    if supply:
+        yield _measure("supply", "supply_mv", declared.supply, "(int32_t)port_supply_mv()", above=False)
+
+
+def _measure(group: str, key: str, limits: LevelLimits, value: str, above: bool = True) -> CheckRow:
+    return CheckRow(group, key, limits.warn, limits.error, above=above, value=value)
+
+
+def record(part: DiagnosisPlan) -> object:
+    """Return what the plan id is made of: an application is compiled with the positions of its checks."""
+    return {
+        "times": [part.period_ms, part.deadline_us],
+        "hardware": part.hardware_id,
+        "statuses": [status.entry for status in part.statuses],
+        "rows": [[row.entry, row.value] for row in part.rows],
+        "checks": [check.entry for check in part.checks],
+        "declared": list(part.declared),
+    }
+
+
+def limits(application: Application) -> tuple[LimitRule, ...]:
+    """Return the limits of a message with one status, for those without limits in the application file."""
+    declared = application.diagnosis or DiagnosisDecl()
+    texts = [text for check in declared.checks for text in (check.name, check.unit, check.mode)]
+    longest = max(_LONGEST_NUMBER, *(len(text.encode()) for text in texts), 0)
+    nodes = max((len(node_prefix(node)) for node in application.nodes), default=0)
+    name = nodes + max(_LONGEST_GROUP, longest)
+    bounds: tuple[tuple[tuple[str, ...], int | None, int | None], ...] = (
+        (("header", "frame_id"), 1, None),
+        (("status",), None, 1),
+        (("status", "name"), name, None),
+        (("status", "message"), _LONGEST_MESSAGE, None),
+        (("status", "hardware_id"), len(declared.hardware_id.encode()), None),
+        (("status", "values"), None, _MOST_VALUES),
+        (("status", "values", "key"), _LONGEST_KEY, None),
+        (("status", "values", "value"), longest, None),
+    )
+    rules = (LimitRule((str(TYPE), *path), text, count) for path, text, count in bounds)
+    configured = {rule.path for rule in application.limits}
+    return tuple(rule for rule in rules if rule.path not in configured)

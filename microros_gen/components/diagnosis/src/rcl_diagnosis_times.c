@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Times of an executor in one task. Each wraps to 0 after 71 minutes; reports are at most one hour apart. */
+#include "microros/port_diagnosis.h"
+#include "microros/rcl_diagnosis.h"
+#include "microros/rcl_diagnosis_hooks.h"
+
+enum { SHORTEST_US = 1000 }; /* for a share in percent */
+
+typedef struct times_t {
+  uint32_t since_us; /* begin of what is measured */
+  uint32_t idle_us;  /* of it */
+  uint32_t rest_us;  /* begin of the present wait */
+  uint32_t round_us; /* begin of the present round */
+  uint32_t rounds;
+  uint32_t longest_us;
+  uint32_t missed;
+} times_t;
+
+static times_t times;
+
+void rcl_diagnosis_times_begin(void)
+{
+  times.since_us = port_time_us();
+  times.idle_us = 0;
+}
+
+int32_t rcl_diagnosis_busy(void)
+{
+  const uint32_t total_us = port_time_us() - times.since_us;
+  const uint32_t busy_us = times.idle_us < total_us ? total_us - times.idle_us : 0u;
+
+  rcl_diagnosis_times_begin();
+  return total_us < (uint32_t)SHORTEST_US ? -1 : (int32_t)(busy_us / ((total_us + 99u) / 100u));
+}
+
+void rcl_diagnosis_rests(void)
+{
+  times.rest_us = port_time_us();
+}
+
+void rcl_diagnosis_rested(void)
+{
+  times.idle_us += port_time_us() - times.rest_us;
+}
+
+void rcl_diagnosis_round_begins(void)
+{
+  times.round_us = port_time_us();
+}
+
+void rcl_diagnosis_round_ends(void)
+{
+  const uint32_t took_us = port_time_us() - times.round_us;
+
+  ++times.rounds;
+  if (took_us > times.longest_us) {
+    times.longest_us = took_us;
+  }
+  if (MICROROS_DIAGNOSIS_DEADLINE_US != 0u && took_us > MICROROS_DIAGNOSIS_DEADLINE_US) {
+    ++times.missed;
+  }
+}
+
+uint32_t rcl_diagnosis_rounds(void)
+{
+  return times.rounds;
+}
+
+uint32_t rcl_diagnosis_longest_us(void)
+{
+  return times.longest_us;
+}
+
+uint32_t rcl_diagnosis_missed(void)
+{
+  return times.missed;
+}
