@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Mapping
+from functools import cache
 from pathlib import Path
 
 import microros_gen
@@ -54,10 +55,11 @@ class Documented:
     subject: str
 
 
-def diagnostics() -> list[Documented]:
+@cache
+def diagnostics() -> tuple[Documented, ...]:
     """Return every diagnostic of the package, sorted by id; one that several places give is there several times."""
     found = [reported for path in sorted(PACKAGE.rglob("*.py")) for reported in _of_module(path)]
-    return sorted(found, key=lambda reported: (reported.id, reported.message))
+    return tuple(sorted(found, key=lambda reported: (reported.id, reported.message)))
 
 
 def page() -> str:

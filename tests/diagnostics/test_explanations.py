@@ -17,11 +17,11 @@ TEXTS = explanations()
 
 
 @pytest.fixture(scope="module")
-def reported_ones() -> list[Documented]:
+def reported_ones() -> tuple[Documented, ...]:
     return documented()
 
 
-def test_every_diagnostic_is_explained(reported_ones: list[Documented]) -> None:
+def test_every_diagnostic_is_explained(reported_ones: tuple[Documented, ...]) -> None:
     assert set(TEXTS) == {reported.id for reported in reported_ones}
 
 
@@ -44,7 +44,7 @@ def _words(text: str) -> set[str]:
     return set(re.findall(r"[a-z]{3,}", re.sub(r"\{[^}]*\}", "", text).lower()))
 
 
-def test_none_repeats_its_message(reported_ones: list[Documented]) -> None:
+def test_none_repeats_its_message(reported_ones: tuple[Documented, ...]) -> None:
     """At most seven of ten words of an explanation are in the message and hint."""
     repeated = [
         reported.id

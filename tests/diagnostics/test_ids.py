@@ -6,6 +6,7 @@ from __future__ import annotations
 import ast
 import re
 from collections import Counter
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -43,8 +44,9 @@ _CLASSES = {
 _METHODS = {"error", "warning", "too_large"}
 
 
+@cache
 def calls() -> list[tuple[str, ast.Call]]:
-    """Return every call that makes a diagnostic, with its place."""
+    """Return every call that makes a diagnostic, with its place; the modules are read once."""
     found = []
     for path in sorted(PACKAGE.rglob("*.py")):
         if path.name == "diagnostic.py":

@@ -3,20 +3,18 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 
 import pytest
 
 from tests.support.agent.observer import Observer, observing
 from tests.support.agent.process import own_domain
-from tests.support.firmware.board import Builds
+from tests.support.firmware.board import Builds, shared_builds
 
 
 @pytest.fixture(scope="session")
 def builds(tmp_path_factory: pytest.TempPathFactory) -> Builds:
-    base = tmp_path_factory.getbasetemp()
-    return Builds((base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "firmware")
+    return shared_builds(tmp_path_factory)
 
 
 @pytest.fixture(scope="module")

@@ -136,7 +136,7 @@ def test_the_usual_loops_outlive_an_outage_of_the_agent(builds: Builds, loop: st
 
 
 def test_bytes_not_read_in_time_are_counted_and_the_line_recovers(builds: Builds) -> None:
-    built = builds.merged("qemu-mps2-an385")
+    built = builds.merged("qemu-mps2-an386")
     image = builds.application(built, "counter.c", "-DCOUNTER_LAST=20", "-DCOUNTER_PERIOD_MS=100u")
     agent = FakeAgent()
     with board(built, image) as running, scripted_agent(running.device, agent):

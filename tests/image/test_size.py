@@ -32,6 +32,7 @@ from microros_gen.platform.find import read_target
 from microros_gen.toolchain.compile import MAP, compile_tree
 from microros_gen.toolchain.identity import CALL_GRAPH
 from microros_gen.toolchain.toolchain import find_toolchain
+from tests.support.firmware.board import shared_builds
 from tests.support.image.size_images import APPLICATION, BOARDS, PROBE, build, tool
 from tests.support.matrix import has
 from tests.support.slices import first
@@ -283,8 +284,15 @@ def test_the_bound_follows_pointers_of_the_type_support(measured: Measured) -> N
     assert {"sensor_msgs__msg__Imu__encode", "std_msgs__msg__Int32__encode"} <= called
 
 
-def test_a_board_starts_at_reset_and_counts_its_interrupts(measured: Measured) -> None:
-    stack = measured("qemu-mps2-an385").stack
+@pytest.fixture(scope="session")
+def of_board(tmp_path_factory: pytest.TempPathFactory) -> SizeReport:
+    """The profile alone on a board, which the tests of boards build, too."""
+    built = shared_builds(tmp_path_factory).build("qemu-mps2-an386")
+    return measure(built.out, built.image)
+
+
+def test_a_board_starts_at_reset_and_counts_its_interrupts(of_board: SizeReport) -> None:
+    stack = of_board.stack
     assert stack.known
     assert stack.open == (), "nothing of an image for a board is left out"
     assert stack.main is not None
@@ -296,13 +304,12 @@ def test_a_board_starts_at_reset_and_counts_its_interrupts(measured: Measured) -
     assert stack.hardware == 36 * len(stack.handlers), "nine words each: Armv7-M B1.5.7"
 
 
-def test_every_frame_of_the_chain_is_what_gcc_says(measured: Measured) -> None:
-    report = measured("qemu-mps2-an385")
-    assert report.stack.main is not None
+def test_every_frame_of_the_chain_is_what_gcc_says(of_board: SizeReport) -> None:
+    assert of_board.stack.main is not None
     expected: dict[str, int] = {}
-    for path in report.folder.path.rglob("*.ci"):
+    for path in of_board.folder.path.rglob("*.ci"):
         expected.update({shown_name(n): f.size for n, f in parse_call_graph(path.read_text()).items()})
-    compiled = [link for link in report.stack.main.chain if link.origin == "compiler"]
+    compiled = [link for link in of_board.stack.main.chain if link.origin == "compiler"]
     assert len(compiled) > 10
     assert all(expected[link.name] == link.frame for link in compiled)
 

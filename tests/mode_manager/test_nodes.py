@@ -80,6 +80,7 @@ def test_a_node_that_cannot_be_activated_degrades_the_arm(stack: ExitStack, doma
     assert asking.state("gripper") == "inactive"
 
 
+@pytest.mark.system
 def test_a_node_that_answers_late(stack: ExitStack, domain: int) -> None:
     """Its response takes longer than the manager waits: it is found in its target afterwards."""
     slow = {**GRIPPER, "late_s": 4.0}
@@ -90,6 +91,7 @@ def test_a_node_that_answers_late(stack: ExitStack, domain: int) -> None:
     assert not managing.says("rule")
 
 
+@pytest.mark.system
 def test_changes_by_others_are_noticed(stack: ExitStack, domain: int) -> None:
     asking, managing = start(stack, domain, ARM, gripper=GRIPPER, joint=JOINT)
     assert asking.change_mode("arm", "QUICK")
@@ -129,6 +131,7 @@ def test_a_manager_that_is_killed_and_one_that_takes_over(stack: ExitStack, doma
     assert asking.rows["arm"].target == "active.GENTLE"
 
 
+@pytest.mark.system
 def test_two_managers_of_one_hierarchy(stack: ExitStack, domain: int) -> None:
     """The lower one manages the base with its nodes in a namespace; the upper one uses it by its services."""
     robot = str(MODELS / "robot.yaml")
@@ -174,6 +177,7 @@ def test_a_device_with_mode_services_and_its_agent(stack: ExitStack, domain: int
     assert device.mode == "RUSH"
 
 
+@pytest.mark.system
 def test_errors_on_diagnostics_reach_the_system(stack: ExitStack, domain: int) -> None:
     asking, _ = start(stack, domain, ARM, gripper=GRIPPER, joint=JOINT)
     assert asking.change_mode("arm", "GENTLE")
@@ -188,6 +192,7 @@ def test_errors_on_diagnostics_reach_the_system(stack: ExitStack, domain: int) -
     asking.until_row("arm", "active.GENTLE")
 
 
+@pytest.mark.system
 def test_a_manager_that_is_killed_in_the_middle(stack: ExitStack, domain: int) -> None:
     """The gripper activates slowly, and the manager dies meanwhile: the next one commands nothing by itself."""
     slow = {**GRIPPER, "late_s": 3.0}
@@ -208,6 +213,7 @@ def test_a_manager_that_is_killed_in_the_middle(stack: ExitStack, domain: int) -
     asking.until_row("arm", "active.GENTLE")
 
 
+@pytest.mark.system
 def test_the_monitor_without_and_with_a_manager(stack: ExitStack, domain: int) -> None:
     command = [sys.executable, "-m", "microros_gen", "modes", "monitor", ARM, "--once", "--format", "json"]
     run = subprocess.run([*command, "--wait", "1"], capture_output=True, text=True, check=False)

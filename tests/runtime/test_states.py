@@ -18,7 +18,7 @@ from microros_gen.client.plan.runtime import RuntimePlan
 from tests.support.plans import POOL, changed
 from tests.support.runtime.discovery import info, locator
 from tests.support.runtime.driver import Client
-from tests.support.runtime.harness import SANITIZE, SANITIZER, build, components, quick, render
+from tests.support.runtime.harness import build, components, quick, quick_with_constructors, render
 from tests.support.runtime.time_sync import EPOCH_NS, TimedAgent, answer, moment
 from tests.support.runtime.wires import Datagrams, Frames, Lengths, Wire
 
@@ -49,8 +49,8 @@ def program(tmp_path_factory: pytest.TempPathFactory):  # type: ignore[no-untype
     def compiled(plan: RuntimePlan) -> Path:
         names = [name for name in components(plan) if name != "port_posix"]
         tree = render(tmp_path_factory.mktemp("states"), plan, names)
-        # Functions of an application are chosen before main(), which tcc cannot do.
-        by = (SANITIZER, SANITIZE) if plan.transport.kind == "custom" else quick()
+        # Functions of an application are chosen before main().
+        by = quick_with_constructors() if plan.transport.kind == "custom" else quick()
         return build(tree, [*FIXTURES, *NONE], "states", *by)
 
     return compiled

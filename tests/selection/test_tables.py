@@ -14,6 +14,7 @@ from microros_gen.selection.find_profiles import load_builtin_profiles
 from microros_gen.selection.model import Selection
 from microros_gen.selection.xrce import BUILTIN_PROFILES, MICRO_ROS_COMPONENTS, SUBMESSAGES, XRCE_PROFILES
 from tests.support.selection.small_catalogue import Outcome
+from tests.support.slices import spread
 
 # Columns: BUILTIN_PROFILES in its order.
 COMPONENTS_OF_PROFILES = """
@@ -126,7 +127,7 @@ def axes_text(entities: str, transport: str, liveliness: str) -> str:
     return f"entities: {entities}\ntransport: {{type: {transport}}}\nliveliness: {liveliness}\n"
 
 
-@pytest.mark.parametrize("profiles", SETS, ids="+".join)
+@pytest.mark.parametrize("profiles", spread(SETS), ids="+".join)
 def test_submessages_are_allowed_by_the_selected_profiles(
     profiles: tuple[str, ...],
     middleware: Middleware,

@@ -162,6 +162,12 @@ class Builds:
             done.touch()
 
 
+def shared_builds(factory: pytest.TempPathFactory) -> Builds:
+    """Return the output folders that all processes of a run share."""
+    base = factory.getbasetemp()
+    return Builds((base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "firmware")
+
+
 def generate(home: Path, name: str, application: str = "") -> None:
     """Do what `microros-gen generate` does, to home/out, without the start of a process."""
     config = home / "microros.yaml"

@@ -9,6 +9,7 @@ import subprocess
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from microros_gen.client.plan.runtime import RuntimePlan
@@ -17,6 +18,7 @@ from microros_gen.client.views.components import render_components
 from microros_gen.documents.templates import shared_environment
 from microros_gen.interfaces.types import TypeName
 from microros_gen.platform.provide import provide
+from microros_gen.selection.component import Catalogue
 from microros_gen.selection.component_sources import component_files
 from microros_gen.selection.find_components import load_catalogue
 from microros_gen.selection.model import ChosenComponent, Selection
@@ -100,7 +102,7 @@ class Tree:
 
 def render(out: Path, plan: RuntimePlan, names: Sequence[str]) -> Tree:
     """Write include/ and src/ of the components `names` below `out`."""
-    catalogue = load_catalogue()
+    catalogue = _catalogue()
     names = [*names, *(["port_posix_sockets"] if "port_posix" in names else [])]
     chosen = tuple(ChosenComponent(catalogue[name], ("test",)) for name in names)
     selection = Selection(
@@ -109,10 +111,12 @@ def render(out: Path, plan: RuntimePlan, names: Sequence[str]) -> Tree:
     values = Values(plan, selection)
     provisions = provide((c.component for c in chosen), PORTS, (), values.holds)
     files = component_files((c.component for c in chosen), values.holds, provisions.files)
-    sources = []
+    sources, folders = [], set[Path]()
     for place, content in render_components(files, values, shared_environment()).items():
         target = out / place
-        target.parent.mkdir(parents=True, exist_ok=True)
+        if target.parent not in folders:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            folders.add(target.parent)
         target.write_bytes(content)
         if target.suffix == ".c":
             sources.append(target)
@@ -128,6 +132,17 @@ def quick() -> tuple[str, tuple[str, ...]]:
     if os.environ.get(EVERYWHERE) == "all" or shutil.which("tcc") is None:
         return SANITIZER, SANITIZE
     return "tcc", ()
+
+
+def quick_with_constructors() -> tuple[str, tuple[str, ...]]:
+    """Return the same for programs with functions that run before main(), which tcc does not call."""
+    compiler, flags = quick()
+    return ("gcc", ("-O0", "-g0")) if compiler == "tcc" else (compiler, flags)
+
+
+@cache
+def _catalogue() -> Catalogue:
+    return load_catalogue()
 
 
 def compilers() -> tuple[str, ...]:
