@@ -75,7 +75,8 @@ def _named(part: Schema) -> Iterator[tuple[str, Schema]]:
 
 def _resolved(schema: Schema, part: Schema) -> tuple[Schema, str]:
     """Return a part after its `$ref`, and the name of the definition."""
-    name = part.get("$ref", "").removeprefix("#/$defs/")
+    reference = part.get("$ref", "")
+    name = reference.removeprefix("#/$defs/") if reference.startswith("#") else ""
     return ({**schema["$defs"][name], **part} if name else part), name
 
 
@@ -103,6 +104,8 @@ def _key_cell(key: str, target: str) -> str:
 def _value(schema: Schema, part: Schema) -> str:
     if "x-reserved" in part:
         return "reserved"
+    if not part.get("$ref", "#").startswith("#"):
+        return "mapping"
     if "const" in part:
         return f"`{part['const']}`"
     if "enum" in part:

@@ -49,6 +49,7 @@ from microros_gen.selection.implied import with_implied
 from microros_gen.selection.installed import index_folders
 from microros_gen.selection.model import Selection
 from microros_gen.selection.outside import component_names, with_outside
+from microros_gen.selection.profile_nodes import with_profile_nodes
 from microros_gen.selection.profiles import resolve_profiles
 from microros_gen.selection.resolve import check_ready, resolve_selection
 from microros_gen.typesupport.plan.capacity import Capacities, Defaults, Entity, Root, plan_capacities
@@ -116,6 +117,7 @@ def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
         application = replace(application, interfaces=(Named(DEFAULT_INTERFACE),))
     _check_interfaces_have_a_use(application, selection, diagnostics)
     diagnostics.check()
+    application = with_profile_nodes(application, resolved)
     application = with_endpoints(with_implied(application, selection, diagnostics), selection)
     application = with_limits(application, selection)
     found = replace(request.found_target, target=with_emulated_console(target, selection))

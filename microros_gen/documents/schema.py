@@ -19,9 +19,16 @@ from microros_gen.documents.schema_words import describe_mismatch, describe_unkn
 from microros_gen.documents.yaml_tree import MappingNode, SequenceNode, YamlNode, to_data
 
 
-def load_schema(path: Path) -> Schema:
-    """Return the schema in the file `path`."""
-    return cast(Schema, json.loads(path.read_text(encoding="utf-8")))
+def load_schema(path: Path, *others: Path) -> Schema:
+    """Return the schema in the file `path`, with the definitions of `others` that it refers to by their `$id`."""
+    text = path.read_text(encoding="utf-8")
+    definitions: Schema = {}
+    for other in others:
+        found = cast(Schema, json.loads(other.read_text(encoding="utf-8")))
+        text = text.replace(f'"{found["$id"]}#/', '"#/')
+        definitions |= found["$defs"]
+    schema = cast(Schema, json.loads(text))
+    return {**schema, "$defs": {**definitions, **schema.get("$defs", {})}} if definitions else schema
 
 
 def validate(tree: YamlNode | None, source: Source, schema: Schema, diagnostics: Diagnostics) -> None:

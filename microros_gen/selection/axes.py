@@ -11,7 +11,7 @@ from microros_gen.diagnostics import Diagnostics, Span, nearest
 from microros_gen.documents.named import Named
 from microros_gen.records import dataclass
 from microros_gen.selection.component import Middleware, ResolvedProfile
-from microros_gen.selection.profiles import at
+from microros_gen.selection.declared import at
 
 
 @dataclass(frozen=True)

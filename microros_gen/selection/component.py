@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import field
 from pathlib import Path
 
-from microros_gen.application.model import ComponentChange, LimitRule, Qos
+from microros_gen.application.model import ComponentChange, LimitRule, NodeDecl, Qos
 from microros_gen.diagnostics import Span
 from microros_gen.documents.named import Named
 from microros_gen.records import dataclass
@@ -121,7 +121,10 @@ class Component:
 
 @dataclass(frozen=True)
 class Profile:
-    """A micro-ROS profile: components, and defaults for the axes (None: no opinion)."""
+    """A micro-ROS profile: components, and defaults for the axes (None: no opinion).
+
+    `nodes` are those of its example; None: those of the profiles that it extends.
+    """
 
     name: str
     summary: str
@@ -134,6 +137,7 @@ class Profile:
     span: Span | None = None
     logging: Named | None = None
     clock: Named | None = None
+    nodes: tuple[NodeDecl, ...] | None = None
 
 
 @dataclass(frozen=True)
@@ -155,7 +159,8 @@ class ResolvedProfile:
     `requested` is where the user asks for it; None: on the command line.
 
     `adds` and `drops` hold each component once, with the place that decided it. `axes` maps an axis
-    (`entities`, `transport`, `liveliness`, `logging`, `clock`) to the value chosen and its place.
+    (`entities`, `transport`, `liveliness`, `logging`, `clock`) to the value chosen and its place. `nodes` are those of
+    its example.
     """
 
     name: str
@@ -166,6 +171,7 @@ class ResolvedProfile:
     builtin: bool = False
     span: Span | None = None
     requested: Span | None = None
+    nodes: tuple[NodeDecl, ...] = ()
 
     def place(self, span: Span | None) -> Span | None:
         """Return where the user can change what stands at `span`: there, or where this profile is asked for.

@@ -11,9 +11,8 @@ from microros_gen.documents.named import Named
 from microros_gen.selection.axes import AxisChoice
 from microros_gen.selection.clock import CLOCK_ROS
 from microros_gen.selection.component import NOT_READY, Middleware, ResolvedProfile
-from microros_gen.selection.declared import STREAM_RELIABLE, declared_components
+from microros_gen.selection.declared import STREAM_RELIABLE, at, declared_components
 from microros_gen.selection.picker import Picker
-from microros_gen.selection.profiles import at
 
 
 def check_contradictions(

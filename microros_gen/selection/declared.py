@@ -3,14 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator
+from collections.abc import Container, Iterable, Iterator
+from dataclasses import replace
 
 from microros_gen.application.kinds import KIND
-from microros_gen.application.model import Application, EndpointDecl, NodeDecl
+from microros_gen.application.model import Application, EndpointDecl, ExecutorDecl, NodeDecl
 from microros_gen.application.names import expand_topic_name
 from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.records import dataclass
-from microros_gen.selection.profiles import at
 
 STREAM_BEST_EFFORT = "stream_best_effort"
 STREAM_BEST_EFFORT_INPUT = "stream_best_effort_input"
@@ -26,6 +26,11 @@ class Demand:
     component: str
     text: str
     span: Span | None = None
+
+
+def at(span: Span | None) -> str:
+    """Return ` (microros.yaml:12)`, or nothing where there is no place."""
+    return f" ({span.source.name}:{span.line})" if span else ""
 
 
 def declared_components(application: Application) -> Iterator[Demand]:
@@ -62,6 +67,42 @@ def selecting_demands(application: Application) -> Iterator[Demand]:
     for node in application.nodes:
         for mode in node.modes[:1]:
             yield Demand("node_modes", f"modes: of a node{at(mode.span)}", mode.span)
+
+
+def without_components(nodes: Iterable[NodeDecl], dropped: Container[str]) -> tuple[NodeDecl, ...]:
+    """Return the nodes without what needs one of the components `dropped`."""
+    return tuple(_without(node, dropped) for node in nodes)
+
+
+def _without(node: NodeDecl, dropped: Container[str]) -> NodeDecl:
+    """Return a node of the components that are left; without a life cycle nothing of it is managed."""
+    has_parameters = "parameters" not in dropped
+    node = replace(
+        node,
+        endpoints=tuple(e for e in node.endpoints if KIND[e.kind].component not in dropped),
+        timers=node.timers if "timers" not in dropped else (),
+        parameters=node.parameters if has_parameters else (),
+        parameters_at=node.parameters_at if has_parameters else None,
+        parameter_clients=node.parameter_clients if "parameter_client" not in dropped else (),
+        modes=node.modes if has_parameters and "node_modes" not in dropped else (),
+        actions=node.actions if "action_server" not in dropped else (),
+    )
+    if "lifecycle" in dropped:
+        endpoints = tuple(replace(endpoint, managed=False) for endpoint in node.endpoints)
+        timers = tuple(replace(timer, managed=False) for timer in node.timers)
+        node = replace(node, endpoints=endpoints, timers=timers)
+    return replace(node, executors=_executors(node) if "executor" not in dropped else ())
+
+
+def _executors(node: NodeDecl) -> tuple[ExecutorDecl, ...]:
+    """Return the executors of a node with those handles that the node still has; one without any is left out."""
+    known = {timer.name for timer in node.timers} | {endpoint.topic for endpoint in node.endpoints}
+    found = []
+    for executor in node.executors:
+        handles = tuple(handle for handle in executor.handles if handle.name in known)
+        if handles or not executor.handles:
+            found.append(replace(executor, handles=handles))
+    return tuple(found)
 
 
 def holder_demands(application: Application) -> Iterator[Demand]:

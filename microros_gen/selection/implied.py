@@ -13,45 +13,26 @@ from microros_gen.application.model import (
     EndpointDecl,
     LimitRule,
     NodeDecl,
-    ParameterDecl,
 )
 from microros_gen.diagnostics import Diagnostics, nearest
-from microros_gen.selection.component import Component, Implied
+from microros_gen.selection.component import Implied
 from microros_gen.selection.model import Selection
-
-_OF_ENTITIES = frozenset({"nodes", "interfaces", "pools"})
-"""Keys of an application file that say which entities there are."""
-_NODE = NodeDecl(name="device", endpoints=(EndpointDecl("publisher", "count", "std_msgs/msg/Int32"),))
-_DIAGNOSTICS = EndpointDecl(
-    "publisher",
-    "/diagnostics",
-    "diagnostic_msgs/msg/DiagnosticArray",
-    limits=(LimitRule(("*",), string=32, sequence=1),),
-)
-_GAIN = ParameterDecl(
-    "gain", "double", default=1.0, description="Factor of a signal", minimum=0.0, maximum=10.0
-)
-_NODES = {
-    "configurable_sender_with_diagnostics": NodeDecl(
-        name="device", endpoints=(_DIAGNOSTICS,), parameters=(_GAIN,)
-    )
-}
-"""Profile → the node that shows its components; others have the one above."""
+from microros_gen.selection.profile_nodes import with_default_node
 
 
 def with_implied(application: Application, selection: Selection, diagnostics: Diagnostics) -> Application:
     """Return the application with the endpoints that its components imply, before its own ones.
 
     With `nodes:` an endpoint belongs to the first node, or one to every node. Without them the library opens
-    subscriptions alone by itself, once: for anything else the nodes have to be declared. A profile alone, or in an
-    application file that says nothing of entities, has one node then.
+    subscriptions alone by itself, once: for anything else the nodes have to be declared. An application that says
+    nothing of entities has one node then.
     """
     changes = {change.name: change for change in application.endpoints}
     once = _endpoints(selection, changes, every_node=False)
     each = _endpoints(selection, changes, every_node=True)
     _check_changes(application, (*once, *each), diagnostics)
     chosen = [item.component for item in selection.components]
-    application = with_default_node(application, selection.profiles, chosen)
+    application = with_default_node(application, chosen)
     if application.nodes:
         first, *others = application.nodes
         nodes = (_with(first, (*once, *each)), *(_with(node, each) for node in others))
@@ -60,17 +41,6 @@ def with_implied(application: Application, selection: Selection, diagnostics: Di
     if all(chosen.component.ready for chosen in selection.components):
         _refuse([*(e for e in once if e.kind != "subscription"), *each], application, diagnostics)
     return replace(application, implied=once)
-
-
-def with_default_node(
-    application: Application, profiles: Iterable[str], components: Iterable[Component]
-) -> Application:
-    """Return the application with the one node of a profile alone, if its components open endpoints in every node."""
-    each = any(implied.every_node for component in components for implied in component.implies)
-    if not each or application.nodes or _OF_ENTITIES & application.spans.keys():
-        return application
-    shown = next((_NODES[name] for name in profiles if name in _NODES), _NODE)
-    return replace(application, nodes=(shown,))
 
 
 def _refuse(endpoints: Sequence[EndpointDecl], application: Application, diagnostics: Diagnostics) -> None:

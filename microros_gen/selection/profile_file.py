@@ -3,10 +3,15 @@
 
 from __future__ import annotations
 
+from dataclasses import fields, is_dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any, TypeVar
 
-from microros_gen.application.model import component_change
+from microros_gen.application.model import NodeDecl, component_change
+from microros_gen.application.modes import check_modes
+from microros_gen.application.nodes import parse_nodes
+from microros_gen.application.parser import SCHEMA as APPLICATION_SCHEMA
 from microros_gen.diagnostics import Diagnostics, Source, Span, reads
 from microros_gen.documents.tree_read import check_keys, expect_mapping, read_choice, read_names, read_text
 from microros_gen.documents.tree_values import bool_of
@@ -24,7 +29,8 @@ AXES = {
 }
 """Axis → its values, as both schemas and the middleware table have them."""
 
-_PROFILE_KEYS = ("profile", "summary", "extends", "components", *AXES)
+_PROFILE_KEYS = ("profile", "summary", "extends", "components", *AXES, "nodes")
+_Part = TypeVar("_Part", bound=Any)
 _AXIS_VALUE_KEYS = ("component", "xrce", "agent", "allows")
 
 
@@ -39,7 +45,7 @@ def parse_profile(source: Source, diagnostics: Diagnostics, builtin: bool = Fals
     if not builtin and not found.has_errors():
         from microros_gen.documents.schema import load_schema, validate
 
-        validate(tree, source, load_schema(SCHEMA), found)
+        validate(tree, source, load_schema(SCHEMA, APPLICATION_SCHEMA), found)
     node = expect_mapping(tree, "a profile file", found) if builtin else tree
     if not found.has_errors() and isinstance(node, MappingNode):
         profile = _profile(node, Span(source, 1, 1), found, builtin)
@@ -64,7 +70,43 @@ def _profile(node: MappingNode, start: Span, diagnostics: Diagnostics, builtin: 
         clock=axes["clock"],
         builtin=builtin,
         span=named.value.span if named else start,
+        nodes=_nodes(node, diagnostics, builtin),
     )
+
+
+def _nodes(node: MappingNode, diagnostics: Diagnostics, builtin: bool) -> tuple[NodeDecl, ...] | None:
+    """Return the nodes of the example; None where the profile says nothing of them.
+
+    Those of a built-in profile have no places, since it is no file of the user's.
+    """
+    if "nodes" not in node.entries:
+        return None
+    nodes = parse_nodes(node.get("nodes"), diagnostics)
+    for declared in nodes:
+        if declared.parameter_file is not None:
+            diagnostics.error(
+                "a node of a profile reads no parameter file",
+                declared.parameter_file.span,
+                "Write the parameters below `declare`",
+                id="MG-4094",
+            )
+        else:
+            check_modes(declared, diagnostics)
+    return tuple(_without_places(declared) for declared in nodes) if builtin else nodes
+
+
+def _without_places(part: _Part) -> _Part:
+    """Return a declaration whose places, and those of its parts, are None."""
+    changed: dict[str, Any] = {}
+    for field in fields(part):
+        value = getattr(part, field.name)
+        if isinstance(value, Span):
+            changed[field.name] = None
+        elif isinstance(value, tuple):
+            changed[field.name] = tuple(_without_places(v) if is_dataclass(v) else v for v in value)
+        elif is_dataclass(value):
+            changed[field.name] = _without_places(value)
+    return replace(part, **changed)
 
 
 @reads

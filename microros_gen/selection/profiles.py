@@ -6,10 +6,12 @@ from __future__ import annotations
 from dataclasses import replace
 from types import MappingProxyType
 
-from microros_gen.application.model import ComponentChange
+from microros_gen.application.model import ComponentChange, NodeDecl
 from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.documents.named import Named
 from microros_gen.selection.component import Profile, ProfileSet, ResolvedProfile
+from microros_gen.selection.declared import at, without_components
+from microros_gen.selection.profile_nodes import joined_nodes
 from microros_gen.selection.xrce import BUILTIN_PROFILES
 
 
@@ -66,11 +68,6 @@ def signed(change: ComponentChange) -> str:
     return f"{'+' if change.add else '-'}{change.name}"
 
 
-def at(span: Span | None) -> str:
-    """Return ` (microros.yaml:12)`, or nothing where there is no place."""
-    return f" ({span.source.name}:{span.line})" if span else ""
-
-
 class _Folder:
     """Folds profiles along `extends`, each once."""
 
@@ -120,7 +117,14 @@ class _Folder:
             axes=MappingProxyType(self._axes(profile, bases)),
             builtin=profile.builtin,
             span=profile.span,
+            nodes=self._nodes(profile, bases),
         )
+
+    def _nodes(self, profile: Profile, bases: list[ResolvedProfile]) -> tuple[NodeDecl, ...]:
+        if profile.nodes is not None:
+            return profile.nodes
+        dropped = {change.name for change in profile.components if not change.add}
+        return without_components(joined_nodes(node for base in bases for node in base.nodes), dropped)
 
     def _check_known_drops(
         self, profile: Profile, own: dict[str, ComponentChange], bases: list[ResolvedProfile]

@@ -22,11 +22,11 @@ from microros_gen.selection.component import (
     ResolvedProfile,
 )
 from microros_gen.selection.contradictions import check_contradictions
-from microros_gen.selection.declared import check_holder, selecting_demands, stream_demands
-from microros_gen.selection.implied import with_default_node
+from microros_gen.selection.declared import at, check_holder, selecting_demands, stream_demands
 from microros_gen.selection.model import Chosen, ChosenAxis, ChosenComponent, Selection
 from microros_gen.selection.picker import Picker
-from microros_gen.selection.profiles import at, signed, unique_changes
+from microros_gen.selection.profile_nodes import with_default_node, with_profile_nodes
+from microros_gen.selection.profiles import signed, unique_changes
 from microros_gen.selection.xrce import MICRO_ROS_COMPONENTS, OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
 
 # Objects that a CREATE makes; the client itself comes with CREATE_CLIENT.
@@ -51,6 +51,7 @@ def resolve_selection(
     good for showing. Planned components are selected like others: `check_ready` names them.
     """
     axes = choose_axes(application, profiles, middleware, diagnostics, transport)
+    application = with_profile_nodes(application, profiles)
     picker = Picker(catalogue, diagnostics)
     _pick_from_profiles(picker, application, profiles)
     if not picker.causes:
@@ -62,7 +63,7 @@ def resolve_selection(
         picker.pick(demand.component, demand.text, demand.span)
     picker.close()
     chosen = [picker.catalogue[name] for name in picker.causes]
-    declared = with_default_node(application, [profile.name for profile in profiles], chosen)
+    declared = with_default_node(application, chosen)
     for demand in stream_demands(declared, picker.open_to(application), axes["entities"].value):
         picker.pick(demand.component, demand.text, demand.span)
     if axes["transport"].value == "custom" and application.transport.framing is not False:

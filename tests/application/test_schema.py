@@ -180,6 +180,12 @@ PROFILE_CASES: dict[str, tuple[str, Any, str, str]] = {
         "clock: rso",
         "2:8: error: 'clock' must be steady or ros; it is the text 'rso'.",
     ),
+    "nodes": (
+        "nodes: [{name: arm, services: [{name: grip, type: std_srvs/srv/Trigger}], timers: [{name: t, period: 1 s}]}]",
+        [("arm", ["grip"], ["t"])],
+        "nodes: [{name: arm, publishers: [{topic: grip}]}]",
+        "2:34: error: missing key 'type' in 'nodes[0].publishers[0]'",
+    ),
 }
 
 
@@ -189,6 +195,8 @@ def profile_value(profile: Profile, key: str) -> Any:
         return [named.name for named in value]
     if key == "components":
         return [(change.name, change.add) for change in value]
+    if key == "nodes":
+        return [(n.name, [e.topic for e in n.endpoints], [t.name for t in n.timers]) for n in value]
     return value.name if isinstance(value, Named) else value
 
 

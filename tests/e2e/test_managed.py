@@ -33,6 +33,7 @@ nodes:
       - {{topic: position, type: std_msgs/msg/Int32, managed: true}}
       - {{topic: battery, type: std_msgs/msg/Int32}}
 """
+PATIENT = "session: {connect_timeout: 20 s, create_timeout: 10 s}\n"
 SERVES = """\
     services: [{name: set_enabled, type: std_srvs/srv/SetBool}]
 limits: {std_srvs/srv/SetBool_Response: {message: 16}}
@@ -143,6 +144,40 @@ def test_every_way_to_create(
             until(enough, "events are missing")
             of_device, of_model = ([e[1:] for e in events if e[0] == node] for node in (device, MODEL))
             assert of_device == of_model
+            kill(process)
+
+
+@pytest.mark.parametrize(
+    "entities", ["binary", *(pytest.param(way, marks=pytest.mark.system) for way in WAYS[1:])]
+)
+def test_the_profile_alone(
+    entities: str, images: Images, image_port: Relay, relay: Relay, observer: Observer, domain: int
+) -> None:
+    """The example of the profile itself, without a word about entities: a service, and a publisher with a gate."""
+    text = f"version: 1\nprofiles: [managed_service]\nentities: {entities}\n{PATIENT}"
+    image = images.build(image_port.port, text, flags=(*QUICK, "-DEXAMPLE_PERIOD_MS=20"))
+    options = [
+        word
+        for path in sorted((image.out / "agent").glob("*"))
+        for word in ("--references" if path.suffix == ".xml" else "--entities", str(path))
+    ]
+    observer.subscribe("/count", "std_msgs/msg/Int32")
+
+    def counts() -> bool:
+        return any(topic == "/count" for topic, _ in observer.ask(do="samples"))
+
+    counts()  # those of the entities before
+    with running_agent(domain, "--domain", str(domain), *options) as agent, lifecycle_peer(domain) as peer:
+        relay.connect(agent.port)
+        with started(image.out / "bin" / "managed_service") as process:
+            peer.await_services("/device")
+            assert peer.ask(do="switch", service="/set_bool", value=True, timeout=seconds(20))
+            until(lambda: "/count" in observer.ask(do="graph")["publishers"], "no publisher")
+            time.sleep(1)  # the writer knows the reader
+            assert not counts(), "an unconfigured node publishes"
+            assert peer.change("/device", CONFIGURE)
+            assert peer.change("/device", ACTIVATE)
+            until(counts, "an active node is silent")
             kill(process)
 
 

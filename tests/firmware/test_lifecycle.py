@@ -6,10 +6,11 @@ from __future__ import annotations
 import pytest
 
 from tests.support.e2e.lifecycle_peer import MODEL, lifecycle_peer
-from tests.support.firmware.board import Builds, board, need
+from tests.support.firmware.board import BOARDS, Builds, board, need
 from tests.support.firmware.footprint import bounded_stack, image_sections
 from tests.support.firmware.lifecycle import APPLICATION, work
 from tests.support.firmware.running import started
+from tests.support.profile_with_diagnostics import ENTITIES
 
 NAME = "qemu-mps2-an386"
 DEVICE = "/arm/device"
@@ -91,3 +92,13 @@ def test_its_instructions(builds: Builds) -> None:
     assert found.init <= 18_955
     assert found.change <= 7_083
     assert found.get <= 3_221
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["host", *BOARDS])
+@pytest.mark.parametrize("entities", ENTITIES)
+def test_the_profile_alone_builds(builds: Builds, name: str, entities: str) -> None:
+    """Its own node has a service and a managed publisher."""
+    need(name)
+    built = builds.build(name, f"version: 1\nprofiles: [managed_service]\nentities: {entities}\n")
+    assert built.image.is_file()

@@ -11,6 +11,7 @@ import pytest
 
 from microros_gen.cli.tables import selection_data
 from microros_gen.diagnostics import Diagnostics
+from microros_gen.selection.find_profiles import load_builtin_profiles
 from microros_gen.selection.resolve import check_ready
 from microros_gen.selection.xrce import BUILTIN_PROFILES
 from tests.support.ids import without_id
@@ -36,6 +37,9 @@ def test_every_profile_resolves(name: str, resolve: Resolve) -> None:
     assert all(c.reasons for c in outcome.selection.components)
 
 
+WITH_NODES = [name for name, profile in load_builtin_profiles().items() if profile.nodes]
+
+
 @pytest.mark.parametrize("first", BUILTIN_PROFILES)
 @pytest.mark.parametrize("second", BUILTIN_PROFILES)
 def test_pairs_give_the_union_in_any_order(first: str, second: str, resolve: Resolve) -> None:
@@ -43,6 +47,8 @@ def test_pairs_give_the_union_in_any_order(first: str, second: str, resolve: Res
     assert both.messages == ()
     union = set(resolve(first).names()) | set(resolve(second).names())
     dropped = {"entities_binary"} if "static_configured_sender" in (first, second) else set()
+    if "pure_reader" in (first, second) and not {first, second}.isdisjoint(WITH_NODES):
+        dropped |= {"stream_best_effort_input"}  # their nodes say what is created: no subscription
     assert set(both.names()) == union - dropped
     assert both.selection == resolve(second, first).selection
 
