@@ -58,9 +58,10 @@ class NodePlan:
 
 @dataclass(frozen=True, kw_only=True)
 class NodeModesPlan:
-    """The nodes that have modes."""
+    """The nodes that have modes. `requested`: the device itself requests some, at an error of a check."""
 
     declared: tuple[NodePlan, ...] = ()
+    requested: bool = False
 
     @property
     def count(self) -> int:
@@ -91,7 +92,10 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> NodeModesPlan:
     for node in application.nodes:
         diagnostics.extend(longer_than_limits(application, _written(node), "the value"))
         _check_texts(node, diagnostics)
-    return NodeModesPlan(declared=tuple(_nodes(application)))
+    checks = application.diagnosis.checks if application.diagnosis is not None else ()
+    return NodeModesPlan(
+        declared=tuple(_nodes(application)), requested=any(check.mode for check in checks)
+    )
 
 
 def _written(node: NodeDecl) -> Iterator[ParameterDecl]:

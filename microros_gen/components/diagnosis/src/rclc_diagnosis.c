@@ -8,7 +8,7 @@
 rcl_ret_t rclc_diagnosis_set(uint8_t check, int32_t value)
 {
   if (check >= (uint8_t)MICROROS_DIAGNOSIS_DECLARED) {
-    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "check");
+    return microros_error_named(RCL_RET_INVALID_ARGUMENT, microros_error_diagnosis, "no such check");
   }
   microros_lock();
   rcl_diagnosis_set(check, value);

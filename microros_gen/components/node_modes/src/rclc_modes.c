@@ -5,6 +5,7 @@
 #include "microros/port.h"
 #include "microros/rcl_publisher_open.h"
 #include "microros/rcl_service_open.h"
+#include "microros/rclc_modes_known.h"
 #include "microros/rclc_modes_table.h"
 #include "microros/rmw_lifecycle.h"
 #include "microros/rmw_modes.h"
@@ -102,6 +103,8 @@ rcl_ret_t rclc_modes_init(
   }
   if (result != RCL_RET_OK) {
     (void)modes_close(modes); /* the first error is reported */
+  } else {
+    rclc_modes_know(modes);
   }
   return result;
 }
@@ -116,6 +119,7 @@ rcl_ret_t rclc_modes_fini(rclc_modes_t * modes)
   if (!modes_are_initialized(modes)) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "modes");
   }
+  rclc_modes_forget(modes);
   rmw_modes_set(modes->lifecycle_node->node->impl, 0u);
   return modes_close(modes);
 }

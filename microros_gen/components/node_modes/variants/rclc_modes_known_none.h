@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Which modes each node has: nobody asks, so nothing is kept. Internal. */
+#ifndef MICROROS_RCLC_MODES_KNOWN_H
+#define MICROROS_RCLC_MODES_KNOWN_H
+
+#include "rclc_modes/rclc_modes.h"
+
+/* Called when modes are initialized and before they are finalized. */
+static inline void rclc_modes_know(rclc_modes_t * modes)
+{
+  (void)modes;
+}
+
+static inline void rclc_modes_forget(const rclc_modes_t * modes)
+{
+  (void)modes;
+}
+
+#endif /* MICROROS_RCLC_MODES_KNOWN_H */

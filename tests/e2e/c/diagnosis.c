@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * A node with modes, a timer and checks under an executor, until its standard input ends. Lines: "set NUMBER" sets the
+ * battery, "busy NUMBER" lets the next callback of the timer take so many milliseconds, "fail" makes an error, "refuse"
+ * and "accept" say what the callback of modes does, "activate" changes the state. Each is answered with what it
+ * returned.
+ */
+#define _POSIX_C_SOURCE 200809L
+#include <poll.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include <rcl/error_handling.h>
+#include <rcl/rcl.h>
+#include <rclc/executor.h>
+#include <rclc/rclc.h>
+#include <rclc_diagnosis/declared_checks.h>
+#include <rclc_modes/declared_modes.h>
+#include <rclc_parameter/declared_parameters.h>
+
+enum { HANDLES = 4 + RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES + RCLC_EXECUTOR_MODES_HANDLES, PERIOD_MS = 20 };
+
+static rclc_support_t support;
+static rcl_node_t node;
+static rcl_timer_t timer;
+static rclc_executor_t executor;
+static rcl_allocator_t allocator;
+static rcl_lifecycle_state_machine_t machine;
+static rclc_lifecycle_node_t lifecycle;
+static rclc_lifecycle_service_context_t context = {&lifecycle};
+static rclc_parameter_server_t parameters;
+static rclc_modes_t modes;
+static bool refuses;
+static int busy_ms;
+
+static void check(rcl_ret_t result, const char * what)
+{
+  if (result != RCL_RET_OK) {
+    (void)fprintf(stderr, "%s: %s\n", what, rcl_get_error_string().str);
+    exit(1);
+  }
+}
+
+static bool on_mode(uint8_t start_mode, uint8_t goal_mode, void * unused)
+{
+  (void)start_mode;
+  (void)goal_mode;
+  (void)unused;
+  return !refuses;
+}
+
+static void on_timer(rcl_timer_t * called, int64_t last_call_time)
+{
+  struct timespec left = {busy_ms / 1000, (long)(busy_ms % 1000) * 1000000};
+
+  (void)called;
+  (void)last_call_time;
+  busy_ms = 0;
+  (void)nanosleep(&left, NULL);
+}
+
+static void begin(void)
+{
+  check(rclc_support_init(&support, 0, NULL, &allocator), "init");
+  check(rclc_node_init_default(&node, "device", "arm", &support), "node");
+  check(rclc_timer_init_default2(&timer, &support, RCL_MS_TO_NS(PERIOD_MS), on_timer, true), "timer");
+  check(rclc_executor_init(&executor, &support.context, HANDLES, &allocator), "executor");
+  check(rclc_executor_add_timer(&executor, &timer), "timer of the executor");
+  check(rclc_parameter_server_init_default(&parameters, &node), "parameters");
+  check(arm_device_parameters_declare(&parameters), "declarations");
+  check(rclc_executor_add_parameter_server(&executor, &parameters, NULL), "parameter server");
+  check(rclc_make_node_a_lifecycle_node(&lifecycle, &node, &machine, &allocator, true), "life cycle");
+  check(rclc_lifecycle_init_get_state_server(&context, &executor), "get_state");
+  check(rclc_lifecycle_init_get_available_states_server(&context, &executor), "get_available_states");
+  check(rclc_lifecycle_init_change_state_server(&context, &executor), "change_state");
+  check(rclc_modes_init(&modes, &arm_device_modes, &lifecycle, &parameters), "modes");
+  check(rclc_executor_add_modes(&executor, &modes, on_mode, NULL), "services of modes");
+}
+
+static rcl_ret_t activate(void)
+{
+  const rcl_ret_t result =
+    rclc_lifecycle_change_state(&lifecycle, lifecycle_msgs__msg__Transition__TRANSITION_CONFIGURE, true);
+
+  return result == RCL_RET_OK
+           ? rclc_lifecycle_change_state(&lifecycle, lifecycle_msgs__msg__Transition__TRANSITION_ACTIVATE, true)
+           : result;
+}
+
+static bool answer(void)
+{
+  static char line[64];
+  rcl_ret_t result = RCL_RET_OK;
+
+  if (fgets(line, sizeof(line), stdin) == NULL || strcmp(line, "end\n") == 0) {
+    return false;
+  }
+  line[strcspn(line, "\n")] = '\0';
+  if (strncmp(line, "set ", 4) == 0) {
+    result = rclc_diagnosis_set((uint8_t)DIAGNOSIS_BATTERY, (int32_t)atoi(&line[4]));
+  } else if (strncmp(line, "busy ", 5) == 0) {
+    busy_ms = atoi(&line[5]);
+  } else if (strcmp(line, "refuse") == 0 || strcmp(line, "accept") == 0) {
+    refuses = line[0] == 'r';
+  } else if (strcmp(line, "activate") == 0) {
+    result = activate();
+  } else if (strcmp(line, "fail") == 0) {
+    result = rclc_diagnosis_set(99u, 0);
+  } else {
+    (void)printf("%s %u\n", rclc_modes_name(&modes, rclc_modes_get(&modes)), rclc_diagnosis_level(0));
+  }
+  (void)printf("ret %d %s\n", (int)result, result == RCL_RET_OK ? "" : rcl_get_error_string().str);
+  (void)fflush(stdout);
+  rcl_reset_error();
+  return true;
+}
+
+int main(void)
+{
+  struct pollfd input = {0, POLLIN, 0};
+  bool goes_on = true;
+
+  (void)setvbuf(stdin, NULL, _IONBF, 0);
+  allocator = rcl_get_default_allocator();
+  begin();
+  while (goes_on) {
+    if (rclc_executor_spin_some(&executor, RCL_MS_TO_NS(20)) != RCL_RET_OK) {
+      rcl_reset_error(); /* a request above the limits was reported */
+    }
+    if (poll(&input, 1, 0) > 0) {
+      goes_on = answer();
+    }
+  }
+  check(rclc_modes_fini(&modes), "modes fini");
+  check(rclc_lifecycle_node_fini(&lifecycle, &allocator), "life cycle fini");
+  check(rclc_parameter_server_fini(&parameters, &node), "parameters fini");
+  check(rclc_executor_fini(&executor), "executor fini");
+  check(rcl_timer_fini(&timer), "timer fini");
+  check(rcl_node_fini(&node), "node fini");
+  check(rclc_support_fini(&support), "support fini");
+  return 0;
+}

@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a device reports of itself on /diagnostics, as rclpy receives it; an error of a check changes the mode."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from microros_gen.mode_manager.diagnosis import read_problems
+from tests.support.agent.observer import Observer
+from tests.support.agent.process import running_agent
+from tests.support.e2e.commanded import CommandedProgram
+from tests.support.e2e.images import C_FILES, Images, ends_well, started
+from tests.support.e2e.relay import Relay
+from tests.support.patience import deadline
+
+pytestmark = pytest.mark.ros
+
+APPLICATION = """\
+version: 1
+profiles: [managed_service]
+components: [+node_modes, +timers, +diagnosis]
+logging: rosout
+session: {connect_timeout: 20 s, create_timeout: 10 s, liveliness_timeout: 1 s, liveliness_period: 500 ms}
+diagnosis:
+  period: 200 ms
+  hardware_id: board-7
+  deadline: 50 ms
+  checks:
+    - {name: battery, unit: mV, below: {warn: 11500, error: 11000}, hysteresis: 200, timeout: 60 s, mode: SLOW, node: device}
+nodes:
+  - name: device
+    namespace: /arm
+    timers: [{name: tick, period: 20 ms}]
+    parameters: [{name: speed, type: double, default: 0.5, range: {min: 0.0, max: 2.0}}]
+    modes:
+      SLOW: {speed: 0.25}
+"""
+STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror")
+TOPIC, TYPE = "/diagnostics", "diagnostic_msgs/msg/DiagnosticArray"
+OK, WARN, ERROR, STALE = range(4)
+NAMES = {"executor", "timers", "errors", "log", "session", "battery"}
+
+
+class Board:
+    """The program, and what rclpy has received of it."""
+
+    def __init__(self, program: CommandedProgram, observer: Observer) -> None:
+        self.call = program.call
+        self._observer = observer
+        self.arrays: list[dict[str, Any]] = []
+
+    def look(self) -> None:
+        """Take what has arrived."""
+        self.arrays += [value for topic, value in self._observer.ask(do="samples") if topic == TOPIC]
+
+    def next(self, name: str, seen: Callable[[dict[str, Any]], object] = bool) -> dict[str, Any]:
+        """Return the next status of that name which `seen` accepts."""
+        self.look()
+        self.arrays.clear()
+        end = deadline(60)
+        while True:
+            for array in self.arrays:
+                for status in array["status"]:
+                    if status["name"] == f"arm/device: {name}" and seen(status):
+                        return dict(status)
+            assert time.monotonic() < end, [s for a in self.arrays for s in a["status"]][-8:]
+            time.sleep(0.02)
+            self.look()
+
+
+def values(status: dict[str, Any]) -> dict[str, str]:
+    return {pair["key"]: pair["value"] for pair in status["values"]}
+
+
+@pytest.fixture(scope="module")
+def program(images: Images, image_port: Relay, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    image = images.build(image_port.port, APPLICATION)
+    return image.application(C_FILES / "diagnosis.c", tmp_path_factory.mktemp("diag") / "diagnosis", *STRICT)
+
+
+@pytest.fixture
+def board(program: Path, observer: Observer, image_port: Relay, agent: object) -> Iterator[Board]:
+    observer.subscribe(TOPIC, TYPE)
+    with started(program) as process:
+        yield Board(CommandedProgram(process), observer)
+        assert process.stdin is not None
+        process.stdin.write("end\n")
+        ends_well(process)
+
+
+def test_everything_is_reported_once_in_a_period(board: Board) -> None:
+    board.next("session")
+    begin = time.monotonic()
+    counted = 0
+    while time.monotonic() < begin + 2:
+        board.next("session")
+        counted += 1
+    assert 4 <= counted <= 11, "five a second"
+    found: dict[str, dict[str, Any]] = {}
+    while found.keys() != NAMES:
+        board.next("session")
+        found |= {s["name"].partition(": ")[2]: s for array in board.arrays for s in array["status"]}
+    assert {status["hardware_id"] for status in found.values()} == {"board-7"}
+    assert all(len(array["status"]) == 1 for array in board.arrays)
+    assert all(abs(array["header"]["stamp"]["sec"] - time.time()) < 60 for array in board.arrays)
+    assert (found["session"]["level"], found["session"]["message"]) == (OK, "ok")
+    counters = values(found["session"])
+    assert list(counters) == ["sent", "resent", "received", "malformed", "dropped", "reconnects", "refused"]
+    assert int(counters["sent"]) > 10
+    later = values(board.next("session"))
+    assert int(later["sent"]) > int(counters["sent"])
+    executor = values(found["executor"])
+    assert list(executor) == ["rounds", "longest_us", "missed", "cpu_percent", "warn"]
+    assert int(executor["rounds"]) > 0
+    assert 0 <= int(executor["cpu_percent"]) <= 100
+    battery = found["battery"]
+    assert (battery["level"], battery["message"]) == (STALE, "not set, or too long ago")
+    assert values(battery) == {
+        "value": "unknown",
+        "unit": "mV",
+        "warn": "11500",
+        "error": "11000",
+        "mode": "SLOW",
+        "mode waits": "false",
+    }
+
+
+def test_overruns_and_missed_deadlines(board: Board) -> None:
+    """A callback of 70 ms is longer than the deadline, and the timer of 20 ms has missed its next calls."""
+    before = {name: values(board.next(name)) for name in ("executor", "timers")}
+    board.call("busy 150")
+    executor = board.next("executor", lambda s: s["message"] == "missed has changed")
+    assert executor["level"] == WARN
+    after = values(executor)
+    assert int(after["missed"]) > int(before["executor"]["missed"])
+    assert 150_000 <= int(after["longest_us"]) < 10_000_000
+    timers = board.next("timers", lambda s: int(values(s)["overruns"]) > int(before["timers"]["overruns"]))
+    assert int(values(timers)["latest_us"]) >= 20_000
+
+
+def test_share_of_the_processor(board: Board) -> None:
+    """Callbacks that last for nearly a whole period are nearly 100 %; a node that waits is far below."""
+    idle = board.next("executor", lambda s: "unknown" not in values(s).values() and s["level"] == OK)
+    board.call("busy 900")
+    busy = board.next("executor", lambda s: int(values(s)["cpu_percent"]) > 90)
+    assert int(values(idle)["cpu_percent"]) < 60 < int(values(busy)["cpu_percent"])
+
+
+def test_errors_are_counted(board: Board) -> None:
+    before = int(values(board.next("errors"))["count"])
+    code, text, _ = board.call("fail")
+    assert (code, text) == (11, "diagnosis: no such check")
+    assert int(values(board.next("errors", lambda s: values(s)["count"] != str(before)))["count"]) > before
+
+
+def test_levels_and_the_requested_mode(board: Board) -> None:
+    """Warning, error with its hysteresis, and a mode that waits until the node can change to it."""
+    board.call("set 12000")
+    board.next("battery", lambda s: s["level"] == OK)
+    board.call("set 11499")
+    assert board.next("battery", lambda s: s["level"] == WARN)["message"] == "value below 11500"
+    board.call("set 10999")
+    error = board.next("battery", lambda s: s["level"] == ERROR)
+    assert error["message"] == "value below 11000"
+    assert values(error)["mode waits"] == "true", "the node is not configured"
+    assert board.call("show")[2] == ["__DEFAULT__ 2"]
+    assert board.call("refuse")[0] == 0
+    assert board.call("activate")[0] == 0
+    board.next("battery", lambda s: values(s)["mode waits"] == "true")
+    board.call("accept")
+    assert board.next("battery", lambda s: values(s)["mode waits"] == "false")["level"] == ERROR
+    assert board.call("show")[2] == ["SLOW 2"]
+    problems = list(read_problems({"status": [error]}, ["arm/device"]))
+    assert problems == [("arm/device", "arm/device: battery", "value below 11000")]
+    board.call("set 11199")
+    assert board.next("battery", lambda s: values(s)["value"] == "11199")["level"] == ERROR
+    board.call("set 11200")
+    assert board.next("battery", lambda s: s["level"] == WARN)["message"] == "value below 11500"
+    board.call("set 11700")
+    assert board.next("battery", lambda s: s["level"] == OK)["message"] == "ok"
+    assert board.call("show")[2] == ["SLOW 0"]
+
+
+@pytest.mark.system
+def test_a_lost_session_is_told_after_it(program: Path, observer: Observer, relay: Relay, domain: int) -> None:
+    observer.subscribe(TOPIC, TYPE)
+    with running_agent(domain) as first:
+        relay.connect(first.port)
+        with started(program) as process:
+            board = Board(CommandedProgram(process), observer)
+            assert values(board.next("session", lambda s: s["level"] == OK))["reconnects"] == "0"
+            board.call("set 11400")
+            relay.connect(0)
+            first.stop()
+            with running_agent(domain) as second:
+                relay.connect(second.port)
+                lost = board.next("session", lambda s: values(s)["reconnects"] == "1")
+                assert (lost["level"], lost["message"]) == (WARN, "reconnects has changed")
+                assert board.next("session", lambda s: s["level"] == OK)
+                assert values(board.next("battery"))["value"] == "11400"
+                assert process.stdin is not None
+                process.stdin.write("end\n")
+                ends_well(process)
