@@ -189,7 +189,8 @@ def test_levels_and_the_requested_mode(board: Board) -> None:
 @pytest.mark.system
 def test_a_lost_session_is_told_after_it(program: Path, observer: Observer, relay: Relay, domain: int) -> None:
     observer.subscribe(TOPIC, TYPE)
-    with running_agent(domain) as first:
+    options = ("--domain", str(domain))
+    with running_agent(domain, *options) as first:
         relay.connect(first.port)
         with started(program) as process:
             board = Board(CommandedProgram(process), observer)
@@ -197,7 +198,7 @@ def test_a_lost_session_is_told_after_it(program: Path, observer: Observer, rela
             board.call("set 11400")
             relay.connect(0)
             first.stop()
-            with running_agent(domain) as second:
+            with running_agent(domain, *options) as second:
                 relay.connect(second.port)
                 lost = board.next("session", lambda s: values(s)["reconnects"] == "1")
                 assert (lost["level"], lost["message"]) == (WARN, "reconnects has changed")

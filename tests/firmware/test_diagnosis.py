@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a board reports of itself over its serial line, compared with its memory; what that takes."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from tests.support.agent.observer import Observer
+from tests.support.firmware.board import Builds, board, need
+from tests.support.firmware.footprint import bounded_stack, image_sections, touched_stack
+from tests.support.firmware.running import started
+from tests.support.patience import deadline
+
+NAME = "qemu-mps2-an386"
+PLAIN = """\
+version: 1
+profiles: [pure_sender]
+errors: code
+session: {connect_timeout: 20 s, create_timeout: 20 s, liveliness_timeout: 20 s}
+nodes:
+  - name: device
+    namespace: /arm
+    timers: [{name: tick, period: 20 ms}]
+"""
+APPLICATION = f"""\
+{PLAIN}components: [+timers, +executor, +diagnosis]
+diagnosis:
+  period: 500 ms
+  stack: {{warn: 35, error: 90}}
+  checks: [{{name: heat, above: {{error: 80}}}}]
+"""
+USED = 3000
+"""Bytes of the stack that the program uses after some seconds."""
+
+
+def statuses(observer: Observer, name: str, seen: Callable[[dict[str, str], dict[str, Any]], object]) -> dict[str, Any]:
+    end = deadline(60)
+    while True:
+        for topic, array in observer.ask(do="samples"):
+            for status in array["status"] if topic == "/diagnostics" else ():
+                values = {pair["key"]: pair["value"] for pair in status["values"]}
+                if status["name"] == f"arm/device: {name}" and seen(values, status):
+                    return {**status, "values": values}
+        assert time.monotonic() < end, name
+        time.sleep(0.02)
+
+
+@pytest.mark.system
+@pytest.mark.ros
+@pytest.mark.parametrize("name", [NAME, "qemu-riscv32-virt"])
+def test_the_stack_is_what_the_memory_says(
+    builds: Builds, domain: int, observer: Observer, name: str
+) -> None:
+    """The paint of the stack is looked at from outside; the share of the processor is that of a board that waits."""
+    need(name, emulator=True)
+    built = builds.merged(name, APPLICATION)
+    image = builds.application(built, "diagnosis.c")
+    observer.subscribe("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray")
+    with (
+        board(built, image) as running,
+        started("agent", "serial", "--dev", running.device, "--domain", str(domain), domain=domain) as agent,
+    ):
+        agent.wait_for("agent ready")
+        running.go_on()
+        before = statuses(observer, "stack", lambda values, status: int(values["peak"]) > 0)
+        heat = statuses(observer, "heat", lambda values, status: True)
+        executor = statuses(observer, "executor", lambda values, status: values["cpu_percent"] != "unknown")
+        reset = statuses(observer, "reset", lambda values, status: True)
+        running.wait_for(lambda: running.words("diagnosis_report", 2)[1] > 200, 60)
+        used = int(before["values"]["peak"]) + USED // 2
+        after = statuses(observer, "stack", lambda values, status: int(values["peak"]) > used)
+        touched = touched_stack(running, built, image)
+        symbols = built.symbols(image)
+    assert int(after["values"]["size"]) == symbols["port_stack_high"] - symbols["port_stack_low"]
+    assert 0 <= touched - int(after["values"]["peak"]) <= 64, "an interrupt may have come deeper since"
+    assert USED <= int(after["values"]["peak"]) <= USED + bounded_stack(built, image)
+    percent = int(after["values"]["used_percent"])
+    assert abs(percent - 100 * int(after["values"]["peak"]) // int(after["values"]["size"])) <= 1
+    assert after["level"] == (1 if percent > 35 else 0)
+    assert heat["values"] == {"value": "-40", "error": "80"}
+    assert int(executor["values"]["cpu_percent"]) <= 100
+    assert int(executor["values"]["rounds"]) > 0
+    assert reset["values"] == {"cause": "unknown"}
