@@ -28,6 +28,7 @@ nodes:
 """
 APPLICATION = f"""\
 {PLAIN}components: [+timers, +executor, +diagnosis]
+memory: {{stack: 8 KiB}}
 diagnosis:
   period: 500 ms
   stack: {{warn: 35, error: 90}}

@@ -246,7 +246,7 @@ def _own_checks(declared: DiagnosisDecl, cpu: bool, stack: bool, supply: bool) -
     if cpu:
         yield _measure("executor", "cpu_percent", declared.cpu, "rcl_diagnosis_busy()")
     if stack:
-        percent = "(int32_t)(port_stack_peak() / ((port_stack_size() + 99u) / 100u))"
+        percent = "(int32_t)(port_stack_peak() * 100u / port_stack_size())"
         yield _measure("stack", "used_percent", declared.stack, percent)
     if supply:
         yield _measure("supply", "supply_mv", declared.supply, "(int32_t)port_supply_mv()", above=False)

@@ -4,7 +4,7 @@
 #include "microros/rcl_diagnosis.h"
 #include "microros/rcl_diagnosis_hooks.h"
 
-enum { SHORTEST_US = 1000 }; /* for a share in percent */
+enum { SHORTEST_US = 1000, PERCENT = 100 };
 
 typedef struct times_t {
   uint32_t since_us; /* begin of what is measured */
@@ -28,9 +28,14 @@ int32_t rcl_diagnosis_busy(void)
 {
   const uint32_t total_us = port_time_us() - times.since_us;
   const uint32_t busy_us = times.idle_us < total_us ? total_us - times.idle_us : 0u;
+  uint32_t share;
 
   rcl_diagnosis_times_begin();
-  return total_us < (uint32_t)SHORTEST_US ? -1 : (int32_t)(busy_us / ((total_us + 99u) / 100u));
+  if (total_us < (uint32_t)SHORTEST_US) {
+    return -1;
+  }
+  share = busy_us / (total_us / (uint32_t)PERCENT);
+  return share < (uint32_t)PERCENT ? (int32_t)share : (int32_t)PERCENT;
 }
 
 void rcl_diagnosis_rests(void)

@@ -16,7 +16,8 @@ extern "C" {
  * the same time. */
 uint32_t port_time_us(void);
 
-/* `stack_peak`, optional: return the high-water mark of the stack since the reset, and its size, bytes. */
+/* `stack_peak`, optional: return the high-water mark of the stack since the reset, and its size: bytes, at most 40 MB, the
+ * size never 0. */
 uint32_t port_stack_peak(void);
 uint32_t port_stack_size(void);
 

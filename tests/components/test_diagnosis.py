@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a device diagnoses of itself: which statuses an application has, sizes, reports, mistakes, and C units."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from microros_gen import compiler
+from microros_gen.components.diagnosis.plan import DiagnosisPlan
+from microros_gen.diagnostics import UserError
+from tests.support.components.rendered import UNITS, planned, rendered, run
+
+BARE = "version: 1\nprofiles: [pure_sender]\n"
+NODES = "nodes: [{name: device, namespace: /arm, timers: [{name: tick, period: 1 s}]}, {name: other}]\n"
+CHECKS = """\
+diagnosis:
+  period: 2 s
+  hardware_id: board-7
+  deadline: 50 ms
+  checks:
+    - {name: heat, above: {warn: 80, error: 90}, timeout: 5 s, mode: SAFE}
+    - {name: battery, unit: mV, below: {error: -5}, node: other}
+"""
+MODES = """\
+version: 1
+profiles: [managed_service]
+components: [+node_modes, +timers, +diagnosis]
+nodes:
+  - name: device
+    timers: [{name: tick, period: 1 s}]
+    parameters: [{name: speed, type: double, default: 0.5}]
+    modes: {SAFE: {speed: 0.25}}
+  - {name: other}
+"""
+
+
+def slice_of(found: compiler.Planned) -> DiagnosisPlan:
+    part = found.project.runtime.features.of("diagnosis")
+    assert isinstance(part, DiagnosisPlan)
+    return part
+
+
+def names(found: compiler.Planned) -> list[str]:
+    return [status.name for status in slice_of(found).statuses]
+
+
+def test_statuses_follow_from_what_is_selected(tmp_path: Path) -> None:
+    alone = planned(tmp_path, f"{BARE}components: [+diagnosis]\nnodes: [{{name: device}}]\n")
+    assert names(alone) == ["device: errors", "device: session"]
+    part = slice_of(alone)
+    assert (part.period_ms, part.times, part.missing) == (
+        1000,
+        False,
+        "CPU share, stack, reset cause, supply voltage",
+    )
+    more = planned(tmp_path, f"{BARE}components: [+diagnosis, +timers, +executor]\nlogging: console\n{NODES}")
+    assert names(more) == [f"arm/device: {name}" for name in ("executor", "timers", "errors", "log", "session")]
+    assert slice_of(more).missing == "stack, reset cause, supply voltage"
+
+
+def test_a_board_has_its_stack(tmp_path: Path) -> None:
+    text = f"{BARE}components: [+diagnosis, +timers, +executor]\ntarget: qemu-mps2-an386\n{NODES}"
+    found = planned(tmp_path, text)
+    assert names(found)[:4] == [f"arm/device: {name}" for name in ("executor", "timers", "stack", "reset")]
+    assert slice_of(found).missing == "supply voltage"
+    rows = {row.capability.name: row.provider for row in found.project.provisions.rows}
+    assert rows["stack_peak"] == rows["reset_cause"] == "port_bare"
+    assert rows["microseconds"] == "port_cortex_m"
+    assert "supply_voltage" not in rows
+
+
+def test_what_the_application_measures(tmp_path: Path) -> None:
+    target = tmp_path / "mine.yaml"
+    target.write_text("target: mine\nextends: qemu-mps2-an386\nprovides: [supply_voltage, reset_cause]\n")
+    text = f"{BARE}components: [+diagnosis]\ntarget: {target}\n{NODES.replace(', timers: [{name: tick, period: 1 s}]', '')}"
+    found = planned(tmp_path, text + "diagnosis: {supply: {warn: 4750, error: 4500}}\n")
+    assert names(found)[-1] == "arm/device: supply"
+    part = slice_of(found)
+    assert part.missing == "CPU share"
+    (check,) = [check for check in part.checks if check.group == "supply"]
+    assert (check.key, check.warn, check.error, check.above) == ("supply_mv", 4750, 4500, False)
+    declared = {row.capability.name for row in found.project.provisions.of_application}
+    assert {"supply_voltage", "reset_cause"} <= declared
+
+
+def test_several_tasks_are_not_measured(tmp_path: Path) -> None:
+    """Their waits cannot be told apart: the share is left out rather than wrong."""
+    part = slice_of(
+        planned(tmp_path, f"{BARE}components: [+diagnosis, +timers, +executor, +multithread]\n{NODES}")
+    )
+    assert (part.times, part.cpu) == (False, False)
+    assert "CPU share" in part.missing
+
+
+def test_nothing_is_there_without_it(tmp_path: Path) -> None:
+    """Neither a member of the client nor a call of the hooks."""
+    out = rendered(tmp_path, f"{BARE}components: [+timers, +executor]\n{NODES}")
+    files = [path for path in (out / "src").rglob("*.c")] + [*(out / "include" / "microros").glob("*.h")]
+    text = "".join(path.read_text() for path in files)
+    assert "diagnosis" not in text
+    assert "rcl_timer_watch" in text
+
+
+MISTAKES = {
+    "period": ("period: 2 s", "period: 10 ms", "MG-3110", "Write period: 1 s"),
+    "order": ("error: 90", "error: 70", "MG-3111", "Exchange them"),
+    "twice": ("name: battery", "name: heat", "MG-3112", "Give each a different name"),
+    "no side": (", below: {error: -5}", "", "MG-3113", "Write either above"),
+    "two sides": ("below: {error: -5}", "below: {error: -5}, above: {error: 5}", "MG-3113", "Write either"),
+    "node": ("node: other", "node: othr", "MG-3114", "Did you mean 'other'?"),
+    "no error": ("{warn: 80, error: 90}", "{warn: 80}", "MG-3115", "Add `error`"),
+    "mode": ("mode: SAFE", "mode: SAFER", "MG-3116", "Did you mean 'SAFE'?"),
+    "key": ("period: 2 s", "perod: 2 s", "MG-1002", "Did you mean 'period'?"),
+    "name of the library": ("name: heat", "name: session", "MG-7099", "Choose another name"),
+    "supply": ("period: 2 s", "supply: {warn: 4750}", "MG-7097", "Define port_supply_mv"),
+}
+"""What is replaced, by what, and the id and hint of what is reported."""
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_mistakes_have_place_and_hint(tmp_path: Path, mistake: str) -> None:
+    old, new, identifier, hint = MISTAKES[mistake]
+    assert CHECKS.count(old) == 1
+    with pytest.raises(UserError) as error:
+        planned(tmp_path, MODES + CHECKS.replace(old, new))
+    found = [d for d in error.value.diagnostics if d.id == identifier]
+    assert found, str(error.value)
+    assert found[0].span is not None
+    assert hint in (found[0].hint or "")
+
+
+def test_a_deadline_needs_an_executor(tmp_path: Path) -> None:
+    text = f"{BARE}components: [+diagnosis]\nnodes: [{{name: device}}]\ndiagnosis: {{deadline: 5 ms}}\n"
+    with pytest.raises(UserError, match="no executor is selected"):
+        planned(tmp_path, text)
+
+
+def test_the_key_needs_the_component(tmp_path: Path) -> None:
+    with pytest.raises(UserError, match="diagnosis` needs|needs the component 'diagnosis'"):
+        planned(tmp_path, f"{BARE}nodes: [{{name: device}}]\ndiagnosis: {{}}\n")
+
+
+def test_a_message_that_does_not_fit_is_refused(tmp_path: Path) -> None:
+    text = f"{BARE}components: [+diagnosis]\ntransport: {{type: serial, mtu: 160}}\nnodes: [{{name: device}}]\n"
+    with pytest.raises(UserError, match="a status of the diagnosis takes"):
+        planned(tmp_path, text)
+
+
+def test_too_many_checks(tmp_path: Path) -> None:
+    checks = "".join(f"    - {{name: c{i}, above: {{warn: 1}}}}\n" for i in range(40))
+    text = f"{BARE}components: [+diagnosis]\nnodes: [{{name: device}}]\ndiagnosis:\n  checks:\n{checks}"
+    with pytest.raises(UserError, match="a device has 42 statuses, 32 at most"):
+        planned(tmp_path, text)
+
+
+@pytest.mark.system
+def test_limits_ages_requests_and_times(tmp_path: Path) -> None:
+    """Every limit from both sides, both clocks over their wraps."""
+    out = rendered(tmp_path, MODES + CHECKS)
+    parts = ("check", "judge", "times")
+    sources = [out / "src" / "diagnosis" / f"rcl_diagnosis_{part}.c" for part in parts]
+    sources += [out / "src" / "diagnosis" / "rclc_diagnosis.c", tmp_path / "tables.c"]
+    text = (out / "src" / "diagnosis" / "rcl_diagnosis_declared.c").read_text()
+    begin = text.index("const rcl_diagnosis_check_t")
+    (tmp_path / "tables.c").write_text(
+        '#include "microros/rcl_diagnosis.h"\n#include "microros/error.h"\n'
+        + text[begin : text.index("};", begin) + 2]
+        + "\nconst char microros_error_diagnosis[] = \"\";\n"
+        + "int32_t microros_error_named(int32_t result, microros_error_t error, const char * name)\n"
+        + "{ (void)error; (void)name; return result; }\n"
+    )
+    flags = ("-std=c99", "-Wall", "-Wextra", "-Werror", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+    program = tmp_path / "unit"
+    run("gcc", *flags, f"-I{out / 'include'}", UNITS / "unit_diagnosis.c", *sources, "-o", program)
+    assert run(program) == "ok\n"
+
+
+@pytest.mark.system
+@pytest.mark.parametrize("compiler_name", ["gcc", "clang"])
+@pytest.mark.parametrize("flags", [(), ("-m32",)], ids=["64", "32"])
+def test_it_compiles_without_a_warning(tmp_path: Path, compiler_name: str, flags: tuple[str, ...]) -> None:
+    out = rendered(tmp_path, f"{MODES}logging: rosout\n{CHECKS}")
+    warnings = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Werror")
+    sources = [*(out / "src" / "diagnosis").glob("*.c"), *(out / "src" / "node_modes").glob("*.c")]
+    for source in sources:
+        command = [compiler_name, "-std=c99", *warnings, *flags, f"-I{out / 'include'}", "-fsyntax-only", source]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
