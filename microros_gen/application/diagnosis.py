@@ -60,9 +60,7 @@ def _shown(time_us: int) -> str:
     return f"{time_us} us"
 
 
-def _limits(
-    node: YamlNode | None, what: str, above: bool, diagnostics: Diagnostics
-) -> LevelLimits | None:
+def _limits(node: YamlNode | None, what: str, above: bool, diagnostics: Diagnostics) -> LevelLimits | None:
     if node is None:
         return None
     warn, error = int_of(child(node, "warn")), int_of(child(node, "error"))

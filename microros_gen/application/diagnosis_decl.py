@@ -49,4 +49,3 @@ class DiagnosisDecl:
     span: Span | None = None
     hardware_span: Span | None = None
     deadline_span: Span | None = None
-

@@ -57,7 +57,9 @@ def test_statuses_follow_from_what_is_selected(tmp_path: Path) -> None:
         "CPU share, stack, reset cause, supply voltage",
     )
     more = planned(tmp_path, f"{BARE}components: [+diagnosis, +timers, +executor]\nlogging: console\n{NODES}")
-    assert names(more) == [f"arm/device: {name}" for name in ("executor", "timers", "errors", "log", "session")]
+    assert names(more) == [
+        f"arm/device: {name}" for name in ("executor", "timers", "errors", "log", "session")
+    ]
     assert slice_of(more).missing == "stack, reset cause, supply voltage"
 
 
@@ -75,7 +77,7 @@ def test_a_board_has_its_stack(tmp_path: Path) -> None:
 def test_what_the_application_measures(tmp_path: Path) -> None:
     target = tmp_path / "mine.yaml"
     target.write_text("target: mine\nextends: qemu-mps2-an386\nprovides: [supply_voltage, reset_cause]\n")
-    text = f"{BARE}components: [+diagnosis]\ntarget: {target}\n{NODES.replace(', timers: [{name: tick, period: 1 s}]', '')}"
+    text = f"{BARE}components: [+diagnosis]\ntarget: {target}\nnodes: [{{name: device, namespace: /arm}}]\n"
     found = planned(tmp_path, text + "diagnosis: {supply: {warn: 4750, error: 4500}}\n")
     assert names(found)[-1] == "arm/device: supply"
     part = slice_of(found)
@@ -98,7 +100,7 @@ def test_several_tasks_are_not_measured(tmp_path: Path) -> None:
 def test_nothing_is_there_without_it(tmp_path: Path) -> None:
     """Neither a member of the client nor a call of the hooks."""
     out = rendered(tmp_path, f"{BARE}components: [+timers, +executor]\n{NODES}")
-    files = [path for path in (out / "src").rglob("*.c")] + [*(out / "include" / "microros").glob("*.h")]
+    files = [*(out / "src").rglob("*.c"), *(out / "include" / "microros").glob("*.h")]
     text = "".join(path.read_text() for path in files)
     assert "diagnosis" not in text
     assert "rcl_timer_watch" in text
@@ -139,12 +141,14 @@ def test_a_deadline_needs_an_executor(tmp_path: Path) -> None:
 
 
 def test_the_key_needs_the_component(tmp_path: Path) -> None:
-    with pytest.raises(UserError, match="diagnosis` needs|needs the component 'diagnosis'"):
+    with pytest.raises(UserError, match="needs the component 'diagnosis', which nothing selects"):
         planned(tmp_path, f"{BARE}nodes: [{{name: device}}]\ndiagnosis: {{}}\n")
 
 
 def test_a_message_that_does_not_fit_is_refused(tmp_path: Path) -> None:
-    text = f"{BARE}components: [+diagnosis]\ntransport: {{type: serial, mtu: 160}}\nnodes: [{{name: device}}]\n"
+    text = (
+        f"{BARE}components: [+diagnosis]\ntransport: {{type: serial, mtu: 160}}\nnodes: [{{name: device}}]\n"
+    )
     with pytest.raises(UserError, match="a status of the diagnosis takes"):
         planned(tmp_path, text)
 
@@ -168,11 +172,18 @@ def test_limits_ages_requests_and_times(tmp_path: Path) -> None:
     (tmp_path / "tables.c").write_text(
         '#include "microros/rcl_diagnosis.h"\n#include "microros/error.h"\n'
         + text[begin : text.index("};", begin) + 2]
-        + "\nconst char microros_error_diagnosis[] = \"\";\n"
+        + '\nconst char microros_error_diagnosis[] = "";\n'
         + "int32_t microros_error_named(int32_t result, microros_error_t error, const char * name)\n"
         + "{ (void)error; (void)name; return result; }\n"
     )
-    flags = ("-std=c99", "-Wall", "-Wextra", "-Werror", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+    flags = (
+        "-std=c99",
+        "-Wall",
+        "-Wextra",
+        "-Werror",
+        "-fsanitize=address,undefined",
+        "-fno-sanitize-recover=all",
+    )
     program = tmp_path / "unit"
     run("gcc", *flags, f"-I{out / 'include'}", UNITS / "unit_diagnosis.c", *sources, "-o", program)
     assert run(program) == "ok\n"
@@ -186,6 +197,6 @@ def test_it_compiles_without_a_warning(tmp_path: Path, compiler_name: str, flags
     warnings = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Werror")
     sources = [*(out / "src" / "diagnosis").glob("*.c"), *(out / "src" / "node_modes").glob("*.c")]
     for source in sources:
-        command = [compiler_name, "-std=c99", *warnings, *flags, f"-I{out / 'include'}", "-fsyntax-only", source]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        command = [compiler_name, "-std=c99", *warnings, *flags, f"-I{out / 'include'}", "-fsyntax-only"]
+        done = subprocess.run([*command, source], capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr

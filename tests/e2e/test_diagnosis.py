@@ -31,7 +31,13 @@ diagnosis:
   hardware_id: board-7
   deadline: 50 ms
   checks:
-    - {name: battery, unit: mV, below: {warn: 11500, error: 11000}, hysteresis: 200, timeout: 60 s, mode: SLOW, node: device}
+    - name: battery
+      unit: mV
+      below: {warn: 11500, error: 11000}
+      hysteresis: 200
+      timeout: 60 s
+      mode: SLOW
+      node: device
 nodes:
   - name: device
     namespace: /arm
@@ -187,7 +193,9 @@ def test_levels_and_the_requested_mode(board: Board) -> None:
 
 
 @pytest.mark.system
-def test_a_lost_session_is_told_after_it(program: Path, observer: Observer, relay: Relay, domain: int) -> None:
+def test_a_lost_session_is_told_after_it(
+    program: Path, observer: Observer, relay: Relay, domain: int
+) -> None:
     observer.subscribe(TOPIC, TYPE)
     options = ("--domain", str(domain))
     with running_agent(domain, *options) as first:

@@ -199,12 +199,8 @@ def _check_measured(
         diagnostics.error(message, declared.supply.span, hint, id="MG-7097")
 
 
-def _check_size(
-    context: PlanContext, size: int, declared: DiagnosisDecl, diagnostics: Diagnostics
-) -> None:
-    room = min(
-        context.types[TYPE].max_encoded_size, context.runtime.streams.mtu - WRITE_DATA_OVERHEAD
-    )
+def _check_size(context: PlanContext, size: int, declared: DiagnosisDecl, diagnostics: Diagnostics) -> None:
+    room = min(context.types[TYPE].max_encoded_size, context.runtime.streams.mtu - WRITE_DATA_OVERHEAD)
     if size > room:
         message = f"a status of the diagnosis takes {size} bytes, and a message has room for {room}"
         hint = "Raise transport.mtu or the limits of diagnostic_msgs/msg/DiagnosticArray, or shorten texts"
@@ -234,7 +230,9 @@ def _contributed(context: PlanContext) -> Iterator[CounterRow]:
     """Yield the counters that the selected components contribute."""
     values = Values(context.runtime, context.selection, target=context.target)
     counters: Iterator[Counter] = (
-        counter for chosen in context.selection.components for counter in chosen.component.contributes.counters
+        counter
+        for chosen in context.selection.components
+        for counter in chosen.component.contributes.counters
     )
     for counter in counters:
         if values.holds(counter.when):

@@ -40,7 +40,7 @@ class CounterRow:
 
 @dataclass(frozen=True)
 class CheckRow:
-    """A check of a status. `value` is the expression in C of what the library measures; empty: the application sets it."""
+    """A check of a status. `value` is the expression in C of what is measured; empty: the application sets it."""
 
     group: str
     key: str
@@ -210,7 +210,11 @@ def _pairs_of(check: CheckRow) -> list[tuple[int, int]]:
     found = [(len(check.key), _LONGEST_NUMBER)]
     if check.unit:
         found.append((len("unit"), len(check.unit.encode())))
-    found += [(len(key), _LONGEST_NUMBER) for key, limit in (("warn", check.warn), ("error", check.error)) if limit is not None]
+    found += [
+        (len(key), _LONGEST_NUMBER)
+        for key, limit in (("warn", check.warn), ("error", check.error))
+        if limit is not None
+    ]
     if check.mode:
         found += [(len("mode"), len(check.mode.encode())), (len("mode waits"), len("false"))]
     return found

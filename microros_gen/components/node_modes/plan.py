@@ -93,9 +93,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> NodeModesPlan:
         diagnostics.extend(longer_than_limits(application, _written(node), "the value"))
         _check_texts(node, diagnostics)
     checks = application.diagnosis.checks if application.diagnosis is not None else ()
-    return NodeModesPlan(
-        declared=tuple(_nodes(application)), requested=any(check.mode for check in checks)
-    )
+    return NodeModesPlan(declared=tuple(_nodes(application)), requested=any(check.mode for check in checks))
 
 
 def _written(node: NodeDecl) -> Iterator[ParameterDecl]:
