@@ -8,8 +8,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from microros_gen.application.model import ParameterDecl, ParameterRule, Scalar
+from microros_gen.application.parameter_refusals import RANGE_ENDS
 from microros_gen.application.parameter_rules import refusal
-from microros_gen.application.parameters import RANGE_ENDS, scalar_of
+from microros_gen.application.parameters import scalar_of
 from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.documents.tree_values import items
 from microros_gen.documents.yaml_tree import Entry, SequenceNode, YamlNode

@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Iterator, Mapping
 
 from microros_gen.application.model import ParameterDecl
+from microros_gen.application.parameter_refusals import RANGE_ENDS, Cause, refusals
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Span
 from microros_gen.documents.tree_values import bool_of, child, items, number_of, size_of, span_of, text_of
 from microros_gen.documents.yaml_tree import ScalarNode, SequenceNode, YamlNode
@@ -21,14 +21,13 @@ _VALUE_TYPES: Mapping[str, tuple[type, ...]] = {
     "string": (str,),
 }
 _NUMBERS = ("integer", "double")
-RANGE_ENDS: Mapping[str, tuple[int | float, int | float]] = {
-    "integer": (-(2**63), 2**63 - 1),
-    "double": (-sys.float_info.max, sys.float_info.max),
-}
-"""Smallest and largest number of a range, for an end that nobody has set."""
 _LIMITS = {"byte": (0, 255), "integer": RANGE_ENDS["integer"]}
-_CLOSE = 1e-9
-"""How far from a whole number of steps a floating-point default may be."""
+_REFUSED: Mapping[Cause, tuple[str, str]] = {
+    Cause.RANGE: ("not in its range", "MG-3006"),
+    Cause.STEP: ("between two steps of its range", "MG-3062"),
+    Cause.SIZE: ("longer than its size", "MG-3007"),
+    Cause.CHOICE: ("none of its values", "MG-3056"),
+}
 _Scalar = bool | int | float | str
 
 
@@ -154,41 +153,9 @@ def _refusals(
     parameter: ParameterDecl, value: _Scalar | tuple[_Scalar, ...], span: Span, what: str
 ) -> Iterator[Diagnostic]:
     """Yield why the device would refuse the value."""
-    low, high = parameter.minimum, parameter.maximum
-    if isinstance(value, (int, float)) and low is not None and high is not None:
-        if not low <= value <= high:
-            yield Diagnostic(f"{what} is not in its range", span, _range_words(parameter), id="MG-3006")
-        elif parameter.step and value != high and not _is_step(value - low, parameter.step):
-            hint = f"Its values are {parameter.step} apart, from {low}"
-            yield Diagnostic(f"{what} is between two steps of its range", span, hint, id="MG-3062")
-    size = len(value.encode()) if isinstance(value, str) else len(value) if isinstance(value, tuple) else 0
-    if parameter.size is not None and size > parameter.size:
-        yield Diagnostic(f"{what} is longer than its size", span, f"Set size: {size}", id="MG-3007")
-    if parameter.one_of and value not in parameter.one_of:
-        hint = f"Available: {', '.join(map(str, parameter.one_of))}"
-        yield Diagnostic(f"{what} is none of its values", span, hint, id="MG-3056")
-
-
-def _range_words(parameter: ParameterDecl) -> str:
-    """Return a hint with the ends of a range; rules of a parameter file may set one end, or exclude it."""
-    excluded = {rule.name: rule.values[0] for rule in parameter.rules if rule.name in ("gt", "lt")}
-    first, last = RANGE_ENDS[parameter.type]
-    low = f"above {excluded['gt']}" if "gt" in excluded else f"from {parameter.minimum} on"
-    high = f"below {excluded['lt']}" if "lt" in excluded else f"up to {parameter.maximum}"
-    if "gt" not in excluded and parameter.minimum == first:
-        return f"Write a number {high}"
-    if "lt" not in excluded and parameter.maximum == last:
-        return f"Write a number {low}"
-    if excluded:
-        return f"Write a number {low} and {high}"
-    return f"It goes from {parameter.minimum} to {parameter.maximum}"
-
-
-def _is_step(distance: int | float, step: int | float) -> bool:
-    if isinstance(distance, int) and isinstance(step, int):
-        return distance % step == 0
-    steps = distance / step
-    return math.isclose(steps, round(steps), rel_tol=_CLOSE, abs_tol=_CLOSE)
+    for refusal in refusals(parameter, value):
+        words, identifier = _REFUSED[refusal.cause]
+        yield Diagnostic(f"{what} is {words}", span, refusal.hint, id=identifier)
 
 
 def _check_range(parameter: ParameterDecl, span: Span | None, diagnostics: Diagnostics) -> None:

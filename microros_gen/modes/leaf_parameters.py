@@ -3,17 +3,23 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator, Mapping
 
 from microros_gen.application.model import NodeDecl, ParameterDecl
+from microros_gen.application.parameter_refusals import Cause, refusals
+from microros_gen.application.parameter_validation import check_rules
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Span, nearest
 from microros_gen.modes.model import DEFAULT, Model, Part, Value
 from microros_gen.modes.report import PROVEN, REFUTED, Property
 from microros_gen.modes.templates import possible_values
 
-_CLOSE = 1e-9
-"""How far from a whole number of steps a value may be."""
+_REFUSED: Mapping[Cause, tuple[str, str, str]] = {
+    Cause.RANGE: ("out of the node's range", "", "MG-8855"),
+    Cause.STEP: ("between two steps of the node's range", "", "MG-8856"),
+    Cause.SIZE: ("longer than its storage in the node", " in the application file", "MG-8857"),
+    Cause.CHOICE: ("none of those that the node accepts", "", "MG-8858"),
+}
+"""What is said of each cause, what follows the hint, and the identifier."""
 
 
 def check_parameters(model: Model, nodes: Iterable[NodeDecl], diagnostics: Diagnostics) -> Property:
@@ -76,23 +82,15 @@ def _refusals(parameter: ParameterDecl, value: Value) -> Iterator[Diagnostic]:
     if parameter.read_only and value.value != parameter.default:
         message = f"the parameter '{parameter.name}' is read-only in the node, and a mode changes it"
         yield Diagnostic(message, hint="Leave it out of the modes", id="MG-8854")
-    number, low, high = value.value, parameter.minimum, parameter.maximum
-    if isinstance(number, (int, float)) and low is not None and high is not None:
-        if not low <= number <= high:
-            hint = f"It goes from {low} to {high}"
-            yield Diagnostic(f"{what}, {number}, is out of the node's range", hint=hint, id="MG-8855")
-        elif parameter.step and number != high and not _is_step(number - low, parameter.step):
-            hint = f"Its values are {parameter.step} apart, from {low}"
-            yield Diagnostic(
-                f"{what}, {number}, is between two steps of the node's range", hint=hint, id="MG-8856"
-            )
-    size = _size(value)
-    if parameter.size is not None and size > parameter.size:
-        hint = f"Set size: {size} in the application file"
-        yield Diagnostic(f"{what} is longer than its storage in the node", hint=hint, id="MG-8857")
-    if parameter.one_of and value.value not in parameter.one_of:
-        hint = f"Available: {', '.join(map(str, parameter.one_of))}"
-        yield Diagnostic(f"{what} is none of those that the node accepts", hint=hint, id="MG-8858")
+    if value.value is None:
+        return
+    for refusal in refusals(parameter, value.value):
+        words, hint, identifier = _REFUSED[refusal.cause]
+        number = f", {value.value}," if refusal.cause in (Cause.RANGE, Cause.STEP) else ""
+        yield Diagnostic(f"{what}{number} is {words}", hint=f"{refusal.hint}{hint}", id=identifier)
+    found = Diagnostics()
+    check_rules(parameter, value.value, value.span, what, found)
+    yield from found
 
 
 def _has_type(declared: str, value: Value) -> bool:
@@ -102,16 +100,3 @@ def _has_type(declared: str, value: Value) -> bool:
             isinstance(e, int) and 0 <= e <= 255 for e in elements
         )
     return declared == value.type
-
-
-def _size(value: Value) -> int:
-    """Return bytes of a text, elements of a list; 0 of everything else."""
-    if isinstance(value.value, str):
-        return len(value.value.encode())
-    return len(value.value) if isinstance(value.value, tuple) else 0
-
-
-def _is_step(distance: int | float, step: int | float) -> bool:
-    if isinstance(distance, int) and isinstance(step, int):
-        return distance % step == 0
-    return math.isclose(distance / step, round(distance / step), rel_tol=_CLOSE, abs_tol=_CLOSE)

@@ -124,3 +124,47 @@ other:
     found = "\n".join(findings(checked(tmp_path, others)))
     assert "microros.yaml:13:28: error: the parameter 'limit' is the one of a parent" in found
     assert "MG-8827" in found
+
+
+VALIDATED = """\
+version: 1
+profiles: [managed_service]
+nodes:
+  - name: joint
+    parameters: {file: parameters.yaml}
+"""
+PARAMETERS = """\
+joint:
+  speed: {type: double, default_value: 1.0, validation: {gt<>: [0.0]}}
+  share: {type: double, default_value: 0.5, validation: {gt<>: [0.0], lt<>: [1.0]}}
+  count: {type: int, default_value: 3, validation: {gt_eq<>: [2]}}
+  name: {type: string, default_value: "a", validation: {not_empty<>: null}}
+"""
+NODE = """\
+joint:
+  ros__parameters:
+    type: node
+    modes:
+      __DEFAULT__: {ros__parameters: {speed: 1.0, share: 0.5, count: 3, name: "a"}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "identifier", "hint"),
+    [
+        ("speed: 1.0", "speed: 0.0", "MG-8855", "Write a number above 0.0"),
+        ("share: 0.5", "share: 1.0", "MG-8855", "Write a number above 0.0 and below 1.0"),
+        ("count: 3", "count: 1", "MG-8855", "Write a number from 2 on"),
+        ('name: "a"', 'name: ""', "MG-3077", "Change one of them: Parameter 'name' cannot be empty"),
+    ],
+)
+def test_validation_of_a_parameter_file(
+    tmp_path: Path, old: str, new: str, identifier: str, hint: str
+) -> None:
+    """Ends of a range that are excluded, or that nobody has set, are not shown as numbers."""
+    (tmp_path / "parameters.yaml").write_text(PARAMETERS, encoding="utf-8")
+    assert findings(checked(tmp_path, NODE, VALIDATED)) == []
+    (found,) = findings(checked(tmp_path, NODE.replace(old, new), VALIDATED))
+    assert "model.yaml:5:" in found
+    assert hint in found
+    assert identifier in found
