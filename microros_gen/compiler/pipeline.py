@@ -118,7 +118,7 @@ def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
     _check_interfaces_have_a_use(application, selection, diagnostics)
     diagnostics.check()
     application = with_profile_nodes(application, resolved)
-    application = with_endpoints(with_implied(application, selection, diagnostics), selection)
+    application = with_endpoints(with_implied(application, selection, catalogue, diagnostics), selection)
     application = with_limits(application, selection)
     found = replace(request.found_target, target=with_emulated_console(target, selection))
     application = with_clock(application, selection, diagnostics)

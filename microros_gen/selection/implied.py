@@ -15,12 +15,14 @@ from microros_gen.application.model import (
     NodeDecl,
 )
 from microros_gen.diagnostics import Diagnostics, nearest
-from microros_gen.selection.component import Implied
+from microros_gen.selection.component import Catalogue, Component, Implied
 from microros_gen.selection.model import Selection
 from microros_gen.selection.profile_nodes import with_default_node
 
 
-def with_implied(application: Application, selection: Selection, diagnostics: Diagnostics) -> Application:
+def with_implied(
+    application: Application, selection: Selection, catalogue: Catalogue, diagnostics: Diagnostics
+) -> Application:
     """Return the application with the endpoints that its components imply, before its own ones.
 
     With `nodes:` an endpoint belongs to the first node, or one to every node. Without them the library opens
@@ -30,7 +32,7 @@ def with_implied(application: Application, selection: Selection, diagnostics: Di
     changes = {change.name: change for change in application.endpoints}
     once = _endpoints(selection, changes, every_node=False)
     each = _endpoints(selection, changes, every_node=True)
-    _check_changes(application, (*once, *each), diagnostics)
+    _check_changes(application, (*once, *each), catalogue, diagnostics)
     chosen = [item.component for item in selection.components]
     application = with_default_node(application, chosen)
     if application.nodes:
@@ -94,7 +96,10 @@ def _below(rule: LimitRule, type_name: str) -> LimitRule:
 
 
 def _check_changes(
-    application: Application, endpoints: Iterable[EndpointDecl], diagnostics: Diagnostics
+    application: Application,
+    endpoints: Iterable[EndpointDecl],
+    catalogue: Catalogue,
+    diagnostics: Diagnostics,
 ) -> None:
     """Report each change of an endpoint that no selected component opens, or of a queue that it does not have."""
     kinds = {endpoint.topic: KIND[endpoint.kind] for endpoint in endpoints}
@@ -102,11 +107,19 @@ def _check_changes(
         kind = kinds.get(change.name)
         if kind is None:
             message = f"no selected component opens an endpoint '{change.name}'"
-            hint = nearest(change.name, kinds) or "Endpoints of `nodes:` have their settings there"
+            opening = next((c for c in catalogue.values() if _opens(c, change.name)), None)
+            hint = (
+                f"Add `components: [+{opening.name}]`" if opening is not None else nearest(change.name, kinds)
+            )
+            hint = hint or "Endpoints of `nodes:` have their settings there"
             diagnostics.error(message, change.span, hint, id="MG-4049")
         elif change.queue is not None and not kind.receives:
             message = f"the {kind.name} '{change.name}' has no queue"
             diagnostics.error(message, change.span, "Remove `queue`, or write `depth`", id="MG-4050")
+
+
+def _opens(component: Component, name: str) -> bool:
+    return component.ready and any(implied.name == name for implied in component.implies)
 
 
 def _with(node: NodeDecl, endpoints: tuple[EndpointDecl, ...]) -> NodeDecl:
