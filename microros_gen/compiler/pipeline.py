@@ -325,7 +325,9 @@ def _capacities(resolved: Resolved, interfaces: InterfaceSet, diagnostics: Diagn
     ]
     known = {root.type for root in declared}
     # A declared service exchanges a request and a response; its event, which ROS 2 derives, needs no limits.
-    known |= {event_name(r.type) for r in declared if r.entity is not None and KIND[r.entity.kind].service_type}
+    known |= {
+        event_name(r.type) for r in declared if r.entity is not None and KIND[r.entity.kind].service_type
+    }
     roots = declared + [
         _root(name, application, room) for name in interfaces.message_roots if name not in known
     ]

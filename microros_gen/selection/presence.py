@@ -28,7 +28,7 @@ _WIDE = {"ls": "S", "lc": "C"}
 class ExamplePart(Conditional):
     """Its part of the example: headers that this includes, and `handles` that its first executor has for it.
 
-    `handles` is a number, or the path of one in the plan; an include can be the path of a list of headers.
+    `handles` is a number, or the path of one in the plan.
     """
 
     includes: tuple[str, ...] = ()

@@ -100,13 +100,18 @@ def test_a_goal_with_feedback_and_result(server: Server) -> None:
     for numbers in (1, 3):
         server.ok(f"feedback 0 {numbers}")
     feedback: list[Any] = []
-    server.until(lambda: len(feedback.extend(server.peer.ask(do="feedback")) or feedback) == 2)
+
+    def two_came() -> bool:
+        feedback.extend(server.peer.ask(do="feedback"))
+        return len(feedback) == 2
+
+    server.until(two_came)
     assert feedback == [[0, [0]], [0, [0, 1, 2]]]
     server.ok(f"end 0 {SUCCEEDED} 8")
     assert server.peer.result(0) == [SUCCEEDED, FIBONACCI]
     # The history has the last status alone, so an agent may overtake the first one.
-    seen: list[Any] = []
-    server.until(lambda: bool(seen.extend(server.peer.ask(do="statuses")) or seen[-1:] == [[[0, SUCCEEDED]]]))
+    server.until(lambda: server.peer.ask(do="statuses")[-1:] == [[[0, SUCCEEDED]]])
+    seen = server.peer.ask(do="statuses")
     states = list(dict.fromkeys(message[0][1] for message in seen if message))
     assert states in ([ACCEPTED, EXECUTING, SUCCEEDED], [EXECUTING, SUCCEEDED])
 
@@ -247,9 +252,7 @@ def test_a_result_above_its_limit_leaves_the_goal_active(server: Server) -> None
     assert server.program.call("feedback 0 1")[0] == 11
 
 
-def test_the_agent_restarts_in_the_middle_of_a_goal(
-    program: Path, image_port: Relay, domain: int
-) -> None:
+def test_the_agent_restarts_in_the_middle_of_a_goal(program: Path, image_port: Relay, domain: int) -> None:
     """The goal goes on without an agent; its states are published again, and its result is there for who asks."""
     with action_peer(domain) as peer:
         options = (domain, "--domain", str(domain), "--client-timeout", "3")

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 from jinja2 import Environment
@@ -42,20 +41,12 @@ def render_example(project: Project, environment: Environment, heading: str = ""
         for part in chosen.component.presence.example
         if values.holds(part.when)
     ]
-    includes = tuple(header for _, part in found for header in _headers(part, values))
+    includes = tuple(include for _, part in found for include in part.includes)
     handles = sum(_handles(part, values) for _, part in found)
     view = example_view(project, includes, handles, has_parts=bool(found))
     view = replace(view, heading=heading) if heading else view
     parts = _joined([_rendered(component, values, view, environment) for component, _ in found])
     return environment.get_template("example/main.c.j2").render(view=view, parts=parts).encode()
-
-
-def _headers(part: ExamplePart, values: Values) -> Iterator[str]:
-    """Yield the headers that a part includes, those of the plan too."""
-    for include in part.includes:
-        planned = (include,) if include.endswith(".h") else values.value(include)
-        if isinstance(planned, tuple):
-            yield from planned
 
 
 def _handles(part: ExamplePart, values: Values) -> int:

@@ -83,8 +83,8 @@ def render_project(
     )
     of_components = frozenset(rendered)
     pools = frozenset(pool.kind for pool in project.runtime.memory.message_pools)
-    services, actions = project.selection.has("services"), project.selection.has("actions")
-    rendered |= _free(of_components, render_types(project.types, environment, services, pools, fork, actions))
+    services = project.selection.has("services")
+    rendered |= _free(of_components, render_types(project.types, environment, services, pools, fork))
     rendered |= render_decoders(project.types, environment)
     if project.selection.has("micro_ros_utilities"):
         rendered |= render_members(project.types, environment, pools)

@@ -17,7 +17,7 @@ from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.dds_names import dds_type
 from microros_gen.interfaces.derived import derived_name
 from microros_gen.records import dataclass
-from microros_gen.typesupport.plan.names import c_name, include_path, type_files
+from microros_gen.typesupport.plan.names import c_name, include_path
 
 _CANCEL = "action_msgs/srv/CancelGoal"
 _STATUS = "action_msgs/msg/GoalStatusArray"
@@ -28,11 +28,20 @@ TOPICS = ("feedback", "status")
 
 
 @dataclass(frozen=True)
+class GoalStorage:
+    """Storage of goal requests: `name` begins its C names, and `buffers` are those that a request must not have."""
+
+    name: str
+    header: str
+    buffers: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class ActionServer:
     """A server: `c_type` begins the C names of its type; `send_goal` and `get_result` are DDS names of service types.
 
-    `places` in the table of declared endpoints, in the order of SERVICES and TOPICS. `storage` begins the C names of
-    the storage of a goal request, whose `buffers` are empty then; empty: nothing of it has a variable size.
+    `places` in the table of declared endpoints, in the order of SERVICES and TOPICS. `storages` has one element, or
+    none where a goal request has no variable size.
     """
 
     index: int
@@ -41,20 +50,17 @@ class ActionServer:
     package: str
     type: str
     c_type: str
-    header: str
     send_goal: str
     get_result: str
     places: tuple[int, ...]
     goals: int
     result_timeout_ms: int
-    storage: str = ""
-    storage_header: str = ""
-    buffers: tuple[str, ...] = ()
+    storages: tuple[GoalStorage, ...] = ()
 
     @property
     def binder(self) -> str:
         """Return the C function that binds a goal request to storage; NULL where it needs none."""
-        return f"server_{self.index}_bind" if self.storage else "NULL"
+        return f"server_{self.index}_bind" if self.storages else "NULL"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,14 +86,9 @@ class ActionServerPlan:
         return ", ".join(f"{server.name} ({server.goals} at once)" for server in self.servers)
 
     @property
-    def types(self) -> tuple[str, ...]:
-        """Return the headers of the types, sorted."""
-        return tuple(sorted({server.header for server in self.servers}))
-
-    @property
-    def headers(self) -> tuple[str, ...]:
-        """Return the headers of the types and of their storage, sorted."""
-        return tuple(sorted({*self.types, *(s.storage_header for s in self.servers if s.storage)}))
+    def storage_headers(self) -> tuple[str, ...]:
+        """Return the headers of storage of goal requests, sorted."""
+        return tuple(sorted({storage.header for server in self.servers for storage in server.storages}))
 
 
 def endpoints(node: NodeDecl) -> Iterator[EndpointDecl]:
@@ -141,6 +142,11 @@ def _server(context: PlanContext, index: int, at: int, node: NodeDecl, action: A
     places = tuple(_place(context, at, f"{action.name}/_action/{part}") for part in (*SERVICES, *TOPICS))
     messages = {name: plan.message for name, plan in context.types.items()}
     goal = full_name(node, EndpointDecl("service", f"{action.name}/_action/{SERVICES[0]}", action.type))
+    storage = GoalStorage(
+        request.storage_name(goal),
+        include_path(request.files.storage),
+        tuple(buffers_of(request.message, messages)),
+    )
     return ActionServer(
         index=index,
         node=at,
@@ -148,15 +154,12 @@ def _server(context: PlanContext, index: int, at: int, node: NodeDecl, action: A
         package=kind.package,
         type=kind.name,
         c_type=c_name(kind),
-        header=include_path(type_files(kind).header),
         send_goal=dds_type(derived_name(kind, "SendGoal")),
         get_result=dds_type(derived_name(kind, "GetResult")),
         places=places,
         goals=action.goals,
         result_timeout_ms=action.result_timeout_ms,
-        storage=request.storage_name(goal) if request.storage else "",
-        storage_header=include_path(request.files.storage) if request.storage else "",
-        buffers=tuple(buffers_of(request.message, messages)) if request.storage else (),
+        storages=(storage,) if request.storage else (),
     )
 
 
@@ -176,7 +179,8 @@ def record(part: ActionServerPlan) -> object:
     """Return what the plan id is made of."""
     return {
         "servers": [
-            [s.node, s.name, s.c_type, list(s.places), s.goals, s.result_timeout_ms, s.storage]
+            [s.node, s.name, s.c_type, list(s.places), s.goals, s.result_timeout_ms]
+            + [[storage.name, list(storage.buffers)] for storage in s.storages]
             for s in part.servers
         ],
         "result": part.result_size,

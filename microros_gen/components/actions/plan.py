@@ -1,27 +1,57 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a goal's handle has room for."""
+"""The declared types of actions, and what a goal's handle has room for."""
 
 from __future__ import annotations
 
+from microros_gen.client.plan.declared import type_name
 from microros_gen.client.plan.features import PlanContext
 from microros_gen.diagnostics import Diagnostics
+from microros_gen.interfaces.dds_names import dds_type
+from microros_gen.interfaces.derived import derived_name
+from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
+from microros_gen.typesupport.plan.names import c_name, include_path, type_files
+
+
+@dataclass(frozen=True)
+class ActionType:
+    """A type: `name` begins its C names, the others are DDS names of itself and of its services."""
+
+    name: str
+    header: str
+    dds_type: str
+    send_goal: str
+    get_result: str
 
 
 @dataclass(frozen=True, kw_only=True)
 class ActionsPlan:
-    """`result_requests` for one goal wait for its end."""
+    """`types` by name; `result_requests` for one goal wait for its end."""
 
+    types: tuple[ActionType, ...]
     result_requests: int
 
 
 def plan(context: PlanContext, diagnostics: Diagnostics) -> ActionsPlan:
-    """Return the largest number of a server; without servers 1, since a C array has an element."""
+    """Return the types that nodes declare; without servers one request has room, since a C array has an element."""
     del diagnostics
-    waiting = (action.waiting for node in context.application.nodes for action in node.actions)
-    return ActionsPlan(result_requests=max(waiting, default=1))
+    declared = [action for node in context.application.nodes for action in node.actions]
+    return ActionsPlan(
+        types=tuple(_type(name) for name in sorted({type_name(action.type) for action in declared})),
+        result_requests=max((action.waiting for action in declared), default=1),
+    )
+
+
+def _type(name: TypeName) -> ActionType:
+    return ActionType(
+        c_name(name),
+        include_path(type_files(name).header),
+        dds_type(name),
+        dds_type(derived_name(name, "SendGoal")),
+        dds_type(derived_name(name, "GetResult")),
+    )
 
 
 def record(part: ActionsPlan) -> object:
     """Return what the plan id is made of."""
-    return {"result_requests": part.result_requests}
+    return {"types": [kind.name for kind in part.types], "result_requests": part.result_requests}

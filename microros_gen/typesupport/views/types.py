@@ -34,17 +34,6 @@ class ServiceView:
     dds_name: str
 
 
-@dataclass(frozen=True)
-class ActionView:
-    """The handle of an action type: what its C names begin with, its function, and its names on the wire."""
-
-    name: str
-    handle: str
-    dds_name: str
-    send_goal: str
-    get_result: str
-
-
 _WORTH_A_PROCESS = 200
 """Headers of messages, of which half take as long as starting a process and copying the memory that it touches."""
 
@@ -55,18 +44,17 @@ def render_types(
     services: bool = False,
     pools: Collection[str] = (),
     fork: bool = False,
-    actions: bool = False,
 ) -> dict[str, bytes]:
     """Return path → contents of every file of the types, in the order of the plans.
 
-    `type_plans` must hold every type that one of them is made of. `services`: service types get handles, `actions`: action types.
+    `type_plans` must hold every type that one of them is made of. `services`: service types get handles.
     `pools` are the kinds of elements that messages which are sent have storage for. `fork`: where they are many,
     another process prints half of them (`compute_ahead` says where that is possible).
     """
     files: dict[str, list[TypePlan]] = {}
     for plan in type_plans:
         files.setdefault(plan.files.header, []).append(plan)
-    renderer = _Renderer(type_plans, environment, services, pools, actions)
+    renderer = _Renderer(type_plans, environment, services, pools)
     headers = list(files.values())
     half = len(headers) // 2
     ahead = (
@@ -88,7 +76,6 @@ class _Renderer:
         environment: Environment,
         services: bool,
         pools: Collection[str],
-        actions: bool,
     ) -> None:
         self._files: dict[str, bytes] = {}
         self._plans = {plan.name: plan for plan in type_plans}
@@ -96,7 +83,6 @@ class _Renderer:
         self._environment = environment
         self._services = services
         self._pools = frozenset(pools)
-        self._actions = actions
 
     def printed(self, headers: Iterable[Sequence[TypePlan]]) -> dict[str, bytes]:
         """Return every file of messages, which come by their headers."""
@@ -117,18 +103,13 @@ class _Renderer:
         if encoded:
             own.append(paths.type_support)
             service = _service(plans) if self._services else None
-            action = _action(plans) if self._actions else None
-            handles = {"service": service, "action": action}
-            header = {**_file(plans, paths.type_support, encoded, "header_includes"), **handles}
-            source = {**_file(plans, paths.type_support, encoded), **handles}
+            header = {**_file(plans, paths.type_support, encoded, "header_includes"), "service": service}
+            source = {**_file(plans, paths.type_support, encoded), "service": service}
             if service:
                 header["includes"] = _with(
                     header["includes"], "rosidl_runtime_c/service_type_support_struct.h"
                 )
                 source["includes"] = _with(source["includes"], "microros/service_type.h")
-            if action:
-                header["includes"] = _with(header["includes"], "rosidl_runtime_c/action_type_support_struct.h")
-                source["includes"] = _with(source["includes"], "microros/action_type.h")
             self._print(paths.type_support, "type_support.h", header)
             self._print(paths.type_support_source, "type_support.c", source)
         stored = [storage_view(plan, self._plans) for plan in plans if plan.storage]
@@ -170,22 +151,6 @@ def _service(plans: Sequence[TypePlan]) -> ServiceView | None:
         return None
     handle = f"rosidl_typesupport_c__get_service_type_support_handle__{c_name(name)}"
     return ServiceView(c_name(name), handle, dds_type(name))
-
-
-def _action(plans: Sequence[TypePlan]) -> ActionView | None:
-    """Return the view of the action whose messages these are; None where they are not of one, or one is missing."""
-    name = declaring_name(plans[0].name)
-    roots = {plan.name for plan in plans if plan.root}
-    needed = {derived_name(name, part) for part in ("SendGoal_Request", "GetResult_Response", "FeedbackMessage")}
-    if name.kind != "action" or not needed <= roots:
-        return None
-    return ActionView(
-        c_name(name),
-        f"rosidl_typesupport_c__get_action_type_support_handle__{c_name(name)}",
-        dds_type(name),
-        dds_type(derived_name(name, "SendGoal")),
-        dds_type(derived_name(name, "GetResult")),
-    )
 
 
 def _title(plans: Sequence[TypePlan]) -> str:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An rclpy process with a client of the action /arm/fibonacci, and a server of its own as the model: /model/fibonacci.
+"""An rclpy process with a client of the action /arm/fibonacci, and the model, a server of rclpy: /model/fibonacci.
 
 One JSON object a line; `do` is the name of a method of `_Peer`. Goals are numbered in the order of their requests.
 """
@@ -53,8 +53,8 @@ class _Peer:
     def __init__(self, executor: Any) -> None:
         import rclpy
         from action_msgs.srv import CancelGoal
+        from rclpy.action.client import ActionClient
         from test_msgs.action import Fibonacci
-        from rclpy.action import ActionClient
 
         self._executor = executor
         self._node = rclpy.create_node("asker")
@@ -73,11 +73,10 @@ class _Peer:
         self._often: list[Any] = []
         self._watches: Any = None
         self._model = self._make_model()
-        self._asked: list[str] = []
 
     def _make_model(self) -> Any:
         """Return a server of rclpy that does with a goal what its order says."""
-        from rclpy.action import ActionServer, CancelResponse
+        from rclpy.action.server import ActionServer, CancelResponse
         from rclpy.callback_groups import ReentrantCallbackGroup
 
         def execute(goal: Any) -> Any:
@@ -179,12 +178,13 @@ class _Peer:
         self._watches = self._node.create_subscription(
             GoalStatusArray,
             f"{action}/_action/status",
-            lambda m: self._statuses.append(
-                [[self._number(s.goal_info.goal_id), s.status] for s in m.status_list]
-            ),
+            self._keep_status,
             qos,
         )
         return True
+
+    def _keep_status(self, message: Any) -> None:
+        self._statuses.append([[self._number(s.goal_info.goal_id), s.status] for s in message.status_list])
 
     def statuses(self) -> list[Any]:
         """Return all states since `watch`: for each message the goals' numbers and their states."""

@@ -7,16 +7,16 @@
 
 #include <string.h>
 
-static bool cancel_has_id(const action_msgs__msg__GoalInfo * asked)
+static bool cancel_has_id(const action_msgs__msg__GoalInfo * requested)
 {
   static const uint8_t none[UUID_SIZE];
 
-  return memcmp(asked->goal_id.uuid, none, UUID_SIZE) != 0;
+  return memcmp(requested->goal_id.uuid, none, UUID_SIZE) != 0;
 }
 
-static bool cancel_has_time(const action_msgs__msg__GoalInfo * asked)
+static bool cancel_has_time(const action_msgs__msg__GoalInfo * requested)
 {
-  return asked->stamp.sec != 0 || asked->stamp.nanosec != 0u;
+  return requested->stamp.sec != 0 || requested->stamp.nanosec != 0u;
 }
 
 static bool cancel_is_until(const builtin_interfaces__msg__Time * stamp, const builtin_interfaces__msg__Time * end)
@@ -25,15 +25,15 @@ static bool cancel_is_until(const builtin_interfaces__msg__Time * stamp, const b
 }
 
 /* Returns whether the request is for this goal; without id and time it is for all of them. */
-static bool cancel_is_for(const action_msgs__msg__GoalInfo * asked, const rclc_action_goal_handle_t * goal)
+static bool cancel_is_for(const action_msgs__msg__GoalInfo * requested, const rclc_action_goal_handle_t * goal)
 {
-  const bool has_id = cancel_has_id(asked);
-  const bool has_time = cancel_has_time(asked);
+  const bool has_id = cancel_has_id(requested);
+  const bool has_time = cancel_has_time(requested);
 
-  if (has_id && memcmp(goal->goal_id.uuid, asked->goal_id.uuid, UUID_SIZE) == 0) {
+  if (has_id && memcmp(goal->goal_id.uuid, requested->goal_id.uuid, UUID_SIZE) == 0) {
     return true;
   }
-  return has_time ? cancel_is_until(&goal->stamp, &asked->stamp) : !has_id;
+  return has_time ? cancel_is_until(&goal->stamp, &requested->stamp) : !has_id;
 }
 
 /* Asks the application; returns whether the goal is canceling. During the callback it already is, so that the callback
@@ -61,18 +61,18 @@ static bool cancel_call(const rclc_action_server_t * server, rclc_action_goal_ha
 }
 
 /* A client that names one goal is told why that cannot be canceled; otherwise nothing to cancel is no error. */
-static int8_t cancel_code(const rclc_action_server_t * server, const action_msgs__msg__GoalInfo * asked, bool any)
+static int8_t cancel_code(const rclc_action_server_t * server, const action_msgs__msg__GoalInfo * requested, bool any)
 {
   const rclc_action_goal_handle_t * goal;
 
   if (any) {
     return action_msgs__srv__CancelGoal_Response__ERROR_REJECTED;
   }
-  if (!cancel_has_id(asked) || cancel_has_time(asked)) {
+  if (!cancel_has_id(requested) || cancel_has_time(requested)) {
     return action_msgs__srv__CancelGoal_Response__ERROR_NONE;
   }
   microros_lock();
-  goal = rclc_action_find(server, asked->goal_id.uuid);
+  goal = rclc_action_find(server, requested->goal_id.uuid);
   microros_unlock();
   return goal == NULL ? action_msgs__srv__CancelGoal_Response__ERROR_UNKNOWN_GOAL_ID
                       : action_msgs__srv__CancelGoal_Response__ERROR_GOAL_TERMINATED;
@@ -86,7 +86,7 @@ static bool cancel_is_possible(const rclc_action_goal_handle_t * goal)
 
 /* Fills the response; stops where a callback has finalized the server. */
 static void cancel_goals(
-  rclc_action_server_t * server, const action_msgs__msg__GoalInfo * asked,
+  rclc_action_server_t * server, const action_msgs__msg__GoalInfo * requested,
   action_msgs__srv__CancelGoal_Response * response)
 {
   const rclc_action_declared_t * declared = server->declared;
@@ -95,7 +95,7 @@ static void cancel_goals(
   for (size_t i = 0; i < server->goal_handles_memory_size && server->declared != NULL; ++i) {
     rclc_action_goal_handle_t * goal = &declared->goals[i];
 
-    if (cancel_is_possible(goal) && cancel_is_for(asked, goal)) {
+    if (cancel_is_possible(goal) && cancel_is_for(requested, goal)) {
       any = true;
       declared->canceling[response->goals_canceling.size].goal_id = goal->goal_id;
       declared->canceling[response->goals_canceling.size].stamp = goal->stamp;
@@ -106,17 +106,17 @@ static void cancel_goals(
   }
   response->return_code = action_msgs__srv__CancelGoal_Response__ERROR_NONE;
   if (response->goals_canceling.size == 0u && server->declared != NULL) {
-    response->return_code = cancel_code(server, asked, any);
+    response->return_code = cancel_code(server, requested, any);
   }
 }
 
 rcl_ret_t rclc_action_serve_cancel(rclc_action_server_t * server)
 {
-  action_msgs__srv__CancelGoal_Request asked;
+  action_msgs__srv__CancelGoal_Request requested;
   action_msgs__srv__CancelGoal_Response response;
   rmw_request_id_t request;
   bool taken = false;
-  const rcl_ret_t result = rmw_replier_begin(server->cancel_service.impl, &request, &asked, &taken);
+  const rcl_ret_t result = rmw_replier_begin(server->cancel_service.impl, &request, &requested, &taken);
 
   if (!taken) {
     return result;
@@ -124,7 +124,7 @@ rcl_ret_t rclc_action_serve_cancel(rclc_action_server_t * server)
   response.goals_canceling.data = server->declared->canceling;
   response.goals_canceling.size = 0u;
   response.goals_canceling.capacity = server->declared->goals_max;
-  cancel_goals(server, &asked.goal_info, &response);
+  cancel_goals(server, &requested.goal_info, &response);
   if (!rcl_service_is_valid(&server->cancel_service)) {
     rmw_replier_abandon();
     return RCL_RET_OK; /* a callback has finalized it */

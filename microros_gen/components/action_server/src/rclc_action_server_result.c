@@ -40,11 +40,12 @@ static rcl_ret_t result_keep(rclc_action_goal_handle_t * goal, size_t place, con
 {
   const rclc_action_server_t * server = goal->action_server;
   const microros_action_type_t * type = server->type;
+  const microros_message_type_t * response = type->result_response()->data;
   cdr_fault_t fault; /* set if the message is refused */
 
-  goal->result_size = type->result_response->encode(
+  goal->result_size = response->encode(
     ros_response, &server->declared->results[place * server->declared->result_size], &fault);
-  return goal->result_size != 0u ? RCL_RET_OK : rmw_encode_refuse(type->result_response, &fault);
+  return goal->result_size != 0u ? RCL_RET_OK : rmw_encode_refuse(response, &fault);
 }
 
 /* Called with the lock. */
@@ -127,7 +128,7 @@ bool rclc_action_has_results(const rclc_action_server_t * server)
 }
 
 /* Called with the lock. */
-static void result_forget_oldest(rclc_action_goal_handle_t * goal)
+static void result_drop_oldest(rclc_action_goal_handle_t * goal)
 {
   --goal->waiting;
   (void)memmove(
@@ -143,7 +144,7 @@ static rcl_ret_t result_send(rclc_action_server_t * server, rclc_action_goal_han
   microros_lock();
   result = rmw_replier_respond(server->result_service.impl, &goal->result_requests[0], &outcome);
   if (result == RCL_RET_OK) {
-    result_forget_oldest(goal);
+    result_drop_oldest(goal);
     goal->result_sent = true;
   }
   microros_unlock();
@@ -172,7 +173,7 @@ static rcl_ret_t result_wait(
   const bool full = goal->waiting == (uint8_t)MICROROS_ACTION_RESULT_REQUESTS;
 
   if (full) {
-    result_forget_oldest(goal);
+    result_drop_oldest(goal);
     microros_error_set(
       microros_error_action_results_full, rclc_action_name(server), NULL, MICROROS_ACTION_RESULT_REQUESTS,
       MICROROS_ACTION_RESULT_REQUESTS + 1u);
@@ -186,7 +187,7 @@ rcl_ret_t rclc_action_serve_result(rclc_action_server_t * server)
 {
   const microros_action_type_t * type = server->type;
   const rclc_action_outcome_t unknown = {
-    .type = type->result_response, .message = server->declared->no_result, .body = NULL};
+    .type = type->result_response()->data, .message = server->declared->no_result, .body = NULL};
   uint8_t uuid[UUID_SIZE];
   rmw_service_info_t info;
   bool taken = false;

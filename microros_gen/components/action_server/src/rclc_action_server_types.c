@@ -24,6 +24,7 @@ static void decode_refuse(rclc_action_incoming_t * incoming, const char * why)
 static void decode_place(cdr_in_t * in, rclc_action_incoming_t * incoming, const uint8_t * uuid)
 {
   const microros_action_type_t * type = incoming->server->type;
+  const microros_message_type_t * request = type->goal_request()->data;
 
   incoming->goal->is_used = true;
   incoming->goal->status = GOAL_STATE_UNKNOWN;
@@ -31,7 +32,7 @@ static void decode_place(cdr_in_t * in, rclc_action_incoming_t * incoming, const
   incoming->goal->result_sent = false;
   incoming->goal->waiting = 0u;
   (void)memcpy(incoming->goal->goal_id.uuid, uuid, UUID_SIZE);
-  type->goal_request->decode(in, incoming->goal->ros_goal_request);
+  request->decode(in, incoming->goal->ros_goal_request);
   if (in->failed) {
     in->failed = false;
     decode_refuse(incoming, MICROROS_ERROR_WORDS("it is above its limits: raise them"));

@@ -3,7 +3,6 @@
 #ifndef MICROROS_ACTION_TYPE_H
 #define MICROROS_ACTION_TYPE_H
 
-#include "microros/message_type.h"
 #include "rosidl_runtime_c/message_type_support_struct.h"
 
 /* The names are those of the service types, "example_interfaces::action::dds_::Fibonacci_SendGoal_". */
@@ -11,9 +10,9 @@ typedef struct microros_action_type_t {
   const char * dds_type_name; /* "example_interfaces::action::dds_::Fibonacci_" */
   const char * send_goal;
   const char * get_result;
-  const microros_message_type_t * goal_request;
-  const microros_message_type_t * result_response;
-  const rosidl_message_type_support_t * feedback;
+  const rosidl_message_type_support_t * (*goal_request)(void);
+  const rosidl_message_type_support_t * (*result_response)(void);
+  const rosidl_message_type_support_t * (*feedback)(void);
 } microros_action_type_t;
 
 #endif /* MICROROS_ACTION_TYPE_H */
