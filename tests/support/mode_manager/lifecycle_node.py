@@ -2,6 +2,7 @@
 """A life cycle node of rclpy in a process: `python -m … NAME NAMESPACE JSON`, with the parameters of JSON.
 
 The boolean parameters `refuse_activation`, `refuse_parameters`, `end_finalized` and the double `late_s` let it fail.
+With `only_inactive` it takes parameters only while it is inactive.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ FAULTS: dict[str, Any] = {
     "refuse_activation": False,
     "refuse_parameters": False,
     "end_finalized": False,
+    "only_inactive": False,
     "late_s": 0.0,
 }
 
@@ -31,13 +33,18 @@ class FaultyNode(LifecycleNode):
 
     def __init__(self, name: str, namespace: str, values: dict[str, Any]) -> None:
         super().__init__(name, namespace=namespace)
+        self._is_active = False
         for key, value in {**FAULTS, **values}.items():
             self.declare_parameter(key, value)
         self.add_on_set_parameters_callback(self._decide)
 
     def _decide(self, parameters: list[Any]) -> SetParametersResult:
         is_fault = all(parameter.name in FAULTS for parameter in parameters)
-        refuses = self.get_parameter("refuse_parameters").value and not is_fault
+        if is_fault:
+            return SetParametersResult(successful=True)
+        if self.get_parameter("only_inactive").value and self._is_active:
+            return SetParametersResult(successful=False, reason="only while inactive")
+        refuses = self.get_parameter("refuse_parameters").value
         return SetParametersResult(successful=not refuses, reason="not now" if refuses else "")
 
     def on_activate(self, state: Any) -> TransitionCallbackReturn:
@@ -46,7 +53,12 @@ class FaultyNode(LifecycleNode):
             return TransitionCallbackReturn.ERROR
         if self.get_parameter("refuse_activation").value:
             return TransitionCallbackReturn.FAILURE
+        self._is_active = True
         return super().on_activate(state)
+
+    def on_deactivate(self, state: Any) -> TransitionCallbackReturn:
+        self._is_active = False
+        return super().on_deactivate(state)
 
     def on_error(self, _: Any) -> TransitionCallbackReturn:
         return TransitionCallbackReturn.FAILURE

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A manager with `--reconfigure` and nodes of rclpy: one takes parameters only while it is inactive."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+
+import pytest
+
+from tests.mode_manager.test_nodes import ARM, GRIPPER, JOINT, start
+
+pytestmark = pytest.mark.ros
+
+
+def test_a_node_that_is_reconfigured_while_it_is_inactive(stack: ExitStack, domain: int) -> None:
+    """The joint refuses parameters while it is active; the gripper takes them then, and stays active."""
+    strict = {**JOINT, "only_inactive": True}
+    asking, _ = start(stack, domain, ARM, "--reconfigure", "joint", gripper=GRIPPER, joint=strict)
+    states: dict[str, list[str]] = {"gripper": [], "joint": []}
+    for name, seen in states.items():
+        asking.peer.subscribe(
+            f"/{name}/transition_event",
+            "lifecycle_msgs/msg/TransitionEvent",
+            lambda event, seen=seen: seen.append(event["goal_state"]["label"]),
+        )
+    assert asking.change_mode("arm", "QUICK")
+    asking.until_row("arm", "active.QUICK")
+    asking.until(lambda: all(seen[-1:] == ["active"] for seen in states.values()))
+    for seen in states.values():
+        seen.clear()
+    assert asking.change_mode("arm", "GENTLE")
+    asking.until_row("arm", "active.GENTLE")
+    asking.until(lambda: states["joint"] == ["deactivating", "inactive", "activating", "active"])
+    assert states["gripper"] == []
+    assert asking.mode("joint") == "CRAWL"
+    assert asking.rows["joint"].retries == 0
+
+
+def test_a_node_that_refuses_parameters_while_it_is_active_needs_the_option(
+    stack: ExitStack, domain: int
+) -> None:
+    strict = {**JOINT, "only_inactive": True}
+    asking, managing = start(stack, domain, ARM, gripper=GRIPPER, joint=strict)
+    assert asking.change_mode("arm", "QUICK")
+    asking.until_row("arm", "active.QUICK")
+    assert asking.change_mode("arm", "GENTLE")
+    managing.wait_for("joint: it refuses set_parameters_atomically: only while inactive")
+    assert asking.mode("joint") == "RUSH"
