@@ -13,6 +13,8 @@ from microros_gen.migrate.c_program import Assignment, Call, CFile, Tokens, matc
 from microros_gen.migrate.c_tokens import Token
 from microros_gen.records import dataclass
 
+_ACTION_SUPPORT = "ROSIDL_GET_ACTION_TYPE_SUPPORT"
+"""It names a package and a type, without the kind."""
 _TYPE_SUPPORT = re.compile(r"ROSIDL_GET_(MSG|SRV|ACTION)_TYPE_SUPPORT")
 _SCALES = {"RCL_S_TO_NS": 1_000_000_000, "RCL_MS_TO_NS": 1_000_000, "RCL_US_TO_NS": 1_000}
 _OPERATORS = {
@@ -115,6 +117,8 @@ class Values:
             inside = tokens[found[0] + 2 : ends.get(found[0] + 1, len(tokens))]
             names = [part[0].text if len(part) == 1 else "" for part in split_arguments(tuple(inside))]
             names = [self._renamed(name) for name in names]
+            if tokens[found[0]].text == _ACTION_SUPPORT and len(names) == 2:
+                names.insert(1, "action")
             if len(names) == 3 and all(names):
                 return TypeSupport(*names)
             return Unknown(f"`{shown(tokens)}` does not name a package, a kind and a type")

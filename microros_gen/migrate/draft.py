@@ -72,6 +72,17 @@ class DraftClient:
 
 
 @dataclass(frozen=True)
+class DraftAction:
+    """An action server. `name` or `type` empty: not known, see the remarks."""
+
+    name: str
+    type: str
+    goals: int = 1
+    span: Span | None = None
+    remarks: tuple[Remark, ...] = ()
+
+
+@dataclass(frozen=True)
 class DraftNode:
     """A node and what it owns; `name` empty: not known.
 
@@ -84,6 +95,7 @@ class DraftNode:
     endpoints: tuple[DraftEndpoint, ...] = ()
     timers: tuple[DraftTimer, ...] = ()
     clients: tuple[DraftClient, ...] = ()
+    actions: tuple[DraftAction, ...] = ()
     at_agent: bool = False
     may_be_at_agent: bool = False
     span: Span | None = None
@@ -125,6 +137,7 @@ class Draft:
             found += [remark for endpoint in node.endpoints for remark in endpoint.remarks]
             found += [remark for timer in node.timers for remark in timer.remarks]
             found += [remark for client in node.clients for remark in client.remarks]
+            found += [remark for action in node.actions for remark in action.remarks]
         return tuple(found)
 
 

@@ -12,6 +12,7 @@ from microros_gen.application.kinds import KIND, KINDS
 from microros_gen.diagnostics import Span
 from microros_gen.migrate.draft import (
     Draft,
+    DraftAction,
     DraftClient,
     DraftEndpoint,
     DraftNode,
@@ -146,6 +147,8 @@ def _node(node: DraftNode) -> Iterator[str]:
         yield from _list(key, [(_endpoint(e), bool(e.name and e.type), e.span, e.remarks) for e in endpoints])
     timers = [(_timer(t), t.period_ns is not None, t.span, t.remarks) for t in node.timers]
     yield from _list("timers", timers)
+    actions = [(_action(a), bool(a.name and a.type), a.span, a.remarks) for a in node.actions]
+    yield from _list("actions", actions)
     clients = [(_client(c), bool(c.node), c.span, c.remarks) for c in node.clients]
     yield from _list("parameter_clients", clients)
     if node.at_agent:
@@ -184,6 +187,11 @@ def _endpoint(endpoint: DraftEndpoint) -> str:
 def _timer(timer: DraftTimer) -> str:
     period = "?" if timer.period_ns is None else period_text(timer.period_ns)
     return f"{{name: {_scalar(timer.name)}, period: {period}}}"
+
+
+def _action(action: DraftAction) -> str:
+    goals = f", goals: {action.goals}" if action.goals != 1 else ""
+    return f"{{name: {_scalar(action.name or '?')}, type: {_scalar(action.type or '?')}{goals}}}"
 
 
 def _client(client: DraftClient) -> str:

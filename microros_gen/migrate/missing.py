@@ -11,9 +11,9 @@ from microros_gen.selection.component import NOT_READY, Catalogue
 
 # Names with these prefixes belong to a component that has no folder yet, unless some component declares it.
 _COMPONENTS = {
-    "rclc_action_": "actions",
-    "rclc_executor_add_action_": "actions",
-    "rcl_action_": "actions",
+    "rclc_action_client_": "action_client",
+    "rclc_action_send_": "action_client",
+    "rclc_executor_add_action_client": "action_client",
 }
 _KNOWN_BUT_NOT_DECLARED = ("rosidl_runtime_c__", "rmw_uros_set_custom_transport")
 _UNKNOWN = "is not in this version"

@@ -108,6 +108,7 @@ def _joined(options: InitOptions, meta: Draft, adopted: Adopted) -> Draft:
 def _limits(options: InitOptions, adopted: Adopted) -> Mapping[str, DraftValue]:
     """Return the limits; where a type is not found, that is reported when the proposal is planned."""
     types = [e.type for node in adopted.draft.nodes for e in node.endpoints if e.type]
+    types += [action.type for node in adopted.draft.nodes for action in node.actions if action.type]
     finder = InterfaceFinder.from_environment(options.interface_paths)
     try:
         interfaces = resolve_interfaces(tuple(Named(t) for t in dict.fromkeys(types)), finder, Diagnostics())

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.migrate.action_servers import actions_of, find_actions
 from microros_gen.migrate.c_program import Call, CFile, read_program
 from microros_gen.migrate.c_tokens import read_c
 from microros_gen.migrate.c_values import Values, handle_of
@@ -131,9 +132,10 @@ def _selected(
 
 def _types_without_entity(nodes: Iterable[DraftNode]) -> tuple[str, ...]:
     """Return the types of endpoints whose name is not known: the sources include their headers all the same."""
-    endpoints = [endpoint for node in nodes for endpoint in node.endpoints]
-    named = {endpoint.type for endpoint in endpoints if endpoint.name}
-    return tuple(sorted({endpoint.type for endpoint in endpoints if endpoint.type} - named))
+    owned = [(e.name, e.type) for node in nodes for e in node.endpoints]
+    owned += [(action.name, action.type) for node in nodes for action in node.actions]
+    named = {kind for name, kind in owned if name}
+    return tuple(sorted({kind for _, kind in owned if kind} - named))
 
 
 def _check_one(files: Iterable[CFile], diagnostics: Diagnostics) -> None:
@@ -166,7 +168,7 @@ def _nodes(
                 endpoint, draft=replace(endpoint.draft, remarks=(*endpoint.draft.remarks, mark))
             )
         owned[index or 0].append(endpoint)
-    clients = find_clients(files, calls, values)
+    clients, actions = find_clients(files, calls, values), find_actions(calls, values)
     servers = [handle_of(call.arguments[1]) for call in calls if call.name in SERVERS and call.arguments[1:]]
     is_held = any(call.name in _HELD for call in calls)
     nodes: list[DraftNode] = []
@@ -179,6 +181,7 @@ def _nodes(
                 endpoints=own,
                 timers=() if index else timers,
                 clients=tuple(client.draft for client in clients if owner(client, found) == index),
+                actions=actions_of(index, found, actions),
                 at_agent=is_held,
                 may_be_at_agent=node.handle in servers or (len(found) == 1 and bool(servers)),
                 domain_id=domain,

@@ -152,8 +152,8 @@ ACTION = """#include <rcl/rcl.h>
 int main(void)
 {
   rclc_node_init_default(&node, "n", "", &support);
-  rcl_action_server_init(&server, &node, &clock, type, "/a", &options);
-  rcl_action_server_fini(&server, &node);
+  rclc_action_client_init_default(&client, &node, type, "/a");
+  rclc_action_client_fini(&client, &node);
   return 0;
 }
 """
@@ -166,12 +166,12 @@ def test_what_needs_a_component_that_is_not_there_is_refused(init: Init, tmp_pat
     assert status == 2
     first, code, mark = without_id(err).splitlines()
     assert first.startswith(
-        "main.c:5:3: error: rcl_action_server_init needs the component 'actions', which this version"
+        "main.c:5:3: error: rclc_action_client_init_default needs the component 'action_client', which this"
     )
     assert first.endswith("Remove the call and what belongs to it")
     assert (code.strip(), mark.strip()) == (
-        'rcl_action_server_init(&server, &node, &clock, type, "/a", &options);',
-        "^" + "~" * 21,
+        'rclc_action_client_init_default(&client, &node, type, "/a");',
+        "^" + "~" * 30,
     )
     assert len(undecided_in(tmp_path / "app/microros.yaml")) == 1
     assert "cmake" not in out

@@ -17,6 +17,7 @@ _ASKS = ("has", "serves_only", "pick", "Demand", "EntityKind")
 _OTHER_MEANING = {
     *(
         "cdr",
+        "actions",
         "clock",
         "discovery",
         "entities",
@@ -77,6 +78,7 @@ _OTHER_FILES = {
 """Values in modes; files with a key `parameters` of clients or a proposal; parameters of C functions, or those in
 messages and in a file."""
 MENTIONS = {
+    "action_server": 1,
     "cdr": 1,
     "cdr_decode": 1,
     "clock": 1,
@@ -189,7 +191,7 @@ def test_a_file_that_names_a_component_is_found(tmp_path: Path) -> None:
 
 
 def test_most_components_are_named_by_few() -> None:
-    assert sum(MENTIONS.values()) <= 57
+    assert sum(MENTIONS.values()) <= 58
     assert max(MENTIONS.values()) <= 6
 
 

@@ -159,6 +159,9 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "    parameter_clients:\n      - {node: /motor, elements: 3, operations: "
         + "[get, set, set_atomically, list, describe, get_types, watch]}\n"
         + "profiles: [pure_sender]\ncomponents: [+parameter_client, +subscribe, +parameters]\n",
+        "action-server": _BUSY
+        + "    actions: [{name: walk, type: tf2_msgs/action/LookupTransform, goals: 2, waiting: 2}]\n"
+        + "profiles: [pure_sender]\ncomponents: [+action_server]\nerrors: code\n",
         "lifecycle": _BUSY + "profiles: [managed_service]\nerrors: code\n",
         "lifecycle-managed": _BUSY
         + "    publishers: [{topic: sure, type: std_msgs/msg/Int32, managed: true}]\n"

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from microros_gen.application.action_decl import ActionDecl
+from microros_gen.application.kinds import NAMES
 from microros_gen.application.model import Application, EndpointDecl, LimitRule, NodeDecl, Qos
 from microros_gen.client.plan.declared import declarations, full_name, type_name
 from microros_gen.client.plan.features import PlanContext, refuse_own_limits
@@ -112,6 +113,7 @@ def endpoints(node: NodeDecl) -> Iterator[EndpointDecl]:
         ):
             yield EndpointDecl(
                 *("publisher", f"{action.name}/_action/{topic}", kind, qos),
+                stored=topic == TOPICS[0],
                 of_the_library=True,
                 span=action.span,
                 type_span=action.type_span,
@@ -166,7 +168,7 @@ def _server(context: PlanContext, index: int, at: int, node: NodeDecl, action: A
 def _place(context: PlanContext, node: int, name: str) -> int:
     """Return the position of an endpoint in the table of declared endpoints."""
     first = 0
-    for kind in ("publisher", "subscription", "service", "client"):
+    for kind in NAMES:
         declared = declarations(context.application, kind)
         for index, (owner, _, endpoint) in enumerate(declared):
             if owner == node and endpoint.topic == name and endpoint.of_the_library:
@@ -189,7 +191,9 @@ def record(part: ActionServerPlan) -> object:
 
 def limits(application: Application) -> tuple[LimitRule, ...]:
     """Return the limits of what is exchanged about several goals."""
-    goals = max((action.goals for node in application.nodes for action in node.actions), default=1)
+    goals = max((action.goals for node in application.nodes for action in node.actions), default=0)
+    if not goals:
+        return ()
     rules = (
         LimitRule((_STATUS, "status_list"), goals, goals, single=True),
         LimitRule((f"{_CANCEL}_Response", "goals_canceling"), goals, goals, single=True),
