@@ -26,12 +26,14 @@ nodes:
     modes: {{SLOW: {{gain: 0.5}}, FAST: {{gain: 2.0, label: fast}}}}
     parameter_clients:
       - {{node: /motor, elements: 3, operations: [get, set, set_atomically, list, describe, get_types, watch]}}
-    actions: [{{name: walk, type: tf2_msgs/action/LookupTransform, goals: 2}}]
+    actions: [{{name: find, type: tf2_msgs/action/LookupTransform, goals: 2}}]
     publishers: [{{topic: out, type: std_msgs/msg/String, limits: {{string: 20}}, managed: true}}]
     subscriptions: [{{topic: in, type: std_msgs/msg/String, limits: {{string: 20}}, queue: 2}}]
     services: [{{name: on, type: std_srvs/srv/SetBool, limits: {{message: 9}}}}]
     clients: [{{name: ask, type: std_srvs/srv/SetBool, limits: {{message: 20}}}}]
     timers: [{{name: tick, period: 50 ms, managed: true}}]
+limits:
+  "*": {{string: 20, sequence: 8}}
 transport: {transport}
 """
 

@@ -206,7 +206,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "components: [+graph_topic]\nentities: xml\nmemory: {arena: 4096}\n",
         "action_server": _NODES.replace("    publishers:\n", "")
         + "    actions:\n      - {name: walk, type: tf2_msgs/action/LookupTransform, goals: 2, waiting: 2}\n"
-        + "components: [+action_server, +multithread]\n",
+        + "components: [+action_server, +multithread]\nlimits: {'*': {string: 20}}\n",
         "lifecycle": _NODES + _SURE + "components: [+lifecycle, +multithread]\n",
         "lifecycle_managed": _NODES
         + "      - {topic: sure, type: std_msgs/msg/UInt8, managed: true}\n"

@@ -35,7 +35,9 @@ static bool action_is_named(const char * full, const rmw_name_t * name)
   const size_t size = rmw_name_size(name);
   size_t at = 0;
 
-  if (microros_text_size(full) != size + sizeof(action_goal_part) - 1u || !microros_text_equals(&full[size], action_goal_part)) {
+  if (
+    microros_text_size(full) != size + sizeof(action_goal_part) - 1u ||
+    !microros_text_equals(&full[size], action_goal_part)) {
     return false;
   }
   for (size_t i = 0; i < sizeof(name->part) / sizeof(name->part[0]); ++i) {
@@ -56,7 +58,8 @@ static const rclc_action_declared_t * action_find(
     const rclc_action_declared_t * declared = &rclc_action_declared[i];
 
     if (
-      declared->node == rmw_node_index(node->impl) && action_is_named(action_endpoint(declared->goal_at), name) &&
+      declared->node == rmw_node_index(node->impl) &&
+      action_is_named(action_endpoint(declared->goal_at), name) &&
       microros_text_equals(microros_declared_endpoints[declared->goal_at].dds_type, type->send_goal)) {
       return declared;
     }
@@ -104,9 +107,9 @@ static rcl_ret_t action_open_publishers(rclc_action_server_t * server, const rcl
 static rcl_ret_t action_close(rclc_action_server_t * server, rcl_node_t * node)
 {
   const rcl_ret_t results[] = {
-    rcl_publisher_fini(&server->status_publisher, node), rcl_publisher_fini(&server->feedback_publisher, node),
-    rcl_service_fini(&server->result_service, node), rcl_service_fini(&server->cancel_service, node),
-    rcl_service_fini(&server->goal_service, node)};
+    rcl_publisher_fini(&server->status_publisher, node),
+    rcl_publisher_fini(&server->feedback_publisher, node), rcl_service_fini(&server->result_service, node),
+    rcl_service_fini(&server->cancel_service, node), rcl_service_fini(&server->goal_service, node)};
   rcl_ret_t first = RCL_RET_OK;
 
   for (size_t i = 0; i < sizeof(results) / sizeof(results[0]); ++i) {

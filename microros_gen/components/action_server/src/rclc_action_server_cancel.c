@@ -7,38 +7,40 @@
 
 #include <string.h>
 
-static bool cancel_has_id(const action_msgs__msg__GoalInfo * requested)
+static bool action_cancel_has_id(const action_msgs__msg__GoalInfo * requested)
 {
   static const uint8_t none[UUID_SIZE];
 
   return memcmp(requested->goal_id.uuid, none, UUID_SIZE) != 0;
 }
 
-static bool cancel_has_time(const action_msgs__msg__GoalInfo * requested)
+static bool action_cancel_has_time(const action_msgs__msg__GoalInfo * requested)
 {
   return requested->stamp.sec != 0 || requested->stamp.nanosec != 0u;
 }
 
-static bool cancel_is_until(const builtin_interfaces__msg__Time * stamp, const builtin_interfaces__msg__Time * end)
+static bool action_cancel_is_until(
+  const builtin_interfaces__msg__Time * stamp, const builtin_interfaces__msg__Time * end)
 {
   return stamp->sec < end->sec || (stamp->sec == end->sec && stamp->nanosec <= end->nanosec);
 }
 
 /* Returns whether the request is for this goal; without id and time it is for all of them. */
-static bool cancel_is_for(const action_msgs__msg__GoalInfo * requested, const rclc_action_goal_handle_t * goal)
+static bool action_cancel_is_for(
+  const action_msgs__msg__GoalInfo * requested, const rclc_action_goal_handle_t * goal)
 {
-  const bool has_id = cancel_has_id(requested);
-  const bool has_time = cancel_has_time(requested);
+  const bool has_id = action_cancel_has_id(requested);
+  const bool has_time = action_cancel_has_time(requested);
 
   if (has_id && memcmp(goal->goal_id.uuid, requested->goal_id.uuid, UUID_SIZE) == 0) {
     return true;
   }
-  return has_time ? cancel_is_until(&goal->stamp, &requested->stamp) : !has_id;
+  return has_time ? action_cancel_is_until(&goal->stamp, &requested->stamp) : !has_id;
 }
 
 /* Asks the application; returns whether the goal is canceling. During the callback it already is, so that the callback
  * can end it. */
-static bool cancel_call(const rclc_action_server_t * server, rclc_action_goal_handle_t * goal)
+static bool action_cancel_call(const rclc_action_server_t * server, rclc_action_goal_handle_t * goal)
 {
   bool cancels;
 
@@ -61,14 +63,15 @@ static bool cancel_call(const rclc_action_server_t * server, rclc_action_goal_ha
 }
 
 /* A client that names one goal is told why that cannot be canceled; otherwise nothing to cancel is no error. */
-static int8_t cancel_code(const rclc_action_server_t * server, const action_msgs__msg__GoalInfo * requested, bool any)
+static int8_t action_cancel_code(
+  const rclc_action_server_t * server, const action_msgs__msg__GoalInfo * requested, bool any)
 {
   const rclc_action_goal_handle_t * goal;
 
   if (any) {
     return action_msgs__srv__CancelGoal_Response__ERROR_REJECTED;
   }
-  if (!cancel_has_id(requested) || cancel_has_time(requested)) {
+  if (!action_cancel_has_id(requested) || action_cancel_has_time(requested)) {
     return action_msgs__srv__CancelGoal_Response__ERROR_NONE;
   }
   microros_lock();
@@ -78,14 +81,14 @@ static int8_t cancel_code(const rclc_action_server_t * server, const action_msgs
                       : action_msgs__srv__CancelGoal_Response__ERROR_GOAL_TERMINATED;
 }
 
-static bool cancel_is_possible(const rclc_action_goal_handle_t * goal)
+static bool action_cancel_is_possible(const rclc_action_goal_handle_t * goal)
 {
   return goal->is_used &&
          rcl_action_transition_goal_state(goal->status, GOAL_EVENT_CANCEL_GOAL) == GOAL_STATE_CANCELING;
 }
 
 /* Fills the response; stops where a callback has finalized the server. */
-static void cancel_goals(
+static void action_cancel_goals(
   rclc_action_server_t * server, const action_msgs__msg__GoalInfo * requested,
   action_msgs__srv__CancelGoal_Response * response)
 {
@@ -95,18 +98,18 @@ static void cancel_goals(
   for (size_t i = 0; i < server->goal_handles_memory_size && server->declared != NULL; ++i) {
     rclc_action_goal_handle_t * goal = &declared->goals[i];
 
-    if (cancel_is_possible(goal) && cancel_is_for(requested, goal)) {
+    if (action_cancel_is_possible(goal) && action_cancel_is_for(requested, goal)) {
       any = true;
       declared->canceling[response->goals_canceling.size].goal_id = goal->goal_id;
       declared->canceling[response->goals_canceling.size].stamp = goal->stamp;
-      if (cancel_call(server, goal)) {
+      if (action_cancel_call(server, goal)) {
         ++response->goals_canceling.size;
       }
     }
   }
   response->return_code = action_msgs__srv__CancelGoal_Response__ERROR_NONE;
   if (response->goals_canceling.size == 0u && server->declared != NULL) {
-    response->return_code = cancel_code(server, requested, any);
+    response->return_code = action_cancel_code(server, requested, any);
   }
 }
 
@@ -124,7 +127,7 @@ rcl_ret_t rclc_action_serve_cancel(rclc_action_server_t * server)
   response.goals_canceling.data = server->declared->canceling;
   response.goals_canceling.size = 0u;
   response.goals_canceling.capacity = server->declared->goals_max;
-  cancel_goals(server, &requested.goal_info, &response);
+  action_cancel_goals(server, &requested.goal_info, &response);
   if (!rcl_service_is_valid(&server->cancel_service)) {
     rmw_replier_abandon();
     return RCL_RET_OK; /* a callback has finalized it */

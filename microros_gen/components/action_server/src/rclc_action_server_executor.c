@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-enum { ACTION_NS_PER_MS = 1000000 };
+enum { ACTION_SERVER_NS_PER_MS = 1000000 };
 
 static rcl_ret_t action_server_look(
   const rclc_executor_handle_t * handle, bool * is_ready, int64_t * look_again_ns)
@@ -25,8 +25,8 @@ static rcl_ret_t action_server_look(
               rmw_replier_is_ready(server->cancel_service.impl) ||
               rmw_replier_is_ready(server->result_service.impl);
   microros_unlock();
-  if (left_ms != UINT32_MAX && (int64_t)left_ms * ACTION_NS_PER_MS < *look_again_ns) {
-    *look_again_ns = (int64_t)left_ms * ACTION_NS_PER_MS;
+  if (left_ms != UINT32_MAX && (int64_t)left_ms * ACTION_SERVER_NS_PER_MS < *look_again_ns) {
+    *look_again_ns = (int64_t)left_ms * ACTION_SERVER_NS_PER_MS;
   }
   return RCL_RET_OK;
 }

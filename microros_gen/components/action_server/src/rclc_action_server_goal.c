@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-enum { NS_PER_S = 1000000000, NS_PER_MS = 1000000 };
+enum { ACTION_NS_PER_S = 1000000000, ACTION_NS_PER_MS = 1000000 };
 
 rclc_action_goal_handle_t * rclc_action_find(const rclc_action_server_t * server, const uint8_t * uuid)
 {
@@ -22,7 +22,7 @@ rclc_action_goal_handle_t * rclc_action_find(const rclc_action_server_t * server
 }
 
 /* Returns whether the place of `goal` is used again rather than that of `other`. */
-static bool goal_is_older(
+static bool action_goal_is_older(
   const rclc_action_goal_handle_t * goal, const rclc_action_goal_handle_t * other, uint32_t now)
 {
   return other == NULL || now - goal->ended_ms > now - other->ended_ms;
@@ -41,7 +41,7 @@ rclc_action_goal_handle_t * rclc_action_take_place(const rclc_action_server_t * 
     }
     if (
       rclc_action_has_ended(goal) && goal->result_sent && goal->waiting == 0u &&
-      goal_is_older(goal, oldest, now)) {
+      action_goal_is_older(goal, oldest, now)) {
       oldest = goal;
     }
   }
@@ -84,28 +84,28 @@ bool rclc_action_go(rclc_action_goal_handle_t * goal, rcl_action_goal_event_t ev
 }
 
 /* The time of day, or the time since the start as long as it is not known. */
-static builtin_interfaces__msg__Time goal_now(void)
+static builtin_interfaces__msg__Time action_goal_now(void)
 {
   const int64_t epoch_ns = port_time_epoch_ns();
-  const int64_t now_ns = epoch_ns > 0 ? epoch_ns : (int64_t)port_time_ms() * NS_PER_MS;
+  const int64_t now_ns = epoch_ns > 0 ? epoch_ns : (int64_t)port_time_ms() * ACTION_NS_PER_MS;
   builtin_interfaces__msg__Time stamp;
 
-  stamp.sec = (int32_t)(now_ns / NS_PER_S);
-  stamp.nanosec = (uint32_t)(now_ns % NS_PER_S);
+  stamp.sec = (int32_t)(now_ns / ACTION_NS_PER_S);
+  stamp.nanosec = (uint32_t)(now_ns % ACTION_NS_PER_S);
   return stamp;
 }
 
-static void goal_accept(rclc_action_server_t * server, rclc_action_goal_handle_t * goal)
+static void action_goal_accept(rclc_action_server_t * server, rclc_action_goal_handle_t * goal)
 {
   microros_lock();
-  goal->stamp = goal_now();
+  goal->stamp = action_goal_now();
   goal->status = GOAL_STATE_ACCEPTED;
   server->status_due = true;
   microros_unlock();
 }
 
 /* The state `accepted` is published where there is room: a client sees it before `executing`. */
-static rcl_ret_t goal_execute(rclc_action_server_t * server, rclc_action_goal_handle_t * goal)
+static rcl_ret_t action_goal_execute(rclc_action_server_t * server, rclc_action_goal_handle_t * goal)
 {
   const rcl_ret_t result = rclc_action_has_status(server) ? rclc_action_publish_status(server) : RCL_RET_OK;
 
@@ -115,7 +115,7 @@ static rcl_ret_t goal_execute(rclc_action_server_t * server, rclc_action_goal_ha
   return result;
 }
 
-static rcl_ret_t goal_refuse(rclc_action_server_t * server, const char * why)
+static rcl_ret_t action_goal_refuse(rclc_action_server_t * server, const char * why)
 {
   ++server->refused_goals;
   microros_error_set(microros_error_action_goal_refused, rclc_action_name(server), why, 0, 0);
@@ -123,14 +123,14 @@ static rcl_ret_t goal_refuse(rclc_action_server_t * server, const char * why)
 }
 
 /* Calls the callback; returns whether it accepted the goal. */
-static bool goal_call(rclc_action_server_t * server, rclc_action_goal_handle_t * goal)
+static bool action_goal_call(rclc_action_server_t * server, rclc_action_goal_handle_t * goal)
 {
   const bool accepted = server->goal_callback(goal, server->context) == RCL_RET_ACTION_GOAL_ACCEPTED;
 
   if (!accepted) {
     goal->is_used = false;
   } else if (goal->is_used) { /* the callback may have finalized the server */
-    goal_accept(server, goal);
+    action_goal_accept(server, goal);
   }
   return accepted;
 }
@@ -146,7 +146,7 @@ rcl_ret_t rclc_action_serve_goal(rclc_action_server_t * server)
   if (!taken) {
     return result;
   }
-  if (incoming.goal != NULL && goal_call(server, incoming.goal)) {
+  if (incoming.goal != NULL && action_goal_call(server, incoming.goal)) {
     answer.accepted = true;
     answer.stamp = incoming.goal->stamp;
   }
@@ -156,9 +156,10 @@ rcl_ret_t rclc_action_serve_goal(rclc_action_server_t * server)
   }
   result = rmw_replier_end(server->goal_service.impl, &request, &answer);
   if (answer.accepted) {
-    const rcl_ret_t published = goal_execute(server, incoming.goal);
+    const rcl_ret_t published = action_goal_execute(server, incoming.goal);
 
     return result != RCL_RET_OK ? result : published;
   }
-  return incoming.goal == NULL && result == RCL_RET_OK ? goal_refuse(server, incoming.refused) : result;
+  return incoming.goal == NULL && result == RCL_RET_OK ? action_goal_refuse(server, incoming.refused)
+                                                       : result;
 }

@@ -12,7 +12,7 @@
 #include <string.h>
 
 /* Returns the position of an active handle of a server that is open; SIZE_MAX: it is none. Called with the lock. */
-static size_t result_place(const rclc_action_goal_handle_t * goal)
+static size_t action_result_place(const rclc_action_goal_handle_t * goal)
 {
   const rclc_action_server_t * server = goal->action_server;
 
@@ -27,7 +27,7 @@ static size_t result_place(const rclc_action_goal_handle_t * goal)
   return SIZE_MAX;
 }
 
-static rcl_action_goal_event_t result_event(rcl_action_goal_state_t status)
+static rcl_action_goal_event_t action_result_event(rcl_action_goal_state_t status)
 {
   if (status == GOAL_STATE_SUCCEEDED) {
     return GOAL_EVENT_SUCCEED;
@@ -36,20 +36,20 @@ static rcl_action_goal_event_t result_event(rcl_action_goal_state_t status)
 }
 
 /* Encodes the result to its place. Called with the lock. */
-static rcl_ret_t result_keep(rclc_action_goal_handle_t * goal, size_t place, const void * ros_response)
+static rcl_ret_t action_result_keep(rclc_action_goal_handle_t * goal, size_t place, const void * ros_response)
 {
   const rclc_action_server_t * server = goal->action_server;
   const microros_action_type_t * type = server->type;
   const microros_message_type_t * response = type->result_response()->data;
   cdr_fault_t fault; /* set if the message is refused */
 
-  goal->result_size = response->encode(
-    ros_response, &server->declared->results[place * server->declared->result_size], &fault);
+  goal->result_size =
+    response->encode(ros_response, &server->declared->results[place * server->declared->result_size], &fault);
   return goal->result_size != 0u ? RCL_RET_OK : rmw_encode_refuse(response, &fault);
 }
 
 /* Called with the lock. */
-static rcl_ret_t result_end(
+static rcl_ret_t action_result_end(
   rclc_action_goal_handle_t * goal, size_t place, rcl_action_goal_state_t status, void * ros_response)
 {
   rcl_ret_t result;
@@ -57,16 +57,16 @@ static rcl_ret_t result_end(
   if (goal->status == GOAL_STATE_UNKNOWN || goal->status == GOAL_STATE_ACCEPTED) {
     return RCLC_RET_ACTION_WAIT_RESULT_REQUEST;
   }
-  if (rcl_action_transition_goal_state(goal->status, result_event(status)) != status) {
+  if (rcl_action_transition_goal_state(goal->status, action_result_event(status)) != status) {
     return microros_error_named(
       RCL_RET_ACTION_GOAL_EVENT_INVALID, microros_error_action_goal_state,
       rclc_action_name(goal->action_server));
   }
   (void)memcpy(ros_response, &status, sizeof(status)); /* the first member of every response */
-  result = result_keep(goal, place, ros_response);
+  result = action_result_keep(goal, place, ros_response);
   if (result == RCL_RET_OK) {
     goal->ended_ms = port_time_ms();
-    (void)rclc_action_go(goal, result_event(status));
+    (void)rclc_action_go(goal, action_result_event(status));
   }
   return result;
 }
@@ -83,9 +83,9 @@ rcl_ret_t rclc_action_send_result(
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "goal_handle, status or ros_response");
   }
   microros_lock();
-  place = result_place(goal_handle);
+  place = action_result_place(goal_handle);
   result = place == SIZE_MAX ? microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "goal_handle")
-                             : result_end(goal_handle, place, status, ros_response);
+                             : action_result_end(goal_handle, place, status, ros_response);
   microros_unlock();
   if (result == RCL_RET_OK) {
     port_wake(); /* the executor sends it */
@@ -102,7 +102,7 @@ rcl_ret_t rclc_action_publish_feedback(rclc_action_goal_handle_t * goal_handle, 
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "goal_handle or ros_feedback");
   }
   microros_lock();
-  place = result_place(goal_handle);
+  place = action_result_place(goal_handle);
   server = goal_handle->action_server;
   if (place != SIZE_MAX) {
     (void)memcpy(ros_feedback, goal_handle->goal_id.uuid, UUID_SIZE); /* the first member of every feedback */
@@ -112,7 +112,7 @@ rcl_ret_t rclc_action_publish_feedback(rclc_action_goal_handle_t * goal_handle, 
                            : rcl_publish(&server->feedback_publisher, ros_feedback, NULL);
 }
 
-static bool result_is_awaited(const rclc_action_goal_handle_t * goal)
+static bool action_result_is_awaited(const rclc_action_goal_handle_t * goal)
 {
   return goal->is_used && goal->waiting != 0u && rclc_action_has_ended(goal);
 }
@@ -122,20 +122,21 @@ bool rclc_action_has_results(const rclc_action_server_t * server)
   bool awaited = false;
 
   for (size_t i = 0; i < server->goal_handles_memory_size; ++i) {
-    awaited = awaited || result_is_awaited(&server->declared->goals[i]);
+    awaited = awaited || action_result_is_awaited(&server->declared->goals[i]);
   }
   return awaited && rmw_action_server_may_reply(server->result_service.impl);
 }
 
 /* Called with the lock. */
-static void result_drop_oldest(rclc_action_goal_handle_t * goal)
+static void action_result_drop_oldest(rclc_action_goal_handle_t * goal)
 {
   --goal->waiting;
   (void)memmove(
     goal->result_requests, &goal->result_requests[1], goal->waiting * sizeof(goal->result_requests[0]));
 }
 
-static rcl_ret_t result_send(rclc_action_server_t * server, rclc_action_goal_handle_t * goal, size_t place)
+static rcl_ret_t action_result_send(
+  rclc_action_server_t * server, rclc_action_goal_handle_t * goal, size_t place)
 {
   const rclc_action_outcome_t outcome = {
     .body = &server->declared->results[place * server->declared->result_size], .size = goal->result_size};
@@ -144,7 +145,7 @@ static rcl_ret_t result_send(rclc_action_server_t * server, rclc_action_goal_han
   microros_lock();
   result = rmw_replier_respond(server->result_service.impl, &goal->result_requests[0], &outcome);
   if (result == RCL_RET_OK) {
-    result_drop_oldest(goal);
+    action_result_drop_oldest(goal);
     goal->result_sent = true;
   }
   microros_unlock();
@@ -158,22 +159,22 @@ rcl_ret_t rclc_action_send_results(rclc_action_server_t * server)
   for (size_t i = 0; i < server->goal_handles_memory_size && result == RCL_RET_OK; ++i) {
     rclc_action_goal_handle_t * goal = &server->declared->goals[i];
 
-    while (result == RCL_RET_OK && result_is_awaited(goal) &&
+    while (result == RCL_RET_OK && action_result_is_awaited(goal) &&
            rmw_action_server_may_reply(server->result_service.impl)) {
-      result = result_send(server, goal, i);
+      result = action_result_send(server, goal, i);
     }
   }
   return result;
 }
 
 /* Called with the lock. */
-static rcl_ret_t result_wait(
+static rcl_ret_t action_result_wait(
   const rclc_action_server_t * server, rclc_action_goal_handle_t * goal, const rmw_request_id_t * request)
 {
   const bool full = goal->waiting == (uint8_t)MICROROS_ACTION_RESULT_REQUESTS;
 
   if (full) {
-    result_drop_oldest(goal);
+    action_result_drop_oldest(goal);
     microros_error_set(
       microros_error_action_results_full, rclc_action_name(server), NULL, MICROROS_ACTION_RESULT_REQUESTS,
       MICROROS_ACTION_RESULT_REQUESTS + 1u);
@@ -199,7 +200,7 @@ rcl_ret_t rclc_action_serve_result(rclc_action_server_t * server)
   microros_lock();
   rclc_action_goal_handle_t * goal = rclc_action_find(server, uuid);
   result = goal != NULL && goal->status != GOAL_STATE_UNKNOWN
-             ? result_wait(server, goal, &info.request_id)
+             ? action_result_wait(server, goal, &info.request_id)
              : rmw_replier_respond(server->result_service.impl, &info.request_id, &unknown);
   microros_unlock();
   return result;

@@ -13,7 +13,7 @@ bool rclc_action_has_status(const rclc_action_server_t * server)
 }
 
 /* Called with the lock. */
-static size_t status_fill(const rclc_action_server_t * server)
+static size_t action_status_fill(const rclc_action_server_t * server)
 {
   size_t count = 0;
 
@@ -37,7 +37,7 @@ rcl_ret_t rclc_action_publish_status(rclc_action_server_t * server)
 
   microros_lock();
   message.status_list.data = server->declared->statuses;
-  message.status_list.size = status_fill(server);
+  message.status_list.size = action_status_fill(server);
   message.status_list.capacity = server->declared->goals_max;
   server->session = rmw_action_server_session(server->goal_service.impl);
   result = rcl_publish(&server->status_publisher, &message, NULL);

@@ -11,9 +11,9 @@
 #include <string.h>
 
 /* Of a request that is too large for its queue only these bytes arrive (XRCE_PARAMETERS_BEGINNING). */
-enum { BEGINNING = 4, STAMP_AT = 4 };
+enum { ACTION_BEGINNING = 4, ACTION_STAMP_AT = 4 };
 
-static void decode_refuse(rclc_action_incoming_t * incoming, const char * why)
+static void action_decode_refuse(rclc_action_incoming_t * incoming, const char * why)
 {
   incoming->goal->is_used = false;
   incoming->goal = NULL;
@@ -21,7 +21,7 @@ static void decode_refuse(rclc_action_incoming_t * incoming, const char * why)
 }
 
 /* Decodes to the place; a fault refuses the goal, and not the request. */
-static void decode_place(cdr_in_t * in, rclc_action_incoming_t * incoming, const uint8_t * uuid)
+static void action_decode_place(cdr_in_t * in, rclc_action_incoming_t * incoming, const uint8_t * uuid)
 {
   const microros_action_type_t * type = incoming->server->type;
   const microros_message_type_t * request = type->goal_request()->data;
@@ -35,7 +35,7 @@ static void decode_place(cdr_in_t * in, rclc_action_incoming_t * incoming, const
   request->decode(in, incoming->goal->ros_goal_request);
   if (in->failed) {
     in->failed = false;
-    decode_refuse(incoming, MICROROS_ERROR_WORDS("it is above its limits: raise them"));
+    action_decode_refuse(incoming, MICROROS_ERROR_WORDS("it is above its limits: raise them"));
   }
 }
 
@@ -44,7 +44,7 @@ void rclc_action_decode_goal(cdr_in_t * in, void * incoming)
   rclc_action_incoming_t * request = incoming;
 
   request->goal = NULL;
-  if (in->size == (uint32_t)BEGINNING) {
+  if (in->size == (uint32_t)ACTION_BEGINNING) {
     request->refused = MICROROS_ERROR_WORDS("it is above its limits: raise them");
     return;
   }
@@ -59,14 +59,14 @@ void rclc_action_decode_goal(cdr_in_t * in, void * incoming)
     request->refused = MICROROS_ERROR_WORDS("all its goals are in use: raise its goals");
     request->goal = rclc_action_take_place(request->server);
     if (request->goal != NULL) {
-      decode_place(in, request, in->body);
+      action_decode_place(in, request, in->body);
     }
   }
   microros_unlock();
 }
 
 /* Both numbers have four bytes; the wire is little endian. */
-static void encode_4(uint8_t * at, uint32_t number)
+static void action_encode_4(uint8_t * at, uint32_t number)
 {
   at[0] = (uint8_t)(number & 0xffu);
   at[1] = (uint8_t)(number >> 8 & 0xffu);
@@ -79,10 +79,10 @@ uint32_t rclc_action_encode_answer(const void * answer, uint8_t * body, cdr_faul
   const rclc_action_answer_t * response = answer;
 
   (void)fault;
-  (void)memset(body, 0, STAMP_AT);
+  (void)memset(body, 0, ACTION_STAMP_AT);
   body[0] = response->accepted ? 1u : 0u;
-  encode_4(&body[STAMP_AT], (uint32_t)response->stamp.sec);
-  encode_4(&body[STAMP_AT + 4], response->stamp.nanosec);
+  action_encode_4(&body[ACTION_STAMP_AT], (uint32_t)response->stamp.sec);
+  action_encode_4(&body[ACTION_STAMP_AT + 4], response->stamp.nanosec);
   return RCLC_ACTION_ANSWER_SIZE;
 }
 

@@ -28,7 +28,7 @@ typedef struct rclc_action_declared_t {
   uint32_t result_size;  /* of the largest body of a response with a result, bytes */
   rosidl_service_type_support_t goal_type;
   rosidl_service_type_support_t result_type;
-  const void * no_result;                          /* the response for a goal that is not known */
+  const void * no_result;                           /* the response for a goal that is not known */
   void (*bind)(void * ros_goal_request, size_t at); /* NULL: a request needs no buffers */
   rclc_action_goal_handle_t * goals;
   uint8_t * results;

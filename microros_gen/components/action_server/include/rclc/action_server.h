@@ -105,7 +105,8 @@ rcl_ret_t rclc_executor_add_action_server(
   rclc_action_server_handle_cancel_callback_t cancel_callback, void * context);
 
 /* Removes it; its goals stay, and requests wait until it is added again. */
-rcl_ret_t rclc_executor_remove_action_server(rclc_executor_t * executor, rclc_action_server_t * action_server);
+rcl_ret_t rclc_executor_remove_action_server(
+  rclc_executor_t * executor, rclc_action_server_t * action_server);
 
 #ifdef __cplusplus
 }
