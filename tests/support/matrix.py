@@ -162,6 +162,12 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         "action-server": _BUSY
         + "    actions: [{name: walk, type: tf2_msgs/action/LookupTransform, goals: 2, waiting: 2}]\n"
         + "profiles: [pure_sender]\ncomponents: [+action_server]\nerrors: code\n",
+        "executor-all": _BUSY
+        + _ASKS
+        + "    publishers: [{topic: out, type: std_msgs/msg/Int32, qos: {deadline: 200 ms}}]\n"
+        + "    subscriptions: [{topic: in, type: std_msgs/msg/Int32, qos: {deadline: 200 ms}}]\n"
+        + "profiles: [pure_sender, pure_reader]\ncomponents: [+services, +executor, +service_call, "
+        + "+executor_nodes, +new_data_callbacks, +qos_events]\nerrors: code\n",
         "lifecycle": _BUSY + "profiles: [managed_service]\nerrors: code\n",
         "lifecycle-managed": _BUSY
         + "    publishers: [{topic: sure, type: std_msgs/msg/Int32, managed: true}]\n"

@@ -34,7 +34,7 @@ static std_msgs__msg__Int32 request;
 static std_msgs__msg__Int32 response;
 static uint32_t asked;
 static char notes[NOTES];
-static bool only_once; /* one round */
+static bool only_once;    /* one round */
 static void (*act)(void); /* what the next callback of a does, once */
 
 static microros_message_type_t request_type;

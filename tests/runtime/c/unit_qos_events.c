@@ -111,8 +111,7 @@ static void open_events(void)
 
   offered = rcl_get_zero_initialized_event();
   requested = rcl_get_zero_initialized_event();
-  CHECK(
-    rcl_publisher_event_init(&offered, &publisher, RCL_PUBLISHER_OFFERED_DEADLINE_MISSED) == RCL_RET_OK);
+  CHECK(rcl_publisher_event_init(&offered, &publisher, RCL_PUBLISHER_OFFERED_DEADLINE_MISSED) == RCL_RET_OK);
   CHECK(
     rcl_publisher_event_init(&offered, &publisher, RCL_PUBLISHER_OFFERED_DEADLINE_MISSED) ==
     RCL_RET_ALREADY_INIT);

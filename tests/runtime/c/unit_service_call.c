@@ -78,8 +78,7 @@ static void test_arguments(void)
     rclc_executor_call_service(&executor, &clients[FAR], &question, NULL, second) ==
     RCL_RET_INVALID_ARGUMENT);
   CHECK(call(0) == RCL_RET_INVALID_ARGUMENT && call(-1) == RCL_RET_INVALID_ARGUMENT);
-  CHECK(
-    rclc_executor_call_service(&executor, &none, &question, &response, second) == RCL_RET_CLIENT_INVALID);
+  CHECK(rclc_executor_call_service(&executor, &none, &question, &response, second) == RCL_RET_CLIENT_INVALID);
 }
 
 /* Time begins 2 s before the milliseconds wrap: the calls before and after it are as long as any other. */

@@ -72,6 +72,7 @@ _SERVED = (
     "    services: [{name: set, type: std_srvs/srv/SetBool, limits: {message: 20}}]\n"
 )
 _ASKED = "    clients: [{name: ask, type: std_srvs/srv/SetBool, queue: 2, limits: {message: 9}}]\n"
+_EXECUTOR = "+publish, +service_call, +executor_nodes, +new_data_callbacks, +qos_events"
 _MODES = (
     "    parameters:\n      - {name: speed, type: double}\n      - {name: on, type: bool}\n"
     "    modes: {__DEFAULT__: {on: $(parent on)}, SLOW: {speed: 0.25}, FAST: {speed: 2.0, on: true}}\n"
@@ -207,6 +208,11 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "action_server": _NODES.replace("    publishers:\n", "")
         + "    actions:\n      - {name: walk, type: tf2_msgs/action/LookupTransform, goals: 2, waiting: 2}\n"
         + "components: [+action_server, +multithread]\nlimits: {'*': {string: 20}}\n",
+        "executor_all": _SERVED.replace("[-subscribe, ", f"[{_EXECUTOR}, +multithread, ")
+        + _ASKED
+        + "    publishers: [{topic: out, type: std_msgs/msg/Int32, qos: {deadline: 200 ms}}]\n"
+        + "    subscriptions: [{topic: in, type: std_msgs/msg/Int32, qos: {deadline: 200 ms}}]\n",
+        "executor_events": _BOTH + "components: [+qos_events]\n",
         "lifecycle": _NODES + _SURE + "components: [+lifecycle, +multithread]\n",
         "lifecycle_managed": _NODES
         + "      - {topic: sure, type: std_msgs/msg/UInt8, managed: true}\n"

@@ -16,7 +16,7 @@ static const char * subscription_event_refusal(rcl_subscription_event_type_t eve
     case RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS:
       return MICROROS_ERROR_WORDS("incompatible QoS: XRCE reports none");
     case RCL_SUBSCRIPTION_MESSAGE_LOST:
-      return MICROROS_ERROR_WORDS("lost messages: XRCE reports none: see rmw_uros_get_subscription_statistics");
+      return MICROROS_ERROR_WORDS("lost messages: XRCE reports none");
     case RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE:
     default:
       return MICROROS_ERROR_WORDS("incompatible type: XRCE reports none");
@@ -24,7 +24,8 @@ static const char * subscription_event_refusal(rcl_subscription_event_type_t eve
 }
 
 rcl_ret_t rcl_subscription_event_init(
-  rcl_event_t * event, const rcl_subscription_t * subscription, const rcl_subscription_event_type_t event_type)
+  rcl_event_t * event, const rcl_subscription_t * subscription,
+  const rcl_subscription_event_type_t event_type)
 {
   const char * refusal = subscription_event_refusal(event_type);
 

@@ -26,7 +26,11 @@ typedef struct xrce_deadline_s {
   bool running;
 } xrce_deadline_t;
 
-enum { XRCE_DEADLINES = MICROROS_PUBLISHERS_MAX + MICROROS_SUBSCRIPTIONS_MAX };
+/* One at least, which C requires of an array. */
+enum {
+  XRCE_TIMED_ENDPOINTS = MICROROS_PUBLISHERS_MAX + MICROROS_SUBSCRIPTIONS_MAX,
+  XRCE_DEADLINES = XRCE_TIMED_ENDPOINTS != 0 ? XRCE_TIMED_ENDPOINTS : 1
+};
 
 /* Begins to observe the endpoint; NULL: it is observed already. */
 xrce_deadline_t * xrce_deadline_open(const xrce_endpoint_t * endpoint);
