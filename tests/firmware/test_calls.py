@@ -25,7 +25,7 @@ nodes:
     subscriptions: [{topic: /numbers, type: std_msgs/msg/Int32, qos: {reliability: reliable}}]
 """
 RCL_RET_ERROR = 1
-SUM, RESPONSES, TIME_OUTS, TOLD, HEARD, IN_CALLBACK, AWAY, REPORTS = range(8)
+SUM, RESPONSES, TIME_OUTS, REPORTED, HEARD, IN_CALLBACK, AWAY, REPORTS = range(8)
 
 
 @pytest.mark.ros
@@ -54,7 +54,7 @@ def test_calls_callbacks_and_nodes(builds: Builds, observer: Observer, domain: i
         assert report()[IN_CALLBACK] == RCL_RET_ERROR
         _publish(observer, 2)
         running.wait_for(lambda: report()[HEARD] == 5)
-        assert report()[TOLD:] == [5, 5, RCL_RET_ERROR, 0]
+        assert report()[REPORTED:] == [5, 5, RCL_RET_ERROR, 0]
 
 
 def _publish(observer: Observer, count: int) -> None:

@@ -33,6 +33,7 @@ rcl_ret_t rcl_event_fini(rcl_event_t * event)
 rcl_ret_t rcl_take_event(const rcl_event_t * event, void * event_info)
 {
   rmw_offered_deadline_missed_status_t * status = event_info; /* the other one has the same members */
+  uint32_t total;
   uint32_t change = 0;
 
   if (!rcl_event_is_valid(event)) {
@@ -41,8 +42,10 @@ rcl_ret_t rcl_take_event(const rcl_event_t * event, void * event_info)
   if (event_info == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "event_info");
   }
-  status->total_count = (int32_t)(rmw_deadline_take(event->impl, &change) & (uint32_t)INT32_MAX);
-  status->total_count_change = (int32_t)(change & (uint32_t)INT32_MAX);
+  total = rmw_deadline_take(event->impl, &change) & (uint32_t)INT32_MAX; /* the type has no more */
+  change &= (uint32_t)INT32_MAX;
+  status->total_count = (int32_t)total;
+  status->total_count_change = (int32_t)change;
   return RCL_RET_OK;
 }
 

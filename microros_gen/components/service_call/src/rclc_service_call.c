@@ -12,8 +12,6 @@
 /* Reports that a requester may have besides responses: a lost session, a large one, a refused READ_DATA. */
 enum { CALL_REPORTS = 3, CALL_NS_PER_MS = 1000000 };
 
-static const uint64_t call_longest_ns = (uint64_t)INT32_MAX * (uint64_t)CALL_NS_PER_MS;
-
 static bool call_is_run(const rclc_executor_t * executor, const rcl_client_t * client)
 {
   for (size_t i = 0; i < executor->index; ++i) {
@@ -28,9 +26,11 @@ static rcl_ret_t call_check(
   const rclc_executor_t * executor, const rcl_client_t * client, const void * request, const void * response,
   uint64_t timeout_ns)
 {
+  const uint64_t longest_ns = (uint64_t)INT32_MAX * (uint64_t)CALL_NS_PER_MS;
+
   if (
     executor == NULL || client == NULL || request == NULL || response == NULL || timeout_ns == 0u ||
-    timeout_ns > call_longest_ns) {
+    timeout_ns > longest_ns) {
     return microros_error_refuse(
       RCL_RET_INVALID_ARGUMENT, "executor, client, request, response or timeout_ns");
   }

@@ -12,11 +12,11 @@ typedef struct call_rounds_t {
   uint32_t depth;
 } call_rounds_t;
 
-static call_rounds_t call_rounds[MICROROS_EXECUTORS_MAX];
-
 /* Returns the entry of this executor, or NULL. */
 static call_rounds_t * call_rounds_of(const rclc_executor_t * executor)
 {
+  static call_rounds_t call_rounds[MICROROS_EXECUTORS_MAX];
+
   for (size_t i = 0; i < MICROROS_EXECUTORS_MAX; ++i) {
     if (call_rounds[i].executor == executor) {
       return &call_rounds[i];

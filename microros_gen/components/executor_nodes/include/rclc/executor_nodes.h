@@ -43,11 +43,11 @@ rcl_ret_t rclc_executor_remove_node(rclc_executor_t * executor, const rcl_node_t
 
 /*
  * Adds the handles again that rclc_executor_remove_node has put aside, after the others, in their former
- * order. RCL_RET_ERROR: there is none. */
+ * order. RCL_RET_ERROR: it has put none aside. */
 rcl_ret_t rclc_executor_add_node(rclc_executor_t * executor, const rcl_node_t * node);
 
 /*
- * Moves the node's running handles to `other`, after its own, in their order. RCL_RET_ERROR: there is none,
+ * Moves the node's running handles to `other`, after its own, in their order. RCL_RET_ERROR: it runs none,
  * or `other` has fewer free places. No other task may spin one of the two executors meanwhile. A parameter
  * client is not moved so: remove it from one executor and add it to the other.
  */
