@@ -238,6 +238,21 @@ class Replacement(Conditional):
     header: str
 
 
+@dataclass(frozen=True, kw_only=True)
+class InitOption(Conditional):
+    """A function of rmw_microros/init_options.h that sets an option of the session.
+
+    `absent` and `unmet` end the name that a call gets where the component is not selected, or its conditions do not
+    hold: they say what to change.
+    """
+
+    function: str
+    parameters: str
+    comment: str
+    absent: str
+    unmet: str = ""
+
+
 @dataclass(frozen=True)
 class Contributions:
     """All that a component contributes, in the order of its file."""
@@ -255,6 +270,7 @@ class Contributions:
     includes: tuple[Include, ...] = ()
     variants: tuple[Variant, ...] = ()
     replaces: tuple[Replacement, ...] = ()
+    init_options: tuple[InitOption, ...] = ()
 
 
 NOTHING = Contributions()

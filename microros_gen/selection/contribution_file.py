@@ -22,6 +22,7 @@ from microros_gen.selection.contribution import (
     Hook,
     HookHeader,
     Include,
+    InitOption,
     Kept,
     Output,
     Property,
@@ -45,6 +46,7 @@ KEYS = (
     "includes",
     "variants",
     "replaces",
+    "init_options",
 )
 _CALL = re.compile(r"(?:\(void\))?[a-z_]\w*\((?:[^\";{}=]*)\)")
 _WORD = re.compile(r"(?<![\w>.])[a-z_]\w*(?!\w*\()")
@@ -109,6 +111,17 @@ def read_contributions(node: MappingNode, diagnostics: Diagnostics) -> Contribut
         replaces=tuple(
             Replacement(header=text_of(i) or child_text(i, "header"), when=conditions_of(i))
             for i in items(node.get("replaces"))
+        ),
+        init_options=tuple(
+            InitOption(
+                function=e.key,
+                parameters=child_text(e.value, "parameters"),
+                comment=child_text(e.value, "comment"),
+                absent=child_text(e.value, "absent"),
+                unmet=child_text(e.value, "unmet"),
+                when=conditions_of(e.value),
+            )
+            for e in entries(node.get("init_options"))
         ),
     )
 

@@ -76,6 +76,29 @@ def test_functions_of_other_transports_say_what_to_set(name: str, tmp_path: Path
         compile_objects(tree, [application], "gcc", ("-Werror=implicit-function-declaration",))
 
 
+OPTIONS = {
+    "udp": "rmw_uros_options_set_udp_address",
+    "tcp": "rmw_uros_options_set_tcp_address",
+    "serial": "rmw_uros_options_set_serial_device",
+}
+MISSING = re.compile(r"^#define (\w+) \w+?__(\w+)$", re.MULTILINE)
+
+
+@pytest.mark.parametrize("name", [*PLANS, "tcp"])
+def test_each_transport_declares_its_options(name: str, tmp_path: Path) -> None:
+    """What a plan's transport does not have is a name that says what to change."""
+    plan = PLANS.get(name) or changed(POOL, transport__kind="tcp")
+    tree = render(tmp_path, plan, components(plan))
+    text = (tree.folder / "include/rmw_microros/init_options.h").read_text(encoding="utf-8")
+    missing = dict(MISSING.findall(text))
+    expected = {f: f"needs__transport_type_{kind}" for kind, f in OPTIONS.items() if kind != name}
+    if name == "serial-board":
+        expected[OPTIONS["serial"]] = "the_board_has_one"
+    assert missing == expected
+    for function in OPTIONS.values():
+        assert (f"rmw_ret_t {function}(" in text) == (function not in missing)
+
+
 ARM = ("-mcpu=cortex-m4", "-mthumb", "-Os")
 
 

@@ -11,8 +11,10 @@ from jinja2 import Environment
 from microros_gen.client.plan.runtime import WAITED_KINDS
 from microros_gen.client.plan.values import Values
 from microros_gen.client.views.contributions import contributed
+from microros_gen.client.views.init_options import init_options
 from microros_gen.documents.own_templates import render_own
 from microros_gen.records import dataclass
+from microros_gen.selection.component import Component
 from microros_gen.selection.component_sources import ComponentFile
 
 
@@ -57,10 +59,11 @@ def render_components(
     values: Values,
     environment: Environment,
     functions: tuple[str, ...] = (),
+    unselected: Iterable[Component] = (),
 ) -> dict[str, bytes]:
     """Return the bytes of `files` by path below the output folder.
 
-    `functions` are those that the application defines.
+    `functions` are those that the application defines; `unselected` are the components that it could select.
     """
     components = [c.component for c in values.selection.components]
     headers = tuple(sorted(h for c in components for h in c.headers))
@@ -74,6 +77,7 @@ def render_components(
         "waits": _waits(headers),
         "functions": functions,
         "contributed": contributed(components, values),
+        "init_options": init_options(components, unselected, values),
     }
     return {
         file.path: file.content if file.template is None else _rendered(file, environment, context).encode()

@@ -78,9 +78,9 @@ def render_project(
     `#error` each. `fork`: another process may print some of them.
     """
     values = project.values
-    rendered = render_components(
-        files, values, environment, (*project.provisions.functions(), *project.board.hooks)
-    )
+    others = tuple(unselected)
+    functions = (*project.provisions.functions(), *project.board.hooks)
+    rendered = render_components(files, values, environment, functions, others)
     of_components = frozenset(rendered)
     pools = frozenset(pool.kind for pool in project.runtime.memory.message_pools)
     services = project.selection.has("services")
@@ -89,7 +89,7 @@ def render_project(
     if project.selection.has("micro_ros_utilities"):
         rendered |= render_members(project.types, environment, pools)
     rendered |= render_agent_files(project)
-    for path, content in _unselected_headers(unselected, environment):
+    for path, content in _unselected_headers(others, environment):
         rendered.setdefault(path, content)
     rendered[project.example] = render_example(project, environment)
     view = _project_view(project, rendered)

@@ -112,7 +112,8 @@ def render(out: Path, plan: RuntimePlan, names: Sequence[str]) -> Tree:
     provisions = provide((c.component for c in chosen), PORTS, (), values.holds)
     files = component_files((c.component for c in chosen), values.holds, provisions.files)
     sources, folders = [], set[Path]()
-    for place, content in render_components(files, values, shared_environment()).items():
+    others = [component for name, component in catalogue.items() if name not in names]
+    for place, content in render_components(files, values, shared_environment(), (), others).items():
         target = out / place
         if target.parent not in folders:
             target.parent.mkdir(parents=True, exist_ok=True)
