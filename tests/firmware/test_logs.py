@@ -68,7 +68,7 @@ def test_rclpy_receives_what_the_board_logs(builds: Builds, domain: int, observe
     assert 0 < dropped < MANY
 
 
-@pytest.mark.long
+@pytest.mark.system
 @pytest.mark.parametrize("name", ["host", *BOARDS])
 @pytest.mark.parametrize("entities", ENTITIES)
 def test_the_profile_with_diagnostics_builds(builds: Builds, name: str, entities: str) -> None:

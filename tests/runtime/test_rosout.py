@@ -187,7 +187,7 @@ def test_subloggers(roomy: Path, agent: FakeAgent) -> None:
 
 @pytest.mark.ros
 def test_rcl_returns_the_same_for_subloggers() -> None:
-    """In a process of its own: rcl has one table of loggers."""
+    """In a separate process: rcl has one table of loggers."""
     calls = [(call, logger, name) for call, logger, name, _ in SUBLOGGERS]
     done = subprocess.run(
         [sys.executable, "-c", _RCL, json.dumps(calls)],
