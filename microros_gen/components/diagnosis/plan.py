@@ -118,13 +118,27 @@ class DiagnosisPlan:
         return ("", "enum {", *names, "};")
 
     @property
-    def examples(self) -> tuple[str, ...]:
-        """Return position and a good value of each check of the application, as arguments of rclc_diagnosis_set."""
-        checks = self.checks[: self.declared_count]
-        return tuple(
-            f"(uint8_t)DIAGNOSIS_{name.upper()}, {check.good}"
-            for name, check in zip(self.declared, checks, strict=True)
+    def example_function(self) -> tuple[str, ...]:
+        """Return a function of the example as lines of C, which sets each check to its last good value."""
+        if not self.declared:
+            return ()
+        calls: list[str] = []
+        for name, check in zip(self.declared, self.checks, strict=False):
+            call = f"rclc_diagnosis_set((uint8_t)DIAGNOSIS_{name.upper()}, {check.good})"
+            calls += [f"  if ({call} != RCL_RET_OK) {{", "    rcl_reset_error();", "  }"]
+        return (
+            "/* Sets the checks, here to limits that are still good: replace them by what the device measures. */",
+            "static void set_checks(void)",
+            "{",
+            *calls,
+            "}",
+            "",
         )
+
+    @property
+    def example_turn(self) -> tuple[str, ...]:
+        """Return its call."""
+        return ("set_checks();",) if self.declared else ()
 
 
 def plan(context: PlanContext, diagnostics: Diagnostics) -> DiagnosisPlan:

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Modes that a contingency requests. */
+#include "microros/rclc_modes_request.h"
+
 #include "microros/rclc_modes_known.h"
 #include "microros/rmw_node.h"
 #include "microros_config.h"

@@ -3,9 +3,6 @@
 #ifndef MICROROS_RCLC_MODES_KNOWN_H
 #define MICROROS_RCLC_MODES_KNOWN_H
 
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "rclc_modes/rclc_modes.h"
 
 #ifdef __cplusplus
@@ -15,10 +12,6 @@ extern "C" {
 /* Called when modes are initialized and before they are finalized. */
 void rclc_modes_know(rclc_modes_t * modes);
 void rclc_modes_forget(const rclc_modes_t * modes);
-
-/* Reconfigures a node, by its index. Returns whether it is in that mode then, or has no such mode; false: to be tried
- * again. Called in the task of the executor. */
-bool rclc_modes_request(uint16_t node, const char * mode);
 
 #ifdef __cplusplus
 }
