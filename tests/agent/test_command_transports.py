@@ -24,6 +24,7 @@ from tests.support.agent.serial_link import SerialLink
 from tests.support.agent.tcp_link import TcpLink
 from tests.support.paths import ROOT
 from tests.support.patience import seconds
+from tests.support.slices import spread_rows
 
 pytestmark = pytest.mark.builds
 
@@ -143,25 +144,28 @@ def test_faults_of_the_file_are_reported_before_everything_else(tmp_path: Path) 
 
 @pytest.mark.parametrize(
     ("arguments", "wanted"),
-    [
-        ((), "the agent has no transport. Name one, as `microros-gen agent udp4 --port 8888`"),
-        (("upd4",), "unknown transport 'upd4'. Did you mean 'udp4'?"),
-        (("udp",), "unknown transport 'udp'. Choose udp4 or udp6"),
-        (("udp4", "--port", "0", "tpc4"), "unknown transport 'tpc4'. Did you mean 'tcp4'?"),
-        (
-            ("udp4", "--port", "0", "--domain", "1", "tcp4", "--domain", "2"),
-            "--domain has two values, 1 and 2",
-        ),
-        (("pty", "--discovery"), "discovery needs a UDP or TCP transport"),
-        (("udp4", "--limit", "client=1"), "unknown limit 'client'. Did you mean 'clients'?"),
-        (("udp4", "--manifest", "none.json"), "none.json cannot be read"),
-        (("udp4", "--interface-path", "none"), "the interface path 'none'"),
-        (("-c", "none.yaml"), "none.yaml cannot be read: No such file or directory"),
-        (
-            ("tcp4", "--port", "0", "--bind", "192.0.2.77"),
-            "'192.0.2.77' is not an IPv4 address of this machine",
-        ),
-    ],
+    spread_rows(
+        [
+            ((), "the agent has no transport. Name one, as `microros-gen agent udp4 --port 8888`"),
+            (("upd4",), "unknown transport 'upd4'. Did you mean 'udp4'?"),
+            (("udp",), "unknown transport 'udp'. Choose udp4 or udp6"),
+            (("udp4", "--port", "0", "tpc4"), "unknown transport 'tpc4'. Did you mean 'tcp4'?"),
+            (
+                ("udp4", "--port", "0", "--domain", "1", "tcp4", "--domain", "2"),
+                "--domain has two values, 1 and 2",
+            ),
+            (("pty", "--discovery"), "discovery needs a UDP or TCP transport"),
+            (("udp4", "--limit", "client=1"), "unknown limit 'client'. Did you mean 'clients'?"),
+            (("udp4", "--manifest", "none.json"), "none.json cannot be read"),
+            (("udp4", "--interface-path", "none"), "the interface path 'none'"),
+            (("-c", "none.yaml"), "none.yaml cannot be read: No such file or directory"),
+            (
+                ("tcp4", "--port", "0", "--bind", "192.0.2.77"),
+                "'192.0.2.77' is not an IPv4 address of this machine",
+            ),
+        ],
+        3,
+    ),
 )
 def test_wrong_use_says_what_to_do(arguments: tuple[str, ...], wanted: str, tmp_path: Path) -> None:
     result = run(*arguments, path=tmp_path)

@@ -11,7 +11,7 @@ import pytest
 
 from tests.support.firmware.board import BOARDS, C_FILES, Builds, Built, build, check, need
 from tests.support.firmware.unneeded import NOT_NEEDED
-from tests.support.slices import only
+from tests.support.slices import only, spread_rows
 
 POOL = "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\n"
 # What a C library has for input and output, memory, its own start-up and its state between calls.
@@ -144,7 +144,7 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("line", "place", "expected"), REFUSED, ids=["key", "stack", "baud"])
+@pytest.mark.parametrize(("line", "place", "expected"), spread_rows(REFUSED), ids=["key", "stack", "baud"])
 def test_what_a_board_cannot_have_is_refused_before_compiling(
     tmp_path: Path, line: str, place: str, expected: str
 ) -> None:

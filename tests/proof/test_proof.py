@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 import subprocess
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
@@ -14,7 +15,7 @@ from tests.proof.proofs import Proof, Tree
 from tests.support.paths import ROOT
 
 needs_frama_c = pytest.mark.skipif(not proofs.is_installed(), reason="no frama-c (Debian: frama-c-base)")
-QUICK = ("frame_byte", "encode", "fragments")
+QUICK = ("frame_byte", "encode")
 """Proofs of which `make test` has a run; `make system` has one of each."""
 SLICE = [
     pytest.param(
@@ -92,12 +93,17 @@ MUTATIONS = {
     ),
 }
 
+_MARKS: Mapping[str, list[pytest.MarkDecorator]] = {
+    "size of a frame": [],
+    "piece of a sample": [pytest.mark.system],
+}
+
 
 @needs_frama_c
 @pytest.mark.parametrize(
     ("name", "file", "right", "wrong"),
     [
-        pytest.param(*values, id=key, marks=[] if key == "piece of a sample" else [pytest.mark.long])
+        pytest.param(*values, id=key, marks=_MARKS.get(key, [pytest.mark.long]))
         for key, values in MUTATIONS.items()
     ],
 )

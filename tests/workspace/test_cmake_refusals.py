@@ -58,6 +58,7 @@ def test_an_argument_that_it_does_not_have(project: Project) -> None:
     )
 
 
+@pytest.mark.system
 def test_sources_for_another_machine(project: Project) -> None:
     output = refused(project, FIND + "microros_add_library(robot PROFILES pure_sender TARGET cortex-m4)\n")
     assert "its target is a microcontroller, and this project compiles for this machine" in output

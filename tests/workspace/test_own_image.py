@@ -370,6 +370,7 @@ def test_a_board_has_a_bound_for_everything(board: Project) -> None:
     assert "libg_nano.a" in owners(data, "C library")
 
 
+@pytest.mark.system
 def test_what_is_not_there_is_said(project: Project, tmp_path: Path) -> None:
     output = tool(project, "size", tmp_path, status=2).stderr
     assert "is not an output folder of microros-gen, and no CMake build folder that has one" in output
