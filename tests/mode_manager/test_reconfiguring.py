@@ -4,12 +4,19 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
+from functools import partial
 
 import pytest
 
+from microros_gen.ros.endpoints import Value
 from tests.mode_manager.test_nodes import ARM, GRIPPER, JOINT, start
 
 pytestmark = pytest.mark.ros
+
+
+def note(seen: list[str], event: Value) -> None:
+    """Append the state that a transition led to."""
+    seen.append(event["goal_state"]["label"])
 
 
 def test_a_node_that_is_reconfigured_while_it_is_inactive(stack: ExitStack, domain: int) -> None:
@@ -21,7 +28,7 @@ def test_a_node_that_is_reconfigured_while_it_is_inactive(stack: ExitStack, doma
         asking.peer.subscribe(
             f"/{name}/transition_event",
             "lifecycle_msgs/msg/TransitionEvent",
-            lambda event, seen=seen: seen.append(event["goal_state"]["label"]),
+            partial(note, seen),
         )
     assert asking.change_mode("arm", "QUICK")
     asking.until_row("arm", "active.QUICK")
