@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 from microros_gen.application.model import ParameterDecl
-from microros_gen.application.parameter_refusals import RANGE_ENDS, Cause, refusals
+from microros_gen.application.parameter_refusals import RANGE_ENDS, Cause, Refusal, refusals
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Span
 from microros_gen.documents.tree_values import bool_of, child, items, number_of, size_of, span_of, text_of
 from microros_gen.documents.yaml_tree import ScalarNode, SequenceNode, YamlNode
@@ -22,12 +22,6 @@ _VALUE_TYPES: Mapping[str, tuple[type, ...]] = {
 }
 _NUMBERS = ("integer", "double")
 _LIMITS = {"byte": (0, 255), "integer": RANGE_ENDS["integer"]}
-_REFUSED: Mapping[Cause, tuple[str, str]] = {
-    Cause.RANGE: ("not in its range", "MG-3006"),
-    Cause.STEP: ("between two steps of its range", "MG-3062"),
-    Cause.SIZE: ("longer than its size", "MG-3007"),
-    Cause.CHOICE: ("none of its values", "MG-3056"),
-}
 _Scalar = bool | int | float | str
 
 
@@ -154,8 +148,17 @@ def _refusals(
 ) -> Iterator[Diagnostic]:
     """Yield why the device would refuse the value."""
     for refusal in refusals(parameter, value):
-        words, identifier = _REFUSED[refusal.cause]
-        yield Diagnostic(f"{what} is {words}", span, refusal.hint, id=identifier)
+        yield _refused(refusal, what, span)
+
+
+def _refused(refusal: Refusal, what: str, span: Span) -> Diagnostic:
+    if refusal.cause is Cause.RANGE:
+        return Diagnostic(f"{what} is not in its range", span, refusal.hint, id="MG-3006")
+    if refusal.cause is Cause.STEP:
+        return Diagnostic(f"{what} is between two steps of its range", span, refusal.hint, id="MG-3062")
+    if refusal.cause is Cause.SIZE:
+        return Diagnostic(f"{what} is longer than its size", span, refusal.hint, id="MG-3007")
+    return Diagnostic(f"{what} is none of its values", span, refusal.hint, id="MG-3056")
 
 
 def _check_range(parameter: ParameterDecl, span: Span | None, diagnostics: Diagnostics) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A node, or a system of another manager, as the services and events of one show it. No ROS, and no time of its own."""
+"""A node, or a system of another manager, as the services and events of one show it. No ROS."""
 
 from __future__ import annotations
 

@@ -122,7 +122,7 @@ class End:
 
 @dataclass(frozen=True)
 class Played:
-    """A whole trace. `oscillating`: systems whose rules never ended. `rests` false: parts are on their way for ever."""
+    """A whole trace. `oscillating`: systems whose rules never ended. `rests` false: parts were still on their way."""
 
     steps: tuple[Step, ...]
     ends: tuple[End, ...]

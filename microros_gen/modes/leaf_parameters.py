@@ -6,20 +6,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 from microros_gen.application.model import NodeDecl, ParameterDecl
-from microros_gen.application.parameter_refusals import Cause, refusals
+from microros_gen.application.parameter_refusals import Cause, Refusal, refusals
 from microros_gen.application.parameter_validation import check_rules
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Span, nearest
 from microros_gen.modes.model import DEFAULT, Model, Part, Value
 from microros_gen.modes.report import PROVEN, REFUTED, Property
 from microros_gen.modes.templates import possible_values
-
-_REFUSED: Mapping[Cause, tuple[str, str, str]] = {
-    Cause.RANGE: ("out of the node's range", "", "MG-8855"),
-    Cause.STEP: ("between two steps of the node's range", "", "MG-8856"),
-    Cause.SIZE: ("longer than its storage in the node", " in the application file", "MG-8857"),
-    Cause.CHOICE: ("none of those that the node accepts", "", "MG-8858"),
-}
-"""What is said of each cause, what follows the hint, and the identifier."""
 
 
 def check_parameters(model: Model, nodes: Iterable[NodeDecl], diagnostics: Diagnostics) -> Property:
@@ -85,12 +77,23 @@ def _refusals(parameter: ParameterDecl, value: Value) -> Iterator[Diagnostic]:
     if value.value is None:
         return
     for refusal in refusals(parameter, value.value):
-        words, hint, identifier = _REFUSED[refusal.cause]
-        number = f", {value.value}," if refusal.cause in (Cause.RANGE, Cause.STEP) else ""
-        yield Diagnostic(f"{what}{number} is {words}", hint=f"{refusal.hint}{hint}", id=identifier)
+        yield _refused(refusal, what, value)
     found = Diagnostics()
     check_rules(parameter, value.value, value.span, what, found)
     yield from found
+
+
+def _refused(refusal: Refusal, what: str, value: Value) -> Diagnostic:
+    number, hint = value.value, refusal.hint
+    if refusal.cause is Cause.RANGE:
+        return Diagnostic(f"{what}, {number}, is out of the node's range", hint=hint, id="MG-8855")
+    if refusal.cause is Cause.STEP:
+        message = f"{what}, {number}, is between two steps of the node's range"
+        return Diagnostic(message, hint=hint, id="MG-8856")
+    if refusal.cause is Cause.SIZE:
+        hint = f"{hint} in the application file"
+        return Diagnostic(f"{what} is longer than its storage in the node", hint=hint, id="MG-8857")
+    return Diagnostic(f"{what} is none of those that the node accepts", hint=hint, id="MG-8858")
 
 
 def _has_type(declared: str, value: Value) -> bool:

@@ -29,7 +29,7 @@ from microros_gen.modes.script import read_script
     "with_services",
     multiple=True,
     metavar="NODE",
-    help="Node with services of its own for modes, as firmware has them; can be repeated.",
+    help="Node that serves its modes itself, as firmware does; can be repeated.",
 )
 @reconfigure_option
 @timeout_option
