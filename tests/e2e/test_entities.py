@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from tests.support.agent.observer import Observer
-from tests.support.agent.process import running_agent
+from tests.support.agent.process import agent_options, running_agent
 from tests.support.e2e.images import QUICK, Image, Images, ends_well, kill, started
 from tests.support.e2e.programs import run_to, until
 from tests.support.e2e.relay import Relay
@@ -62,11 +62,7 @@ def built(
 
 def files_of(found: Mapping[str, Image]) -> list[str]:
     """Return the options of the agent, one for each file that a build wrote."""
-    options = []
-    for image in found.values():
-        for path in sorted((image.out / "agent").glob("*")):
-            options += ["--references" if path.suffix == ".xml" else "--entities", str(path)]
-    return options
+    return [option for image in found.values() for option in agent_options(image.out)]
 
 
 def topics_of(name: str) -> list[str]:

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.agent.observer import Observer
-from tests.support.agent.process import running_agent
+from tests.support.agent.process import agent_options, running_agent
 from tests.support.e2e.commanded import CommandedProgram
 from tests.support.e2e.images import C_FILES, QUICK, Images, ends_well, kill, started
 from tests.support.e2e.lifecycle_peer import MODEL, WHATS, LifecyclePeer, lifecycle_peer
@@ -106,12 +106,7 @@ def test_every_way_to_create(
     device = f"/{namespace}/device"
     text = f"{APPLICATION.format(namespace=namespace)}{SERVES}{entities}\n"
     image = images.build(image_port.port, text, flags=(*QUICK, "-DEXAMPLE_PERIOD_MS=20"))
-    files = sorted((image.out / "agent").glob("*"))
-    options = [
-        word
-        for path in files
-        for word in ("--references" if path.suffix == ".xml" else "--entities", str(path))
-    ]
+    options = agent_options(image.out)
     assert bool(options) == (entities in ("reference", "preconfigured"))
     arrived = Arrived(observer, namespace)
     with running_agent(domain, "--domain", str(domain), *options) as agent, lifecycle_peer(domain) as peer:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import pytest
 
+from tests.support.agent.process import agent_options
 from tests.support.e2e.lifecycle_peer import MODEL, lifecycle_peer
 from tests.support.firmware.board import BOARDS, Builds, board, need
 from tests.support.firmware.footprint import bounded_stack, image_sections
@@ -25,15 +26,20 @@ SIZES_OF_ENTITIES = {"xml": (20_432, 4_268), "reference": (19_476, 3_140), "prec
 
 @pytest.mark.system
 @pytest.mark.ros
-def test_rclpy_drives_it(builds: Builds, domain: int) -> None:
+@pytest.mark.parametrize("entities", ["binary", *SIZES_OF_ENTITIES])
+def test_rclpy_drives_it(builds: Builds, domain: int, entities: str) -> None:
     """The states, callbacks and lists are those of rclpy's node; the whole graph comes in fragments over the line."""
     need(NAME, emulator=True)
-    built = builds.build(NAME, APPLICATION)
+    built = builds.build(NAME, f"{APPLICATION}entities: {entities}\n")
     image = builds.application(built, "lifecycle.c")
+    options = agent_options(built.out)
+    assert bool(options) == (entities in ("reference", "preconfigured"))
     with (
         lifecycle_peer(domain) as peer,
         board(built, image) as running,
-        started("agent", "serial", "--dev", running.device, "--domain", str(domain), domain=domain) as agent,
+        started(
+            *("agent", "serial", "--dev", running.device, "--domain", str(domain), *options), domain=domain
+        ) as agent,
     ):
         agent.wait_for("agent ready")
         running.go_on()

@@ -12,6 +12,9 @@ import threading
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
 
 from tests.support.patience import deadline, seconds
 
@@ -70,6 +73,14 @@ def environment(domain: int) -> dict[str, str]:
     }
 
 
+def enter_domain(monkeypatch: pytest.MonkeyPatch) -> int:
+    """Let nodes of this process and its children have a separate ROS domain until a test ends; return it."""
+    number = own_domain()
+    for name, value in environment(number).items():
+        monkeypatch.setenv(name, value)
+    return number
+
+
 UDP = ("udp4", "--port", "0")
 
 
@@ -101,3 +112,12 @@ def running_agent(
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()
+
+
+def agent_options(out: Path) -> list[str]:
+    """Return the options for the files that a generated library has for its agent; none: it creates its entities."""
+    return [
+        word
+        for path in sorted((out / "agent").glob("*"))
+        for word in ("--references" if path.suffix == ".xml" else "--entities", str(path))
+    ]
