@@ -8,15 +8,12 @@ from contextlib import ExitStack
 
 import pytest
 
-from tests.support.agent.process import environment, own_domain
+from tests.support.agent.process import enter_domain
 
 
 @pytest.fixture
 def domain(monkeypatch: pytest.MonkeyPatch) -> int:
-    number = own_domain()
-    for name, value in environment(number).items():
-        monkeypatch.setenv(name, value)
-    return number
+    return enter_domain(monkeypatch)
 
 
 @pytest.fixture

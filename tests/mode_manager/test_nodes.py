@@ -15,9 +15,10 @@ import pytest
 from microros_gen.mode_manager.diagnosis import TOPIC, TYPE
 from microros_gen.ros.peer import Peer
 from tests.support.mode_manager.device import Device, alive
-from tests.support.mode_manager.processes import Asking, Running, manager, node, running
+from tests.support.mode_manager.processes import Asking, manager, node
 from tests.support.modes.models import MODELS
 from tests.support.patience import seconds
+from tests.support.ros.running import Running, running
 
 pytestmark = pytest.mark.ros
 ARM = str(MODELS / "arm.yaml")
@@ -222,7 +223,7 @@ def test_the_monitor_without_and_with_a_manager(stack: ExitStack, domain: int) -
     start(stack, domain, ARM, gripper=GRIPPER, joint=JOINT)
     run = subprocess.run([*command, "--wait", "60"], capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stdout
-    live = stack.enter_context(running(domain, "-m", "microros_gen", "modes", "monitor", ARM))
+    live = stack.enter_context(running(domain, "microros_gen", "modes", "monitor", ARM))
     live.wait_for("  joint")
     live.wait_for("unconfigured")
     live.process.send_signal(signal.SIGINT)

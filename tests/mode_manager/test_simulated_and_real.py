@@ -20,9 +20,10 @@ from microros_gen.mode_manager.simulation import CALL, EVENT, LOG, STATUS, Step,
 from microros_gen.modes import Event, Model
 from microros_gen.modes.script import parse_script
 from microros_gen.ros.peer import Peer
-from tests.support.mode_manager.processes import Asking, Running, node
+from tests.support.mode_manager.processes import Asking, node
 from tests.support.modes.models import model_of, model_text
 from tests.support.patience import deadline
+from tests.support.ros.running import Running
 
 pytestmark = pytest.mark.ros
 ARM = model_text("arm")

@@ -3,14 +3,10 @@
 
 from __future__ import annotations
 
-import queue
 import random
-import subprocess
-import sys
-import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
 from typing import cast
 
@@ -21,10 +17,10 @@ from microros_gen.parameter_server.served import HELD
 from microros_gen.parameter_server.values import DOUBLE, ParameterValue
 from microros_gen.ros.errors import RosError
 from microros_gen.ros.peer import Peer
-from tests.support.agent.process import environment, own_domain
 from tests.support.parameter_server.asking import Asking, alive
 from tests.support.parameter_server.board import Board
 from tests.support.patience import seconds
+from tests.support.ros.running import Running, running
 
 READY = "parameter server ready: /microros_parameters"
 
@@ -159,64 +155,11 @@ def test_one_serves_in_the_end_whatever_is_lost(seed: int) -> None:
     assert sum(server.own.serving for server in servers) == 1
 
 
-class Started:
-    """A process with a parameter server; `lines` are those of its output so far."""
-
-    def __init__(self, domain: int, module: str, *arguments: str) -> None:
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", module, *arguments],
-            env=environment(domain),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-        )
-        self.lines: list[str] = []
-        self._new: queue.SimpleQueue[str] = queue.SimpleQueue()
-        threading.Thread(target=self._read, daemon=True).start()
-
-    def _read(self) -> None:
-        assert self.process.stdout is not None
-        for line in self.process.stdout:
-            self._new.put(line)
-
-    def count(self, text: str) -> int:
-        """Return the number of lines with a text."""
-        while not self._new.empty():
-            self.lines.append(self._new.get())
-        return sum(text in line for line in self.lines)
-
-    def says(self, text: str) -> bool:
-        return self.count(text) > 0
-
-    def begin(self) -> None:
-        assert self.process.stdin is not None
-        self.process.stdin.write("\n")
-        self.process.stdin.flush()
-
-
-@contextmanager
-def ended(started: Started) -> Iterator[Started]:
-    try:
-        yield started
-    finally:
-        started.process.kill()
-        started.process.wait()
-
-
-def wait(condition: Callable[[], bool], limit_s: float, servers: list[Started]) -> None:
+def wait(condition: Callable[[], bool], limit_s: float, servers: list[Running]) -> None:
     end = time.monotonic() + seconds(limit_s)
     while not condition():
         assert time.monotonic() < end, [server.lines for server in servers]
         time.sleep(0.1)
-
-
-@pytest.fixture
-def domain(monkeypatch: pytest.MonkeyPatch) -> int:
-    number = own_domain()
-    for name, value in environment(number).items():
-        monkeypatch.setenv(name, value)
-    return number
 
 
 @pytest.mark.ros
@@ -229,7 +172,7 @@ def test_two_that_start_at_the_same_time(module: str, domain: int, tmp_path: Pat
         for name in ("a", "b"):
             file = str(tmp_path / f"{name}.json")
             arguments = ["parameter-server", "--file", file] if module == "microros_gen" else [file]
-            servers.append(stack.enter_context(ended(Started(domain, module, *arguments))))
+            servers.append(stack.enter_context(running(domain, module, *arguments)))
         if module != "microros_gen":
             wait(lambda: all(server.says("loaded") for server in servers), 30, servers)
             for server in servers:
@@ -261,14 +204,14 @@ def test_a_separate_server_takes_over(domain: int, tmp_path: Path) -> None:
     board = Board(time.monotonic)
     with ExitStack() as stack:
         module = "tests.support.parameter_server.of_agent"
-        agent = stack.enter_context(ended(Started(domain, module, str(tmp_path / "agent.json"))))
+        agent = stack.enter_context(running(domain, module, str(tmp_path / "agent.json")))
         agent.begin()
         stack.enter_context(alive(board))
         ask = Asking(stack.enter_context(Peer("asking")))
         wait(lambda: agent.says(READY), 60, [agent])
         ask.until(lambda: not board.has_news)
         arguments = ("parameter-server", "--file", str(tmp_path / "own.json"))
-        own = stack.enter_context(ended(Started(domain, "microros_gen", *arguments)))
+        own = stack.enter_context(running(domain, "microros_gen", *arguments))
         wait(lambda: own.says(READY), 60, [agent, own])
         wait(lambda: agent.says("another one serves now (a separate server, 0x"), 10, [agent, own])
         board.set("gain", 3.0)
@@ -285,12 +228,11 @@ def test_a_server_without_a_claim_takes_over(domain: int, tmp_path: Path) -> Non
     board = Board(time.monotonic)
     with ExitStack() as stack:
         module = "tests.support.parameter_server.of_agent"
-        agent = stack.enter_context(ended(Started(domain, module, str(tmp_path / "agent.json"))))
+        agent = stack.enter_context(running(domain, module, str(tmp_path / "agent.json")))
         agent.begin()
         stack.enter_context(alive(board))
         wait(lambda: agent.says(READY), 60, [agent])
-        own = Started(domain, "tests.support.parameter_server.short_server")
-        with ended(own):
+        with running(domain, "tests.support.parameter_server.short_server") as own:
             wait(lambda: own.says(READY), 60, [agent, own])
             wait(lambda: agent.says("(a node /microros_parameters without a claim)"), 60, [agent, own])
             assert agent.count(READY) == 1
@@ -303,7 +245,7 @@ def test_two_agents_with_one_file(domain: int, tmp_path: Path) -> None:
     board, file = Board(time.monotonic), str(tmp_path / "p.json")
     with ExitStack() as stack:
         module = "tests.support.parameter_server.of_agent"
-        servers = [stack.enter_context(ended(Started(domain, module, file))) for _ in range(2)]
+        servers = [stack.enter_context(running(domain, module, file)) for _ in range(2)]
         wait(lambda: all(server.says("loaded") for server in servers), 30, servers)
         for server in servers:
             server.begin()

@@ -24,23 +24,15 @@ from microros_gen.parameter_server.values import (
     value_of,
 )
 from microros_gen.ros.peer import Peer
-from tests.support.agent.process import environment, own_domain
+from tests.support.agent.process import environment
 from tests.support.parameter_server.asking import Asking, alive
 from tests.support.parameter_server.board import Board
 from tests.support.parameter_server.process import parameter_server
 from tests.support.patience import seconds
 
-pytestmark = pytest.mark.ros
+pytestmark = [pytest.mark.ros, pytest.mark.usefixtures("domain")]
 PATIENCE_S = seconds(20)
 KIND = "rcl_interfaces/srv"
-
-
-@pytest.fixture(autouse=True)
-def domain(monkeypatch: pytest.MonkeyPatch) -> int:
-    number = own_domain()
-    for name, value in environment(number).items():
-        monkeypatch.setenv(name, value)
-    return number
 
 
 def test_six_services_while_the_board_is_there_and_away(domain: int, tmp_path: Path) -> None:

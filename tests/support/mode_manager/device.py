@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager
 from typing import Any
 
 from microros_gen.mode_manager.calls import STATE_IDS
@@ -15,6 +14,7 @@ from microros_gen.mode_manager.simulated_node import GOALS
 from microros_gen.modes import Status
 from microros_gen.ros.peer import Peer
 from microros_gen.ros.qos import Qos
+from tests.support.ros.running import node_in_thread
 
 
 class Device:
@@ -62,29 +62,18 @@ class Device:
         return {"success": True}
 
 
-@contextmanager
-def alive(device: Device) -> Iterator[None]:
-    """Let the device be there, in a thread."""
-    stop = threading.Event()
+def alive(device: Device) -> AbstractContextManager[None]:
+    """Return a context in which the device is there, in a thread."""
 
-    def run() -> None:
-        with Peer(device.name) as peer:
-            device.serve(peer)
-            states = peer.publisher(CLIENTS_TOPIC, CLIENTS_TYPE, Qos(transient_local=True, depth=10))
-            while not stop.is_set():
-                while device.agent_says:
-                    state = {
-                        "key": "0000002A",
-                        "presence": device.agent_says.pop(0),
-                        "nodes": [f"/{device.name}"],
-                    }
-                    states.publish(state)
-                peer.spin_once(0.05)
+    def begin(peer: Peer) -> Callable[[], object]:
+        device.serve(peer)
+        states = peer.publisher(CLIENTS_TOPIC, CLIENTS_TYPE, Qos(transient_local=True, depth=10))
 
-    thread = threading.Thread(target=run)
-    thread.start()
-    try:
-        yield
-    finally:
-        stop.set()
-        thread.join()
+        def turn() -> None:
+            while device.agent_says:
+                presence = device.agent_says.pop(0)
+                states.publish({"key": "0000002A", "presence": presence, "nodes": [f"/{device.name}"]})
+
+        return turn
+
+    return node_in_thread(device.name, begin)

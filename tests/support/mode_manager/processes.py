@@ -4,75 +4,27 @@
 from __future__ import annotations
 
 import json
-import queue
-import subprocess
-import sys
-import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Any
 
 from microros_gen.mode_manager.diagnosis import TOPIC, TYPE, Row, read_rows
 from microros_gen.mode_manager.messages import parameters_of
 from microros_gen.ros.peer import Peer
-from tests.support.agent.process import environment
 from tests.support.patience import deadline, seconds
-
-
-class Running:
-    """A process; `lines` are those of its output so far."""
-
-    def __init__(self, domain: int, *command: str) -> None:
-        self.process = subprocess.Popen(
-            [sys.executable, *command],
-            env=environment(domain),
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-        )
-        self.lines: list[str] = []
-        self._new: queue.SimpleQueue[str] = queue.SimpleQueue()
-        threading.Thread(target=self._read, daemon=True).start()
-
-    def _read(self) -> None:
-        assert self.process.stdout is not None
-        for line in self.process.stdout:
-            self._new.put(line.rstrip("\n"))
-
-    def says(self, text: str) -> bool:
-        while not self._new.empty():
-            self.lines.append(self._new.get())
-        return any(text in line for line in self.lines)
-
-    def wait_for(self, text: str, idle_s: float = 30.0) -> None:
-        end = deadline(idle_s)
-        while not self.says(text):
-            assert time.monotonic() < end, (text, self.lines)
-            assert self.process.poll() is None, self.lines
-            time.sleep(0.05)
-
-
-@contextmanager
-def running(domain: int, *command: str) -> Iterator[Running]:
-    started = Running(domain, *command)
-    try:
-        yield started
-    finally:
-        started.process.kill()
-        started.process.wait()
+from tests.support.ros.running import running
 
 
 def manager(domain: int, *arguments: str) -> Any:
     """Return a context with `microros-gen modes manage`."""
-    return running(domain, "-m", "microros_gen", "modes", "manage", *arguments)
+    return running(domain, "microros_gen", "modes", "manage", *arguments)
 
 
 def node(domain: int, name: str, **values: Any) -> Any:
     """Return a context with a node of rclpy."""
     namespace, _, base = f"/{name}".rpartition("/")
     module = "tests.support.mode_manager.lifecycle_node"
-    return running(domain, "-m", module, base, namespace or "/", json.dumps(values))
+    return running(domain, module, base, namespace or "/", json.dumps(values))
 
 
 class Asking:

@@ -3,10 +3,9 @@
 
 from __future__ import annotations
 
-import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from typing import Any
 
 from microros_gen.parameter_server.server import NOTICES_QOS, NOTICES_TOPIC
@@ -14,33 +13,28 @@ from microros_gen.parameter_server.values import DOUBLE, ParameterValue, value_o
 from microros_gen.ros.peer import Peer
 from tests.support.parameter_server.board import Board
 from tests.support.patience import deadline, seconds
+from tests.support.ros.running import node_in_thread
 
 KIND = "rcl_interfaces/srv"
 
 
-@contextmanager
-def alive(board: Board, node: str = "/arm") -> Iterator[None]:
-    """Let the board be there, in a thread."""
-    stop = threading.Event()
+def alive(board: Board, node: str = "/arm") -> AbstractContextManager[None]:
+    """Return a context in which the board is there, in a thread."""
 
-    def run() -> None:
-        with Peer("arm_board") as peer:
-            peer.serve(f"{node}/exchange_parameters", "microros_parameter_msgs/srv/Exchange", board.answer)
-            notices = peer.publisher(NOTICES_TOPIC, "microros_parameter_msgs/msg/Notice", NOTICES_QOS)
-            due = 0.0
-            while not stop.is_set():
-                if board.has_news and time.monotonic() > due:
-                    notices.publish(board.notice(node))
-                    due = time.monotonic() + 1
-                peer.spin_once(0.05)
+    def begin(peer: Peer) -> Callable[[], object]:
+        peer.serve(f"{node}/exchange_parameters", "microros_parameter_msgs/srv/Exchange", board.answer)
+        notices = peer.publisher(NOTICES_TOPIC, "microros_parameter_msgs/msg/Notice", NOTICES_QOS)
+        due = 0.0
 
-    thread = threading.Thread(target=run)
-    thread.start()
-    try:
-        yield
-    finally:
-        stop.set()
-        thread.join()
+        def turn() -> None:
+            nonlocal due
+            if board.has_news and time.monotonic() > due:
+                notices.publish(board.notice(node))
+                due = time.monotonic() + 1
+
+        return turn
+
+    return node_in_thread("arm_board", begin)
 
 
 class Asking:
