@@ -2,6 +2,7 @@
 /* A node with a life cycle in the hands of the test: one call for each line of standard input. */
 #include "fake_no_wait.h"
 #include "fake_program.h"
+#include "retained_file.h"
 
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
@@ -9,7 +10,6 @@
 #include <rclc/rclc.h>
 #include <rclc_lifecycle/rclc_lifecycle.h>
 #include <rmw_microros/rmw_microros.h>
-#include <rmw_microros/sleep.h>
 #include <std_msgs/msg/int32.h>
 
 #include <inttypes.h>
@@ -30,7 +30,6 @@ static rcl_timer_t managed_timer;
 static rcl_timer_t free_timer;
 static int managed_calls;
 static int free_calls;
-static rmw_uros_retained_t retained;
 
 static void on_managed(rcl_timer_t * timer, int64_t since_last_call)
 {
@@ -105,33 +104,6 @@ static rcl_ret_t statistics(void)
   return result;
 }
 
-static rcl_ret_t store(const char * file, bool sleeps)
-{
-  FILE * stream = fopen(file, sleeps ? "wb" : "rb");
-  size_t count = 0;
-
-  if (stream != NULL) {
-    count =
-      sleeps ? fwrite(&retained, sizeof(retained), 1, stream) : fread(&retained, sizeof(retained), 1, stream);
-    (void)fclose(stream);
-  }
-  return count == 1u ? RCL_RET_OK : RCL_RET_ERROR;
-}
-
-static rcl_ret_t go_to_sleep(const char * file)
-{
-  const rmw_ret_t result = rmw_uros_sleep(rcl_context_get_rmw_context(&support.context), &retained, 300);
-
-  return result == RMW_RET_OK ? store(file, true) : result;
-}
-
-static rcl_ret_t wake_up(const char * file)
-{
-  const rcl_ret_t result = store(file, false);
-
-  return result == RCL_RET_OK && !rmw_uros_wake(&retained) ? RCL_RET_ERROR : result;
-}
-
 static rcl_ret_t end(void)
 {
   rcl_ret_t result = rclc_lifecycle_node_fini(&lifecycle, &allocator);
@@ -187,7 +159,7 @@ static rcl_ret_t call(char * line)
     return rcl_service_fini(&machine.com_interface.srv_get_transition_graph, &node);
   }
   if (strcmp(word, "sleep") == 0) {
-    return go_to_sleep(argument);
+    return go_to_sleep(&support, argument);
   }
   if (strcmp(word, "wake") == 0) {
     return wake_up(argument);

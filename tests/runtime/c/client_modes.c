@@ -2,6 +2,7 @@
 /* A node with modes in the hands of the test: one call for each line of standard input. */
 #include "fake_no_wait.h"
 #include "fake_program.h"
+#include "retained_file.h"
 
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
@@ -10,7 +11,6 @@
 #include <rclc_modes/declared_modes.h>
 #include <rclc_parameter/declared_parameters.h>
 #include <rmw_microros/rmw_microros.h>
-#include <rmw_microros/sleep.h>
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -26,7 +26,6 @@ static rclc_lifecycle_node_t lifecycle;
 static rclc_lifecycle_service_context_t context = {&lifecycle};
 static rclc_parameter_server_t parameters;
 static rclc_modes_t modes;
-static rmw_uros_retained_t retained;
 
 static int outcomes[8];      /* of transitions, by their ids */
 static int failures[8];      /* how many more times; then they succeed */
@@ -169,33 +168,6 @@ static rcl_ret_t show(void)
   return result;
 }
 
-static rcl_ret_t store(const char * file, bool sleeps)
-{
-  FILE * stream = fopen(file, sleeps ? "wb" : "rb");
-  size_t count = 0;
-
-  if (stream != NULL) {
-    count =
-      sleeps ? fwrite(&retained, sizeof(retained), 1, stream) : fread(&retained, sizeof(retained), 1, stream);
-    (void)fclose(stream);
-  }
-  return count == 1u ? RCL_RET_OK : RCL_RET_ERROR;
-}
-
-static rcl_ret_t go_to_sleep(const char * file)
-{
-  const rmw_ret_t result = rmw_uros_sleep(rcl_context_get_rmw_context(&support.context), &retained, 300);
-
-  return result == RMW_RET_OK ? store(file, true) : result;
-}
-
-static rcl_ret_t wake_up(const char * file)
-{
-  const rcl_ret_t result = store(file, false);
-
-  return result == RCL_RET_OK && !rmw_uros_wake(&retained) ? RCL_RET_ERROR : result;
-}
-
 static rcl_ret_t end(void)
 {
   rcl_ret_t result = rclc_modes_fini(&modes);
@@ -295,7 +267,7 @@ static rcl_ret_t call(char * line)
     return count_calls();
   }
   if (strcmp(word, "sleep") == 0) {
-    return go_to_sleep(first);
+    return go_to_sleep(&support, first);
   }
   if (strcmp(word, "wake") == 0) {
     return wake_up(first);
