@@ -4,32 +4,32 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from functools import partial
+from typing import Any
 
 import pytest
 
-from microros_gen.ros.endpoints import Value
+from microros_gen.ros.peer import Peer
 from tests.mode_manager.test_nodes import ARM, GRIPPER, JOINT, start
 
 pytestmark = pytest.mark.ros
 
 
-def note(seen: list[str], event: Value) -> None:
-    """Append the state that a transition led to."""
-    seen.append(event["goal_state"]["label"])
+def goals_of(peer: Peer, name: str) -> list[str]:
+    """Return a list that gets the goal of each transition event of a node."""
+    goals: list[str] = []
+
+    def note(event: dict[str, Any]) -> None:
+        goals.append(event["goal_state"]["label"])
+
+    peer.subscribe(f"/{name}/transition_event", "lifecycle_msgs/msg/TransitionEvent", note)
+    return goals
 
 
 def test_a_node_that_is_reconfigured_while_it_is_inactive(stack: ExitStack, domain: int) -> None:
     """The joint refuses parameters while it is active; the gripper takes them then, and stays active."""
     strict = {**JOINT, "only_inactive": True}
     asking, _ = start(stack, domain, ARM, "--reconfigure", "joint", gripper=GRIPPER, joint=strict)
-    states: dict[str, list[str]] = {"gripper": [], "joint": []}
-    for name, seen in states.items():
-        asking.peer.subscribe(
-            f"/{name}/transition_event",
-            "lifecycle_msgs/msg/TransitionEvent",
-            partial(note, seen),
-        )
+    states = {name: goals_of(asking.peer, name) for name in ("gripper", "joint")}
     assert asking.change_mode("arm", "QUICK")
     asking.until_row("arm", "active.QUICK")
     asking.until(lambda: all(seen[-1:] == ["active"] for seen in states.values()))
