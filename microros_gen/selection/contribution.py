@@ -247,7 +247,7 @@ class InitOption(Conditional):
     """
 
     function: str
-    parameters: str
+    arguments: str
     comment: str
     absent: str
     unmet: str = ""

@@ -115,7 +115,7 @@ def read_contributions(node: MappingNode, diagnostics: Diagnostics) -> Contribut
         init_options=tuple(
             InitOption(
                 function=e.key,
-                parameters=child_text(e.value, "parameters"),
+                arguments=child_text(e.value, "arguments"),
                 comment=child_text(e.value, "comment"),
                 absent=child_text(e.value, "absent"),
                 unmet=child_text(e.value, "unmet"),

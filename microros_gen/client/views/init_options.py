@@ -54,8 +54,8 @@ def init_options(
 
 
 def _declared(option: InitOption) -> DeclaredOption:
-    one = f"rmw_ret_t {option.function}({option.parameters});"
-    two = f"rmw_ret_t {option.function}(\n  {option.parameters});"
+    one = f"rmw_ret_t {option.function}({option.arguments});"
+    two = f"rmw_ret_t {option.function}(\n  {option.arguments});"
     return DeclaredOption(_comment(option.comment), one if len(one) <= _WIDTH else two)
 
 
