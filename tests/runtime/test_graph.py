@@ -134,7 +134,7 @@ def test_an_enclave_that_does_not_fit(device: Device) -> None:
     assert "raise limits of microros_graph_msgs" in device.fails("enclaves", ERROR)
 
 
-def test_a_server_that_tells_no_enclaves(device: Device) -> None:
+def test_a_server_that_reports_no_enclaves(device: Device) -> None:
     """All that was allocated is free again."""
 
     def without(response: dict[str, Any]) -> dict[str, Any]:
