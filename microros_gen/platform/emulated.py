@@ -16,8 +16,8 @@ _OTHERS = frozenset({"console", "console_send", "stdio_put"})
 
 def with_emulated_console(target: Target, selection: Selection) -> Target:
     """Return a target whose emulator prints the lines of the console, where one is asked for and nothing else does."""
-    asked = (ask.capability for chosen in selection.components for ask in chosen.component.asks)
-    if "console" not in asked:
+    requested = (ask.capability for chosen in selection.components for ask in chosen.component.asks)
+    if "console" not in requested:
         return target
     if target.emulator is None or target.stdio is not None or _OTHERS & set(target.provides):
         return target
