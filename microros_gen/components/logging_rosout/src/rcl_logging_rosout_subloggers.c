@@ -29,7 +29,7 @@ typedef struct sublogger_name_t {
 
 static sublogger_t subloggers[MICROROS_LOGGERS_MAX];
 
-static void sublogger_forget_closed(void)
+static void sublogger_clear_closed(void)
 {
   for (uint16_t node = 0; node < MICROROS_NODES_MAX; ++node) {
     if (rcl_rosout_was_closed(node)) {
@@ -183,7 +183,7 @@ rcl_ret_t rcl_logging_rosout_add_sublogger(const char * logger_name, const char 
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "logger_name or sublogger_name");
   }
   microros_lock();
-  sublogger_forget_closed();
+  sublogger_clear_closed();
   result = sublogger_add(&name);
   microros_unlock();
   return result;
@@ -198,7 +198,7 @@ rcl_ret_t rcl_logging_rosout_remove_sublogger(const char * logger_name, const ch
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "logger_name or sublogger_name");
   }
   microros_lock();
-  sublogger_forget_closed();
+  sublogger_clear_closed();
   result = sublogger_remove(&name);
   microros_unlock();
   return result;
