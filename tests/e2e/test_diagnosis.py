@@ -193,7 +193,7 @@ def test_levels_and_the_requested_mode(board: Board) -> None:
 
 
 @pytest.mark.system
-def test_a_lost_session_is_told_after_it(
+def test_a_lost_session_is_reported_afterwards(
     program: Path, observer: Observer, relay: Relay, domain: int
 ) -> None:
     observer.subscribe(TOPIC, TYPE)

@@ -75,7 +75,7 @@ def test_the_stack_is_what_the_memory_says(
         reset = statuses(observer, "reset", lambda values, status: True)
         running.wait_for(lambda: running.words("diagnosis_report", 2)[1] > 200, 60)
         used = int(before["values"]["peak"]) + USED // 2
-        after = statuses(  # the percentage is that of the begin of a report, the rows that of its message
+        after = statuses(  # the percentage is that of the start of a report, the rows that of its message
             observer,
             "stack",
             lambda values, status: int(values["peak"]) > used and int(values["used_percent"]) > USED // 100,
@@ -83,7 +83,7 @@ def test_the_stack_is_what_the_memory_says(
         touched = touched_stack(running, built, image)
         symbols = built.symbols(image)
     assert int(after["values"]["size"]) == symbols["port_stack_high"] - symbols["port_stack_low"]
-    assert 0 <= touched - int(after["values"]["peak"]) <= 64, "an interrupt may have come deeper since"
+    assert 0 <= touched - int(after["values"]["peak"]) <= 64, "an interrupt may have used more since"
     assert USED <= int(after["values"]["peak"]) <= USED + int(before["values"]["peak"])
     percent = int(after["values"]["used_percent"])
     assert abs(percent - 100 * int(after["values"]["peak"]) // int(after["values"]["size"])) <= 1

@@ -7,10 +7,10 @@
 enum { SHORTEST_US = 1000, PERCENT = 100 };
 
 typedef struct times_t {
-  uint32_t since_us; /* begin of what is measured */
+  uint32_t since_us; /* start of what is measured */
   uint32_t idle_us;  /* of it */
-  uint32_t rest_us;  /* begin of the present wait */
-  uint32_t round_us; /* begin of the present round */
+  uint32_t rest_us;  /* start of the present wait */
+  uint32_t round_us; /* start of the present round */
   uint32_t rounds;
   uint32_t longest_us;
   uint32_t missed;

@@ -104,7 +104,7 @@ rcl_ret_t rclc_modes_init(
   if (result != RCL_RET_OK) {
     (void)modes_close(modes); /* the first error is reported */
   } else {
-    rclc_modes_know(modes);
+    rclc_modes_register(modes);
   }
   return result;
 }
@@ -119,7 +119,7 @@ rcl_ret_t rclc_modes_fini(rclc_modes_t * modes)
   if (!modes_are_initialized(modes)) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "modes");
   }
-  rclc_modes_forget(modes);
+  rclc_modes_remove(modes);
   rmw_modes_set(modes->lifecycle_node->node->impl, 0u);
   return modes_close(modes);
 }

@@ -10,12 +10,12 @@
 
 static rclc_modes_t * modes_of[MICROROS_NODES_MAX];
 
-void rclc_modes_know(rclc_modes_t * modes)
+void rclc_modes_register(rclc_modes_t * modes)
 {
   modes_of[rmw_node_index(modes->lifecycle_node->node->impl)] = modes;
 }
 
-void rclc_modes_forget(const rclc_modes_t * modes)
+void rclc_modes_remove(const rclc_modes_t * modes)
 {
   modes_of[rmw_node_index(modes->lifecycle_node->node->impl)] = NULL;
 }

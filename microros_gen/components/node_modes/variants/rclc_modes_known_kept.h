@@ -10,8 +10,8 @@ extern "C" {
 #endif
 
 /* Called when modes are initialized and before they are finalized. */
-void rclc_modes_know(rclc_modes_t * modes);
-void rclc_modes_forget(const rclc_modes_t * modes);
+void rclc_modes_register(rclc_modes_t * modes);
+void rclc_modes_remove(const rclc_modes_t * modes);
 
 #ifdef __cplusplus
 }

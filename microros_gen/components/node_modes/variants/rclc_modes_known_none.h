@@ -6,12 +6,12 @@
 #include "rclc_modes/rclc_modes.h"
 
 /* Called when modes are initialized and before they are finalized. */
-static inline void rclc_modes_know(rclc_modes_t * modes)
+static inline void rclc_modes_register(rclc_modes_t * modes)
 {
   (void)modes;
 }
 
-static inline void rclc_modes_forget(const rclc_modes_t * modes)
+static inline void rclc_modes_remove(const rclc_modes_t * modes)
 {
   (void)modes;
 }

@@ -105,7 +105,7 @@ const rcl_diagnosis_row_t * rcl_diagnosis_changed(const xrce_client_t * client, 
 /* Encodes a diagnostic_msgs/msg/DiagnosticArray with one status; returns its size, MICROROS_DIAGNOSIS_SIZE at most. */
 uint32_t rcl_diagnosis_encode(const xrce_client_t * client, uint8_t status, uint8_t * body);
 
-/* Begins to measure times anew; `_busy` returns the share of the time since the last call in which the executor did not
+/* Starts measuring times again; `_busy` returns the share of the time since the last call in which the executor did not
  * wait, percent, -1 if that was too short. */
 void rcl_diagnosis_times_begin(void);
 int32_t rcl_diagnosis_busy(void);
