@@ -86,9 +86,9 @@ static rcl_ret_t activate(void)
   const rcl_ret_t result =
     rclc_lifecycle_change_state(&lifecycle, lifecycle_msgs__msg__Transition__TRANSITION_CONFIGURE, true);
 
-  return result == RCL_RET_OK
-           ? rclc_lifecycle_change_state(&lifecycle, lifecycle_msgs__msg__Transition__TRANSITION_ACTIVATE, true)
-           : result;
+  return result == RCL_RET_OK ? rclc_lifecycle_change_state(
+                                  &lifecycle, lifecycle_msgs__msg__Transition__TRANSITION_ACTIVATE, true)
+                              : result;
 }
 
 static bool answer(void)

@@ -13,12 +13,12 @@ static uint32_t now_ms;
 static uint32_t now_us;
 static uint32_t added;
 
-#define EXPECT(condition)                                              \
-  do {                                                                 \
-    if (!(condition)) {                                                \
-      (void)fprintf(stderr, "line %d: %s\n", __LINE__, #condition);    \
-      exit(1);                                                         \
-    }                                                                  \
+#define EXPECT(condition) \
+  do { \
+    if (!(condition)) { \
+      (void)fprintf(stderr, "line %d: %s\n", __LINE__, #condition); \
+      exit(1); \
+    } \
   } while (0)
 
 uint32_t port_time_ms(void)
@@ -131,7 +131,8 @@ static void times(void)
   rcl_diagnosis_round_begins();
   now_us += 60000u;
   rcl_diagnosis_round_ends();
-  EXPECT(rcl_diagnosis_longest_us() == 60000u && rcl_diagnosis_rounds() == 1u && rcl_diagnosis_missed() == 1u);
+  EXPECT(
+    rcl_diagnosis_longest_us() == 60000u && rcl_diagnosis_rounds() == 1u && rcl_diagnosis_missed() == 1u);
   rcl_diagnosis_rests();
   now_us += 140000u;
   rcl_diagnosis_rested();

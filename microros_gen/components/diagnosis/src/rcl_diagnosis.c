@@ -25,8 +25,8 @@ static const rosidl_message_type_support_t diagnosis_type = {
   .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &diagnosis_message};
 
 static rmw_publisher_t * diagnosis_publisher;
-static const rmw_node_t * diagnosis_node; /* the owner */
-static uint32_t diagnosis_waiting;        /* a bit for each status that is to be sent */
+static const rmw_node_t * diagnosis_node;                /* the owner */
+static uint32_t diagnosis_waiting;                       /* a bit for each status that is to be sent */
 static uint32_t diagnosis_seen[MICROROS_DIAGNOSIS_ROWS]; /* as last reported */
 
 rcl_ret_t rcl_diagnosis_open(const rcl_node_t * node)

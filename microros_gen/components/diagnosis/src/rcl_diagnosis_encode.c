@@ -174,7 +174,8 @@ static void encode_check(
   }
 }
 
-static void encode_message(encode_t * out, const char * reason, const rcl_diagnosis_check_t * check, uint8_t level)
+static void encode_message(
+  encode_t * out, const char * reason, const rcl_diagnosis_check_t * check, uint8_t level)
 {
   const uint32_t begin = encode_text_begin(out);
 
@@ -225,7 +226,7 @@ uint32_t rcl_diagnosis_encode(const xrce_client_t * client, uint8_t status, uint
   uint32_t count_at;
 
   encode_stamp(&out);
-  encode_text(&out, ""); /* frame_id */
+  encode_text(&out, "");  /* frame_id */
   encode_number(&out, 1); /* statuses */
   encode_head(&out, about, measure, rcl_diagnosis_changed(client, status));
   encode_number(&out, 0);

@@ -25,5 +25,6 @@ bool rclc_modes_request(uint16_t node, const char * mode)
   rclc_modes_t * modes = node < (uint16_t)MICROROS_NODES_MAX ? modes_of[node] : NULL;
   const uint8_t wanted = rclc_modes_find(modes, mode);
 
-  return modes != NULL && (rclc_modes_get(modes) == wanted || rclc_modes_reconfigure(modes, wanted) == RCL_RET_OK);
+  return modes != NULL &&
+         (rclc_modes_get(modes) == wanted || rclc_modes_reconfigure(modes, wanted) == RCL_RET_OK);
 }
