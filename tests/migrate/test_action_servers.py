@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.migrate.test_rclc import adopted, program, reasons
+from tests.support.migrate.rclc import adopted, program, reasons
 
 OPENS = 'rclc_action_server_init_default(&server, &node, &support, ROSIDL_GET_ACTION_TYPE_SUPPORT(p, Walk), "walk");'
 

@@ -3,38 +3,15 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.migrate.draft import DraftEndpoint
-from microros_gen.migrate.rclc_draft import Adopted, rclc_draft
-from microros_gen.selection.component import Catalogue
-from microros_gen.selection.find_components import declared_functions, load_catalogue
 from tests.support.examples import examples
+from tests.support.migrate.rclc import NODE, adopted, program, reasons
 
-NODE = 'rclc_node_init_default(&node, "n", "", &support);'
 INT32 = "ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32)"
-
-
-@cache
-def catalogue() -> Catalogue:
-    return load_catalogue()
-
-
-def adopted(*texts: str) -> Adopted:
-    diagnostics = Diagnostics()
-    sources = [Source(f"{index}.c", text) for index, text in enumerate(texts)]
-    found = rclc_draft(sources, declared_functions(catalogue()), catalogue(), diagnostics)
-    diagnostics.check()
-    return found
-
-
-def program(body: str, before: str = "") -> str:
-    return f"{before}\nint main(void)\n{{\n  {NODE}\n  {body}\n}}\n"
 
 
 def endpoints(*texts: str) -> list[tuple[str, str, str]]:
@@ -44,10 +21,6 @@ def endpoints(*texts: str) -> list[tuple[str, str, str]]:
 def only(text: str) -> DraftEndpoint:
     (endpoint,) = adopted(text).draft.nodes[0].endpoints
     return endpoint
-
-
-def reasons(*texts: str) -> list[str]:
-    return [f"{r.span}: {r.text}" for r in adopted(*texts).draft.all_remarks if r.undecided]
 
 
 @pytest.mark.parametrize(

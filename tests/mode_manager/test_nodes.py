@@ -13,28 +13,14 @@ from typing import Any
 import pytest
 
 from microros_gen.mode_manager.diagnosis import TOPIC, TYPE
-from microros_gen.ros.peer import Peer
+from tests.support.mode_manager.arm import ARM, GRIPPER, JOINT, start
 from tests.support.mode_manager.device import Device, alive
-from tests.support.mode_manager.processes import Asking, manager, node
+from tests.support.mode_manager.processes import manager, node
 from tests.support.modes.models import MODELS
 from tests.support.patience import seconds
 from tests.support.ros.running import Running, running
 
 pytestmark = pytest.mark.ros
-ARM = str(MODELS / "arm.yaml")
-GRIPPER = {"force": 0.5}
-JOINT = {"speed": 0.1, "law": "TORQUE"}
-
-
-def start(stack: ExitStack, domain: int, *arguments: str, **nodes: dict[str, Any]) -> tuple[Asking, Running]:
-    """Start nodes, a manager and one that asks; wait until the manager knows the nodes."""
-    for name, values in nodes.items():
-        stack.enter_context(node(domain, name, **values))
-    managing = stack.enter_context(manager(domain, *arguments))
-    managing.wait_for("mode manager ready")
-    asking = Asking(stack.enter_context(Peer("asking")))
-    asking.until(lambda: all(n in asking.rows and asking.rows[n].actual != "unknown" for n in nodes))
-    return asking, managing
 
 
 def test_a_system_of_two_nodes(stack: ExitStack, domain: int) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from microros_gen.ros.peer import Peer
-from tests.mode_manager.test_nodes import ARM, GRIPPER, JOINT, start
+from tests.support.mode_manager.arm import ARM, GRIPPER, JOINT, start
 
 pytestmark = pytest.mark.ros
 
