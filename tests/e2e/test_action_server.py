@@ -262,19 +262,19 @@ def test_the_agent_restarts_in_the_middle_of_a_goal(program: Path, image_port: R
             running = process.__enter__()
             server = Server(CommandedProgram(running), peer)
             assert peer.ask(do="wait", action=DEVICE, timeout=seconds(30))
-            peer.send(3)
-            peer.send(4)
+            assert peer.send(3)["accepted"]
+            assert peer.send(4)["accepted"]
             peer.ask(do="ask", goal=0)
         server.ok(f"end 0 {SUCCEEDED} 2")
         with running_agent(*options) as second:
             image_port.connect(second.port)
             peer.ask(do="watch", action=DEVICE)
-            server.until(lambda: [0, SUCCEEDED] in (peer.ask(do="statuses") or [[]])[-1], 40)
-            assert [1, EXECUTING] in peer.ask(do="statuses")[-1]
+            server.until(lambda: [1, EXECUTING] in (peer.ask(do="statuses") or [[]])[-1], 60)
             assert peer.ask(do="wait", action=DEVICE, timeout=seconds(30))
+            assert server.goal(1) == [4, EXECUTING, 0]
             server.ok(f"end 1 {SUCCEEDED} 3")
-            peer.ask(do="ask", goal=1)
             assert peer.result(1) == [SUCCEEDED, [0, 1, 1]]
+            assert peer.send(5)["accepted"]
             assert running.stdin is not None
             running.stdin.write("end\n")
             ends_well(running)
