@@ -83,6 +83,7 @@ MENTIONS = {
     "cdr_decode": 1,
     "clock": 1,
     "clock_ros": 2,
+    "diagnosis": 2,
     "discovery": 4,
     "executor": 2,
     "framing": 1,
