@@ -46,6 +46,9 @@ typedef struct port_bare_fault_t {
 /* After a reset caused by a fault: returns true once, with the record of the fault. */
 bool port_bare_fault_take(port_bare_fault_t * fault);
 
+/* Returns whether the last reset was caused by a fault whose record was not taken yet. */
+bool port_bare_fault_is_kept(void);
+
 /* Stores `fault` across the following reset. For the fault handlers of a port. */
 void port_bare_fault_keep(const port_bare_fault_t * fault);
 

@@ -18,9 +18,9 @@ extern "C" {
  * defined. Functions of other transports are not declared: a call fails to compile with a name that says
  * what to set in microros.yaml.
  */
-#define rmw_uros_options_set_udp_address rmw_uros_options_set_udp_address__needs__transport_type_udp
-#define rmw_uros_options_set_tcp_address rmw_uros_options_set_tcp_address__needs__transport_type_tcp
 #define rmw_uros_options_set_serial_device rmw_uros_options_set_serial_device__the_board_has_one
+#define rmw_uros_options_set_tcp_address rmw_uros_options_set_tcp_address__needs__transport_type_tcp
+#define rmw_uros_options_set_udp_address rmw_uros_options_set_udp_address__needs__transport_type_udp
 
 /* Two clients with the same key take over each other's session. 0 is refused, as agents do. */
 rmw_ret_t rmw_uros_options_set_client_key(uint32_t client_key, rmw_init_options_t * rmw_options);

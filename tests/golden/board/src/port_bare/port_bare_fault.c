@@ -38,3 +38,8 @@ bool port_bare_fault_take(port_bare_fault_t * fault)
   fault->caller = port_bare_fault_kept.caller;
   return true;
 }
+
+bool port_bare_fault_is_kept(void)
+{
+  return port_bare_fault_kept.mark == fault_mark;
+}

@@ -21,11 +21,12 @@ extern "C" {
 
 /*
  * Copies an address and a decimal port (1 to 65535). RMW_RET_INVALID_ARGUMENT: NULL, too long, not a
- * number. */
+ * number.
+ */
 rmw_ret_t rmw_uros_options_set_udp_address(
   const char * ip, const char * port, rmw_init_options_t * rmw_options);
-#define rmw_uros_options_set_tcp_address rmw_uros_options_set_tcp_address__needs__transport_type_tcp
 #define rmw_uros_options_set_serial_device rmw_uros_options_set_serial_device__needs__transport_type_serial
+#define rmw_uros_options_set_tcp_address rmw_uros_options_set_tcp_address__needs__transport_type_tcp
 
 /* Two clients with the same key take over each other's session. 0 is refused, as agents do. */
 rmw_ret_t rmw_uros_options_set_client_key(uint32_t client_key, rmw_init_options_t * rmw_options);

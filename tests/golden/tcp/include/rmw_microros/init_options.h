@@ -18,12 +18,15 @@ extern "C" {
  * defined. Functions of other transports are not declared: a call fails to compile with a name that says
  * what to set in microros.yaml.
  */
-#define rmw_uros_options_set_udp_address rmw_uros_options_set_udp_address__needs__transport_type_udp
 
-/* Same for TCP, an addition of this client; IPv4 or, if the port supports it, IPv6. */
+/*
+ * Copies an address, IPv4 or, if the port supports it, IPv6, and a decimal port (1 to 65535); an
+ * addition of this client. RMW_RET_INVALID_ARGUMENT: NULL, too long, not a number.
+ */
 rmw_ret_t rmw_uros_options_set_tcp_address(
   const char * ip, const char * port, rmw_init_options_t * rmw_options);
 #define rmw_uros_options_set_serial_device rmw_uros_options_set_serial_device__needs__transport_type_serial
+#define rmw_uros_options_set_udp_address rmw_uros_options_set_udp_address__needs__transport_type_udp
 
 /* Two clients with the same key take over each other's session. 0 is refused, as agents do. */
 rmw_ret_t rmw_uros_options_set_client_key(uint32_t client_key, rmw_init_options_t * rmw_options);

@@ -72,6 +72,8 @@ typedef struct rclc_executor_t_s {
   rclc_executor_semantics_t data_comm_semantics;
 } rclc_executor_t;
 
+typedef rcl_ret_t (*rclc_executor_func_t)(rclc_executor_t * executor);
+
 rclc_executor_t rclc_executor_get_zero_initialized_executor(void);
 
 /*
