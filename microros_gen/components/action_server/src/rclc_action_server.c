@@ -92,7 +92,7 @@ static rcl_ret_t action_open_publishers(rclc_action_server_t * server, const rcl
   const microros_action_type_t * type = server->type;
   rcl_publisher_options_t options = rcl_publisher_get_default_options();
   rcl_ret_t result = rcl_publisher_init(
-    &server->feedback_publisher, node, type->feedback(), action_endpoint(declared->feedback_at), &options);
+    &server->feedback_publisher, node, type->feedback, action_endpoint(declared->feedback_at), &options);
 
   if (result == RCL_RET_OK) {
     options.qos = rcl_action_qos_profile_status_default;

@@ -40,7 +40,7 @@ static rcl_ret_t action_result_keep(rclc_action_goal_handle_t * goal, size_t pla
 {
   const rclc_action_server_t * server = goal->action_server;
   const microros_action_type_t * type = server->type;
-  const microros_message_type_t * response = type->result_response()->data;
+  const microros_message_type_t * response = type->result_response->data;
   cdr_fault_t fault; /* set if the message is refused */
 
   goal->result_size =
@@ -188,7 +188,7 @@ rcl_ret_t rclc_action_serve_result(rclc_action_server_t * server)
 {
   const microros_action_type_t * type = server->type;
   const rclc_action_outcome_t unknown = {
-    .type = type->result_response()->data, .message = server->declared->no_result, .body = NULL};
+    .type = type->result_response->data, .message = server->declared->no_result, .body = NULL};
   uint8_t uuid[UUID_SIZE];
   rmw_service_info_t info;
   bool taken = false;

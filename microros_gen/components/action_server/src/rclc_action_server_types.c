@@ -24,7 +24,7 @@ static void action_decode_refuse(rclc_action_incoming_t * incoming, const char *
 static void action_decode_place(cdr_in_t * in, rclc_action_incoming_t * incoming, const uint8_t * uuid)
 {
   const microros_action_type_t * type = incoming->server->type;
-  const microros_message_type_t * request = type->goal_request()->data;
+  const microros_message_type_t * request = type->goal_request->data;
 
   incoming->goal->is_used = true;
   incoming->goal->status = GOAL_STATE_UNKNOWN;

@@ -10,9 +10,9 @@ typedef struct microros_action_type_t {
   const char * dds_type_name; /* "example_interfaces::action::dds_::Fibonacci_" */
   const char * send_goal;
   const char * get_result;
-  const rosidl_message_type_support_t * (*goal_request)(void);
-  const rosidl_message_type_support_t * (*result_response)(void);
-  const rosidl_message_type_support_t * (*feedback)(void);
+  const rosidl_message_type_support_t * goal_request;
+  const rosidl_message_type_support_t * result_response;
+  const rosidl_message_type_support_t * feedback;
 } microros_action_type_t;
 
 #endif /* MICROROS_ACTION_TYPE_H */
