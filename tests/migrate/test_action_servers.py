@@ -39,4 +39,4 @@ def test_an_action_that_is_opened_again_is_there_once() -> None:
     ],
 )
 def test_what_is_not_known_is_said(call: str, reason: str) -> None:
-    assert any(reason in said for said in reasons(program(call)))
+    assert any(reason in message for message in reasons(program(call)))
