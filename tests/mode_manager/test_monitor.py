@@ -68,7 +68,7 @@ def test_a_failed_part_and_one_on_its_way() -> None:
     assert rows["joint"].retries > 0
     world.let(5)
     rows = {row.part: row for row in rows_of(world.manager)}
-    assert (rows["joint"].level, rows["joint"].message) == (2, "it refuses change_mode RUSH: no")
+    assert (rows["joint"].level, rows["joint"].message) == (2, "it refuses change_mode RUSH")
     assert (rows["arm"].level, rows["arm"].message) == (2, "it is not in its target")
 
 

@@ -360,16 +360,21 @@ STEPPED = {
     "write": ["full"],
 }
 ELSEWHERE = {
+    "action_server": "test_action_server.py: results and goals over the wrap",
     "clock": "unit_days.c",
+    "diagnosis": "tests/components/test_diagnosis.py: checks and shares over the wraps of ms and us",
     "executor": "unit_days.c",
     "lifecycle": "test_lifecycle.py: parts and timers over the wrap",
     "node_modes": "test_modes.py: services over the wrap; times of events have 64 bits",
     "parameter_client": "test_parameter_client.py: a call over the wrap",
     "parameters_held": "test_parameters_held.py: notices over the wrap; ages have 64 bits",
     "port_bare": "tests/firmware/c/unit_bare.c, unit_bare_timers.c and unit_console.c",
+    "qos_events": "unit_qos_events.c: deadlines over the wrap",
+    "service_call": "unit_service_call.c: a call over the wrap",
     "timers": "unit_days.c",
 }
 TIMELESS = {
+    "actions": "declares members of goals; the action server reads the clock",
     "base": "constants, and a lock that sleeps a millisecond; no state",
     "graph": "its waits are those of wait sets; the period is a time-out",
     "graph_topic": "its waits are those of wait sets; the period is a time-out",

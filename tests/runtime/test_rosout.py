@@ -138,7 +138,7 @@ SUBLOGGERS = (
     ("add", None, "child", INVALID),
     ("add", "", "child", NOT_FOUND),
     ("add", "none", "child", NOT_FOUND),
-    ("add", "arm.devic", "child", NOT_FOUND),
+    ("add", "arm.dev", "child", NOT_FOUND),
     ("add", "arm.device.child", "x", NOT_FOUND),
     ("add", "arm/device", "child", NOT_FOUND),
     ("add", "device", "child", NOT_FOUND),
