@@ -163,11 +163,18 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "    actions: [{name: walk, type: tf2_msgs/action/LookupTransform, goals: 2, waiting: 2}]\n"
         + "profiles: [pure_sender]\ncomponents: [+action_server]\nerrors: code\n",
         "executor-all": _BUSY
+        + _SERVES
         + _ASKS
         + "    publishers: [{topic: out, type: std_msgs/msg/Int32, qos: {deadline: 200 ms}}]\n"
         + "    subscriptions: [{topic: in, type: std_msgs/msg/Int32, qos: {deadline: 200 ms}}]\n"
         + "profiles: [pure_sender, pure_reader]\ncomponents: [+services, +executor, +service_call, "
         + "+executor_nodes, +new_data_callbacks, +qos_events]\nerrors: code\n",
+        "diagnosis": _BUSY
+        + "    parameters: [{name: speed, type: double}]\n    modes: {SLOW: {speed: 0.5}}\n"
+        + "    timers: [{name: tick, period: 50 ms}]\nprofiles: [managed_service]\n"
+        + "components: [+timers, +diagnosis]\n"
+        + "diagnosis: {deadline: 5 ms, checks: [{name: battery, below: {error: 11000}, mode: SLOW}]}\n",
+        "diagnosis-threads": _BUSY + "profiles: [pure_sender]\ncomponents: [+diagnosis, +multithread]\n",
         "lifecycle": _BUSY + "profiles: [managed_service]\nerrors: code\n",
         "lifecycle-managed": _BUSY
         + "    publishers: [{topic: sure, type: std_msgs/msg/Int32, managed: true}]\n"
