@@ -93,7 +93,7 @@ def _sections(component: str, name: str, everything: frozenset[str]) -> list[Sec
             "selection": SimpleNamespace(has=lambda _name: True),
             "plan": SimpleNamespace(
                 transport=SimpleNamespace(kind=transport, device="/dev/ttyUSB0"),
-                features=SimpleNamespace(of=lambda _name: SimpleNamespace(declared=())),
+                features=SimpleNamespace(of=lambda _name: SimpleNamespace(declared=(), types=())),
             ),
         }
         text = _REFUSAL.sub("", environment.get_template(f"{name}.j2").render(view))

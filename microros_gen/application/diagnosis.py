@@ -126,11 +126,10 @@ def _node(tree: YamlNode | None, nodes: Sequence[NodeDecl], diagnostics: Diagnos
         return found[0]
     if found:
         hint = f"Write one of {', '.join(full_name(nodes[index]) for index in found)}"
-        message = f"several nodes are named '{wanted}'"
+        diagnostics.error(f"several nodes are named '{wanted}'", span_of(tree), hint, id="MG-3114")
     else:
         hint = nearest(wanted, names) or "Declare it below `nodes:`"
-        message = f"unknown node '{wanted}' of a check"
-    diagnostics.error(message, span_of(tree), hint, id="MG-3114")
+        diagnostics.error(f"unknown node '{wanted}' of a check", span_of(tree), hint, id="MG-3114")
     return 0
 
 

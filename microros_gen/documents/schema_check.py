@@ -132,6 +132,7 @@ _FAULTS: Mapping[str, Callable[[Any, Any], bool]] = MappingProxyType(
         "maximum": lambda data, wanted: _is_number(data) and data > wanted,
         "multipleOf": lambda data, wanted: _is_number(data) and data % wanted != 0,
         "minLength": lambda data, wanted: isinstance(data, str) and len(data) < wanted,
+        "maxLength": lambda data, wanted: isinstance(data, str) and len(data) > wanted,
         "pattern": lambda data, wanted: isinstance(data, str) and re.search(wanted, data) is None,
         "minItems": lambda data, wanted: isinstance(data, list) and len(data) < wanted,
         "uniqueItems": lambda data, wanted: isinstance(data, list) and wanted and _has_twins(data),

@@ -41,8 +41,8 @@ class Progress:
             return True
         if leaf.failure or self._is_done(leaf):
             return False
-        if leaf.deviates:
-            return leaf.is_passing(self._status(leaf))
+        if leaf.deviates and not leaf.is_passing(self._status(leaf)):
+            return False
         blocker = self.blocker(name)
         return not blocker or self.is_moving(blocker)
 

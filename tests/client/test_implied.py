@@ -112,6 +112,7 @@ def test_ros_time_is_one_of_them() -> None:
     assert (clock.qos.reliability, clock.qos.depth, clock.queue) == ("best_effort", 1, 1)
     assert [name for name, c in load_catalogue().items() if c.implies] == [
         "clock_ros",
+        "diagnosis",
         "graph",
         "graph_topic",
         "lifecycle",

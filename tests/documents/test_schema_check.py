@@ -20,14 +20,18 @@ from microros_gen.documents.yaml_tree import parse_yaml, to_data
 from tests.support.application.key_cases import CASES
 
 PACKAGE = Path(microros_gen.__file__).parent
-SCHEMAS = {
-    name: load_schema(PACKAGE / folder / f"{name}.schema.json")
+FILES = {
+    name: PACKAGE / folder / f"{name}.schema.json"
     for name, folder in (
         ("application", "application"),
         ("profile", "selection"),
         ("target", "platform"),
         ("agent", "agent/configuration"),
     )
+}
+SCHEMAS = {
+    name: load_schema(path, *([FILES["application"]] if name == "profile" else []))
+    for name, path in FILES.items()
 }
 ANNOTATIONS = {"description", "title", "default", "examples", "deprecated"}
 PROFILES = sorted(PACKAGE.parent.glob("profiles/*.yaml"))

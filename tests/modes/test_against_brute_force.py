@@ -14,7 +14,7 @@ from microros_gen.modes import Event, Manager, Model, Status, parse_model
 from microros_gen.modes.behavior import settle_all
 from microros_gen.modes.stability import MOST_COMBINATIONS, trace
 from tests.support.examples import examples
-from tests.support.modes.oracle import STUCK, OscillatesError, PlainModel, settle
+from tests.support.modes.oracle import STUCK, OscillatesError, PlainModel, PlainSystem, settle
 from tests.support.modes.random_models import plain_models
 
 _FEW = settings(max_examples=examples(40), deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -116,3 +116,20 @@ def test_what_is_proven_is_stable_whatever_happens(history: tuple[PlainModel, tu
     model = parsed(plain)
     if not settle_all(model, MOST_COMBINATIONS).oscillations:
         assert simulate(model, events).is_stable
+
+
+def test_parts_that_wait_for_each_other_come_to_rest() -> None:
+    """A node between two states waits for another that has to stop first, and that one has failed."""
+    systems = {
+        "low": PlainSystem(modes={"__DEFAULT__": {"n0": "inactive"}}, rules=()),
+        "top": PlainSystem(
+            modes={"__DEFAULT__": {"low": "active.__DEFAULT__", "extra": "inactive"}}, rules=()
+        ),
+    }
+    plain = PlainModel(nodes={"n0": ("__DEFAULT__",), "extra": ("__DEFAULT__",)}, systems=systems)
+    events = (
+        Event(0, "request", "top", status("active.__DEFAULT__")),
+        Event(1, "change", "n0", status("unknown")),
+        Event(2, "fail", "extra", status("errorprocessing")),
+    )
+    assert simulate(parsed(plain), events).is_stable

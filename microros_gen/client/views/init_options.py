@@ -54,9 +54,9 @@ def init_options(
 
 
 def _declared(option: InitOption) -> DeclaredOption:
-    one = f"rmw_ret_t {option.function}({option.arguments});"
-    two = f"rmw_ret_t {option.function}(\n  {option.arguments});"
-    return DeclaredOption(_comment(option.comment), one if len(one) <= _WIDTH else two)
+    in_one_line = f"rmw_ret_t {option.function}({option.arguments});"
+    in_two_lines = f"rmw_ret_t {option.function}(\n  {option.arguments});"
+    return DeclaredOption(_comment(option.comment), in_one_line if len(in_one_line) <= _WIDTH else in_two_lines)
 
 
 def _comment(text: str) -> str:

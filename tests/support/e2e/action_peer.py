@@ -16,7 +16,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from tests.support.agent.line_process import LineProcess, serving
-from tests.support.patience import seconds
+from tests.support.patience import deadline, seconds
 
 DEVICE, MODEL = "/arm/fibonacci", "/model/fibonacci"
 
@@ -80,7 +80,7 @@ class _Peer:
         from rclpy.callback_groups import ReentrantCallbackGroup
 
         def execute(goal: Any) -> Any:
-            end = time.monotonic() + 5
+            end = deadline(5)
             while goal.request.order != 0 and not goal.is_cancel_requested and time.monotonic() < end:
                 time.sleep(0.01)
             if goal.is_cancel_requested:
