@@ -140,7 +140,7 @@ def test_lengths_are_bytes() -> None:
 
 
 def test_what_cannot_be_answered_has_a_status() -> None:
-    assert names(Fixed(), what=10) == {"status": answers.INVALID, "version": 7}
+    assert names(Fixed(), what=11) == {"status": answers.INVALID, "version": 7}
     unknown = names(Fixed(), what=answers.PUBLISHERS_OF, node="/nobody")
     assert unknown == {"status": answers.UNKNOWN_NODE, "version": 7}
     assert names(Fixed(), what=answers.PUBLISHERS_OF, node=NODES[0])["total"] == 2

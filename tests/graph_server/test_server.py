@@ -124,12 +124,13 @@ def test_names_are_those_that_rclpy_sees(peer: Peer) -> None:
         assert peer.spin(lambda: graph.clients_of(node), seconds(IDLE_S))
         found = [agree(peer, expected, answered) for expected, answered in sides]
         assert {("/left/arm", ()), ("/microros_graph", ()), ("/asking", ())} <= set(found[0])
+        assert ("/left/arm", ("/",)) in found[1]
         dds_int32 = "std_msgs::msg::dds_::Int32_"
-        assert ("rt/left/state", (dds_int32,)) in found[7]
-        assert ("rq/left/enableRequest", ("std_srvs::srv::dds_::SetBool_Request_",)) in found[7]
         assert ("rt/left/state", (dds_int32,)) in found[8]
-        assert ("rt/goal", ("std_msgs::msg::dds_::String_",)) in found[9]
-        assert found[3:7] == [
+        assert ("rq/left/enableRequest", ("std_srvs::srv::dds_::SetBool_Request_",)) in found[8]
+        assert ("rt/left/state", (dds_int32,)) in found[9]
+        assert ("rt/goal", ("std_msgs::msg::dds_::String_",)) in found[10]
+        assert found[4:8] == [
             (("/left/state", (INT32,)),),
             (("/goal", ("std_msgs/msg/String",)),),
             (("/left/enable", ("std_srvs/srv/SetBool",)),),

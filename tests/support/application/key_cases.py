@@ -3,24 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 from microros_gen.application.model import Application, LimitRule, ParameterDecl, TimerDecl
-
-
-@dataclass(frozen=True)
-class KeyCase:
-    """`good` parses to an application whose `read` gives `value`; `bad` is refused at `place` with `reported`."""
-
-    good: str
-    read: Callable[[Application], Any]
-    value: Any
-    bad: str
-    place: str
-    reported: str
+from tests.support.application.diagnosis_cases import DIAGNOSIS_CASES
+from tests.support.application.key_case import KeyCase
 
 
 def _node(app: Application) -> Any:
@@ -987,6 +975,7 @@ CASES: dict[str, KeyCase] = {
     **_TOP,
     **_NODES,
     **_EXECUTORS,
+    **DIAGNOSIS_CASES,
     **_endpoint_cases("publishers", "publisher", "topic", "std_msgs/msg/String", "std_msgs/String"),
     **_endpoint_cases("subscriptions", "subscription", "topic", "std_msgs/msg/String", "std_msgs/srv/String"),
     **_endpoint_cases("services", "service", "name", "std_srvs/srv/SetBool", "std_srvs/SetBool"),
