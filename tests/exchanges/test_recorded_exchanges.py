@@ -10,7 +10,14 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.exchanges.recorded import GOLDEN, build_clock, exchange_of, recorded
+from tests.support.exchanges.recorded import (
+    GOLDEN,
+    build_clock,
+    exchange_of,
+    files,
+    held_exchanges,
+    recorded,
+)
 from tests.support.slices import only
 
 
@@ -39,17 +46,20 @@ SHORT = (
 
 @pytest.mark.parametrize("name", only(SHORT, recorded()))
 def test_an_exchange_equals_its_recording(name: str, tmp_path: Path, still_time: Path) -> None:
-    recorded_text = (GOLDEN / f"{name}.txt").read_text(encoding="utf-8")
-    assert exchange_of(name, tmp_path, still_time) == recorded_text
+    assert exchange_of(name, tmp_path, still_time) == held_exchanges()[name]
 
 
 def test_each_recording_belongs_to_an_application() -> None:
-    assert {path.stem for path in GOLDEN.glob("*.txt")} == set(recorded())
+    assert held_exchanges().keys() == set(recorded())
+
+
+def test_an_exchange_of_several_applications_is_stored_once() -> None:
+    stored = {path.name: path.read_text(encoding="utf-8") for path in GOLDEN.glob("*.txt")}
+    assert files(held_exchanges().items()) == stored
 
 
 def test_applications_say_something() -> None:
     """Both sides speak in each recording, in a session (0x81): a recording of nothing would hold nothing."""
-    for path in GOLDEN.glob("*.txt"):
-        text = path.read_text(encoding="utf-8")
-        assert text.count(" > 8") >= 2, path.name
-        assert text.count(" < 81") >= 3, path.name
+    for name, text in held_exchanges().items():
+        assert text.count(" > 8") >= 2, name
+        assert text.count(" < 81") >= 3, name

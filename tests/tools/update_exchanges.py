@@ -7,19 +7,20 @@ import sys
 import tempfile
 from pathlib import Path
 
-from tests.support.exchanges.recorded import GOLDEN, exchanges, recorded
+from tests.support.exchanges.recorded import GOLDEN, exchanges, files, recorded
 
 
 def main() -> int:
     """Rewrite the recordings; remove those of applications that are gone."""
     GOLDEN.mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
-        for name, text in exchanges(Path(folder)):
-            (GOLDEN / f"{name}.txt").write_text(text, encoding="utf-8")
+        wanted = files(exchanges(Path(folder)))
+    for name, text in wanted.items():
+        (GOLDEN / name).write_text(text, encoding="utf-8")
     for path in GOLDEN.glob("*.txt"):
-        if path.stem not in recorded():
+        if path.name not in wanted:
             path.unlink()
-    print(f"{GOLDEN}: {len(recorded())} exchanges")
+    print(f"{GOLDEN}: {len(recorded())} exchanges, {len(wanted)} files")
     return 0
 
 

@@ -27,6 +27,7 @@ TYPE = TypeName("diagnostic_msgs", "msg", "DiagnosticArray")
 MOST_STATUSES = 32
 """A bit of a word says of each whether it is to be sent."""
 _PORT = "microros/port_diagnosis.h"
+_RESET = "microros/rcl_diagnosis_reset.h"
 _OWN = "microros/rcl_diagnosis.h"
 _RESETS = ("unknown", "power", "pin", "software", "watchdog", "brown-out", "fault")
 """Words of port_reset_t."""
@@ -234,9 +235,7 @@ def _own_rows(context: PlanContext, times: bool, has: dict[str, bool]) -> Iterat
         yield CounterRow("stack", "peak", "port_stack_peak()", header=_PORT)
         yield CounterRow("stack", "size", "port_stack_size()", header=_PORT)
     if has["reset_cause"]:
-        yield CounterRow(
-            "reset", "cause", "(uint32_t)port_reset_cause()", words="diagnosis_resets", header=_PORT
-        )
+        yield CounterRow("reset", "cause", "rcl_diagnosis_reset()", words="diagnosis_resets", header=_RESET)
     yield CounterRow("errors", "count", "rcl_diagnosis_errors()")
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from tests.support.exchanges.exchange import WIRES, record
@@ -15,6 +15,8 @@ from tests.support.runtime.serving_agent import ServingAgent
 
 HERE = TESTS / "exchanges"
 GOLDEN = HERE / "golden"
+SAME = GOLDEN / "same.txt"
+"""`NAME: OTHER` for each application with the exchange of another one, whose file both have."""
 DURATION_MS = 2000
 _LEFT_OUT = ("timers_ticked",)
 """The application itself drives its hardware timer."""
@@ -65,3 +67,24 @@ def exchanges(folder: Path) -> Iterator[tuple[str, str]]:
     still_time = build_clock(folder)
     for name in recorded():
         yield name, exchange_of(name, folder, still_time)
+
+
+def files(names_and_texts: Iterable[tuple[str, str]]) -> dict[str, str]:
+    """Return the files of the recordings by name: a text that several have is stored once."""
+    found: dict[str, str] = {}
+    first: dict[str, str] = {}
+    same = []
+    for name, text in sorted(names_and_texts):
+        if text in first:
+            same.append(f"{name}: {first[text]}\n")
+        else:
+            first[text] = name
+            found[f"{name}.txt"] = text
+    return {**found, SAME.name: "".join(same)}
+
+
+def held_exchanges() -> dict[str, str]:
+    """Return the recording of each application."""
+    held = {p.stem: p.read_text(encoding="utf-8") for p in GOLDEN.glob("*.txt") if p != SAME}
+    lines = SAME.read_text(encoding="utf-8").splitlines()
+    return {**held, **{name: held[other] for name, other in (line.split(": ") for line in lines)}}

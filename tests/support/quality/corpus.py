@@ -208,12 +208,17 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "action_server": _NODES.replace("    publishers:\n", "")
         + "    actions:\n      - {name: walk, type: tf2_msgs/action/LookupTransform, goals: 2, waiting: 2}\n"
         + "components: [+action_server, +multithread]\nlimits: {'*': {string: 20}}\n",
-        "diagnosis": _NODES
-        + _SURE
+        "diagnosis": _NODES.replace("    publishers:\n", "")
         + _MODES
         + "    timers: [{name: tick, period: 50 ms}]\ncomponents: [+timers, +executor, +diagnosis]\n"
         + "diagnosis: {deadline: 5 ms, checks: [{name: battery, below: {error: 11000}, mode: SLOW}]}\n",
         "diagnosis_threads": _NODES + _SURE + "components: [+diagnosis, +multithread]\n",
+        "diagnosis_board": _NODES
+        + _SURE
+        + "components: [+executor, +diagnosis]\ntarget: {name: qemu-mps2-an386}\n",
+        "diagnosis_riscv": _NODES
+        + _SURE
+        + "components: [+executor, +diagnosis]\ntarget: {name: qemu-riscv32-virt}\n",
         "executor_all": _SERVED.replace("[-subscribe, ", f"[{_EXECUTOR}, +multithread, ")
         + _ASKED
         + "    publishers: [{topic: out, type: std_msgs/msg/Int32, qos: {deadline: 200 ms}}]\n"

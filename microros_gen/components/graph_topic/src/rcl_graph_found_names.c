@@ -138,6 +138,7 @@ static uint8_t names_kinds(rcl_graph_what_t what)
     case RCL_GRAPH_DDS_TOPICS:
     case RCL_GRAPH_DDS_PUBLISHERS_OF_NODE:
     case RCL_GRAPH_DDS_SUBSCRIPTIONS_OF_NODE:
+    case RCL_GRAPH_NODES_WITH_ENCLAVES:
     default:
       return 0;
   }
