@@ -23,7 +23,7 @@ def pytest_configure() -> None:
     from tests.support.objects.cache import put_into_path
     from tests.support.sharing import share_components
 
-    settings.register_profile("repeatable", derandomize=True, max_examples=examples(100))
+    settings.register_profile("repeatable", deadline=None, derandomize=True, max_examples=examples(100))
     # `default` draws new examples each time.
     settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)

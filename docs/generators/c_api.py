@@ -16,6 +16,7 @@ from microros_gen.client.plan.runtime import WAITED_KINDS
 from microros_gen.client.plan.values import Values
 from microros_gen.client.views.components import umbrellas
 from microros_gen.client.views.contributions import Contributed, contributed
+from microros_gen.client.views.init_options import InitOptions, init_options
 from microros_gen.documents.templates import make_environment
 from microros_gen.selection.component import Catalogue
 from microros_gen.selection.find_components import components_folder, load_catalogue
@@ -58,6 +59,13 @@ class Header:
         return _FOLDERS.get(folder, folder)
 
 
+class _NothingDeclared:
+    """A feature of a plan whose lists are all empty: what each header has whatever an application declares."""
+
+    def __getattr__(self, name: str) -> tuple[()]:
+        return ()
+
+
 @cache
 def _catalogue() -> Catalogue:
     return load_catalogue()
@@ -89,11 +97,12 @@ def _sections(component: str, name: str, everything: frozenset[str]) -> list[Sec
             "headers": everything,
             "umbrellas": umbrellas(tuple(sorted(everything))),
             "contributed": shared,
+            "init_options": _all_init_options(),
             "waits": SimpleNamespace(present=WAITED_KINDS, absent=()),
             "selection": SimpleNamespace(has=lambda _name: True),
             "plan": SimpleNamespace(
                 transport=SimpleNamespace(kind=transport, device="/dev/ttyUSB0"),
-                features=SimpleNamespace(of=lambda _name: SimpleNamespace(declared=(), types=())),
+                features=SimpleNamespace(of=lambda _name: _NothingDeclared()),
             ),
         }
         text = _REFUSAL.sub("", environment.get_template(f"{name}.j2").render(view))
@@ -107,6 +116,14 @@ def _contributed() -> Contributed:
     values = SimpleNamespace(holds=lambda _when: True, value=lambda _path: 0)
     ready = [component for component in _catalogue().values() if component.ready]
     return contributed(ready, cast(Values, values))
+
+
+@cache
+def _all_init_options() -> InitOptions:
+    """Return the functions of every transport, as if all were selected."""
+    values = SimpleNamespace(holds=lambda _when: True)
+    ready = [component for component in _catalogue().values() if component.ready]
+    return init_options(ready, (), cast(Values, values))
 
 
 def _include(header: str) -> str:
