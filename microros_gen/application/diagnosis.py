@@ -126,7 +126,7 @@ def _node(tree: YamlNode | None, nodes: Sequence[NodeDecl], diagnostics: Diagnos
         return found[0]
     if found:
         hint = f"Write one of {', '.join(full_name(nodes[index]) for index in found)}"
-        diagnostics.error(f"several nodes are named '{wanted}'", span_of(tree), hint, id="MG-3114")
+        diagnostics.error(f"several nodes are named '{wanted}'", span_of(tree), hint, id="MG-3117")
     else:
         hint = nearest(wanted, names) or "Declare it below `nodes:`"
         diagnostics.error(f"unknown node '{wanted}' of a check", span_of(tree), hint, id="MG-3114")

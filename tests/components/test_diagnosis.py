@@ -200,3 +200,16 @@ def test_it_compiles_without_a_warning(tmp_path: Path, compiler_name: str, flags
         command = [compiler_name, "-std=c99", *warnings, *flags, f"-I{out / 'include'}", "-fsyntax-only"]
         done = subprocess.run([*command, source], capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr
+
+
+def test_a_name_that_several_nodes_have(tmp_path: Path) -> None:
+    text = (
+        f"{BARE}components: [+diagnosis]\nnodes: [{{name: motor, namespace: /left}}, "
+        "{name: motor, namespace: /right}]\n"
+        "diagnosis: {checks: [{name: heat, node: motor, above: {warn: 1}}]}\n"
+    )
+    with pytest.raises(UserError) as error:
+        planned(tmp_path, text)
+    assert [(d.id, d.hint) for d in error.value.diagnostics] == [
+        ("MG-3117", "Write one of /left/motor, /right/motor")
+    ]

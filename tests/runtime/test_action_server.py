@@ -163,9 +163,7 @@ def test_a_result_is_there_before_and_after_the_end_until_it_expires(device: Dev
 
 
 @pytest.mark.parametrize("start_ms", [0, NEARLY_WRAPPED], ids=["zero", "wraps"])
-def test_places_of_goals_without_a_request_are_free_after_the_time_out(
-    device: Device, start_ms: int
-) -> None:
+def test_places_of_goals_without_a_request_are_free_after_the_time_out(device: Device, start_ms: int) -> None:
     device.client.wait(start_ms)
     device.start()
     for goal in (1, 2):

@@ -56,7 +56,9 @@ def init_options(
 def _declared(option: InitOption) -> DeclaredOption:
     in_one_line = f"rmw_ret_t {option.function}({option.arguments});"
     in_two_lines = f"rmw_ret_t {option.function}(\n  {option.arguments});"
-    return DeclaredOption(_comment(option.comment), in_one_line if len(in_one_line) <= _WIDTH else in_two_lines)
+    return DeclaredOption(
+        _comment(option.comment), in_one_line if len(in_one_line) <= _WIDTH else in_two_lines
+    )
 
 
 def _comment(text: str) -> str:
