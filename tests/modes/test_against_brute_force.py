@@ -118,7 +118,7 @@ def test_what_is_proven_is_stable_whatever_happens(history: tuple[PlainModel, tu
         assert simulate(model, events).is_stable
 
 
-def test_parts_that_wait_for_each_other_come_to_rest() -> None:
+def test_parts_that_wait_for_each_other_rest_in_the_end() -> None:
     """A node between two states waits for another that has to stop first, and that one has failed."""
     systems = {
         "low": PlainSystem(modes={"__DEFAULT__": {"n0": "inactive"}}, rules=()),
