@@ -153,6 +153,7 @@ def test_a_device_with_mode_services_and_its_agent(stack: ExitStack, domain: int
     asking.until_row("arm", "active.QUICK")
     assert device.requests == ["configure", "activate", "RUSH"]
     graph = asking.peer.graph()
+    asking.until(lambda: graph.count_servers("/joint/change_mode") > 0)
     assert graph.count_servers("/joint/change_mode") == 1
     device.agent_says.append(1)
     managing.wait_for("joint: it has left")
