@@ -149,16 +149,20 @@ def test_overruns_and_missed_deadlines(board: Board) -> None:
     assert int(values(timers)["latest_us"]) >= 20_000
 
 
+def shares_in(status: dict[str, Any]) -> list[int]:
+    """Return the share of the processor in percent; none where it is not known yet."""
+    return [int(v) for k, v in values(status).items() if k == "cpu_percent" and v != "unknown"]
+
+
 def test_share_of_the_processor(board: Board) -> None:
     """Callbacks that last for nearly a whole period are nearly 100 %; a node that waits is far below.
 
     What others do on the machine counts as well, so a period is waited for in which the node had the processor.
     """
-    shares = lambda s: [int(v) for k, v in values(s).items() if k == "cpu_percent" and v != "unknown"]  # noqa: E731
-    board.next("executor", lambda s: any(share < 60 for share in shares(s)))
+    board.next("executor", lambda s: any(share < 60 for share in shares_in(s)))
     board.call("busy 900")
-    board.next("executor", lambda s: any(share > 90 for share in shares(s)))
-    board.next("executor", lambda s: any(share < 60 for share in shares(s)))
+    board.next("executor", lambda s: any(share > 90 for share in shares_in(s)))
+    board.next("executor", lambda s: any(share < 60 for share in shares_in(s)))
 
 
 def test_errors_are_counted(board: Board) -> None:

@@ -54,8 +54,7 @@ rcl_ret_t rcl_graph_list_nodes_with_enclaves(
   const rcutils_allocator_t * allocator, rcutils_string_array_t * nodes, rcutils_string_array_t * namespaces,
   rcutils_string_array_t * enclaves)
 {
-  static const rcl_graph_reader_t reader = {
-    rcl_graph_nodes_ask, enclaves_make, enclaves_put, enclaves_drop};
+  static const rcl_graph_reader_t reader = {rcl_graph_nodes_ask, enclaves_make, enclaves_put, enclaves_drop};
   enclaves_list_t list;
 
   (void)memset(&list, 0, sizeof(list));
