@@ -110,22 +110,17 @@ def _check(item: YamlNode, nodes: Sequence[NodeDecl], diagnostics: Diagnostics) 
     )
 
 
-def full_name(node: NodeDecl) -> str:
-    """Return namespace and name: `/arm/motor`."""
-    return f"{node.namespace.rstrip('/')}/{node.name}"
-
-
 def _node(tree: YamlNode | None, nodes: Sequence[NodeDecl], diagnostics: Diagnostics) -> int:
     """Return the position of the node; 0 also where it is not found."""
     wanted = text_of(tree)
     if wanted is None:
         return 0
-    names = [full_name(node) if wanted.startswith("/") else node.name for node in nodes]
+    names = [node.full_name if wanted.startswith("/") else node.name for node in nodes]
     found = [index for index, name in enumerate(names) if name == wanted]
     if len(found) == 1:
         return found[0]
     if found:
-        hint = f"Write one of {', '.join(full_name(nodes[index]) for index in found)}"
+        hint = f"Write one of {', '.join(nodes[index].full_name for index in found)}"
         diagnostics.error(f"several nodes are named '{wanted}'", span_of(tree), hint, id="MG-3117")
     else:
         hint = nearest(wanted, names) or "Declare it below `nodes:`"

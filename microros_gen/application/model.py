@@ -289,6 +289,11 @@ class NodeDecl:
     clock_topic: str = ""
     clock_span: Span | None = None
 
+    @property
+    def full_name(self) -> str:
+        """Return namespace and name: `/arm/motor`."""
+        return f"{self.namespace.rstrip('/')}/{self.name}"
+
 
 @dataclass(frozen=True)
 class Memory:

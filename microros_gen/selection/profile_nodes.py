@@ -8,7 +8,6 @@ from dataclasses import replace
 from typing import TypeVar
 
 from microros_gen.application.model import Application, EndpointDecl, NodeDecl
-from microros_gen.application.names import expand_topic_name
 from microros_gen.selection.component import Component, ResolvedProfile
 from microros_gen.selection.declared import without_components
 
@@ -45,7 +44,7 @@ def joined_nodes(nodes: Iterable[NodeDecl]) -> tuple[NodeDecl, ...]:
     """Return each node once: nodes of one full name are one, with what any of them has; the first one wins."""
     found: dict[str, NodeDecl] = {}
     for node in nodes:
-        name = expand_topic_name(node.name, node.name, node.namespace)
+        name = node.full_name
         found[name] = _joined(found[name], node) if name in found else node
     return tuple(found.values())
 
@@ -61,6 +60,7 @@ def _joined(first: NodeDecl, other: NodeDecl) -> NodeDecl:
             ("", c.node, c) for c in (*first.parameter_clients, *other.parameter_clients)
         ),
         modes=_once(("", m.name, m) for m in (*first.modes, *other.modes)),
+        actions=_once(("", a.name, a) for a in (*first.actions, *other.actions)),
         executors=_once(("", e.name, e) for e in (*first.executors, *other.executors)),
         clock_topic=first.clock_topic or other.clock_topic,
         clock_span=first.clock_span or other.clock_span,

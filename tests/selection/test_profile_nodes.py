@@ -9,11 +9,13 @@ from pathlib import Path
 import pytest
 
 from microros_gen import compiler
+from microros_gen.application.action_decl import ActionDecl
 from microros_gen.application.model import NodeDecl
 from microros_gen.diagnostics import Diagnostics, Source, UserError
 from microros_gen.documents.named import Named
 from microros_gen.selection.find_profiles import load_builtin_profiles, load_profiles
 from microros_gen.selection.profile_file import parse_profile
+from microros_gen.selection.profile_nodes import joined_nodes
 from microros_gen.selection.profiles import resolve_profiles
 from tests.support.ids import without_id
 from tests.support.paths import PACKAGE
@@ -166,3 +168,9 @@ def test_no_module_names_a_profile() -> None:
     naming = [path.name for path in own if any(name in path.read_text(encoding="utf-8") for name in names)]
     assert len(names) == 7
     assert naming == []
+
+
+def test_one_node_of_two_profiles_has_the_actions_of_both() -> None:
+    walk, turn = ActionDecl("/walk", "acme_msgs/action/Walk"), ActionDecl("/turn", "acme_msgs/action/Turn")
+    (node,) = joined_nodes([NodeDecl("robot", actions=(walk,)), NodeDecl("robot", actions=(walk, turn))])
+    assert node.actions == (walk, turn)

@@ -80,7 +80,7 @@ def full_name(node: NodeDecl, endpoint: EndpointDecl) -> str:
 
 def node_name(node: NodeDecl) -> str:
     """Return the fully qualified name of a node: `/arm/imu`."""
-    return expand_topic_name("~", node.name, node.namespace)
+    return node.full_name
 
 
 def type_name(text: str, kind: str = "msg") -> TypeName:

@@ -108,7 +108,7 @@ class Status:
 
 def node_prefix(node: NodeDecl) -> str:
     """Return what the names of a node's statuses begin with: `arm/motor: `."""
-    return f"{node.namespace.strip('/')}/{node.name}: ".lstrip("/")
+    return f"{node.full_name.removeprefix('/')}: "
 
 
 def statuses_of(

@@ -120,7 +120,7 @@ def _check_texts(node: NodeDecl, diagnostics: Diagnostics) -> None:
 def _nodes(application: Application) -> Iterator[NodePlan]:
     names = Identifiers()
     for index, node in enumerate(application.nodes):
-        full = f"{node.namespace.rstrip('/')}/{node.name}"
+        full = node.full_name
         symbol = names.take(full.strip("/"))
         parameters = set_parameters(node)
         if node.modes and parameters:

@@ -181,7 +181,7 @@ def _too_long(
 def _servers(application: Application) -> Iterator[ServerPlan]:
     names = Identifiers()
     for index, node in enumerate(application.nodes):
-        full = f"{node.namespace.rstrip('/')}/{node.name}"
+        full = node.full_name
         symbol = names.take(full.strip("/"))
         yield ServerPlan(
             index,
