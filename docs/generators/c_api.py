@@ -18,7 +18,7 @@ from microros_gen.client.views.components import umbrellas
 from microros_gen.client.views.contributions import Contributed, contributed
 from microros_gen.client.views.init_options import InitOptions, init_options
 from microros_gen.documents.templates import make_environment
-from microros_gen.selection.component import Catalogue
+from microros_gen.selection.component import Catalogue, Component
 from microros_gen.selection.find_components import components_folder, load_catalogue
 
 PORT_HEADERS = {
@@ -59,6 +59,10 @@ class Header:
         return _FOLDERS.get(folder, folder)
 
 
+_EVERYTHING_HOLDS = cast(Values, SimpleNamespace(holds=lambda _when: True, value=lambda _path: 0))
+"""Values of a plan for which every condition holds."""
+
+
 class _NothingDeclared:
     """A feature of a plan whose lists are all empty: what each header has whatever an application declares."""
 
@@ -71,13 +75,16 @@ def _catalogue() -> Catalogue:
     return load_catalogue()
 
 
+def _ready() -> list[Component]:
+    return [component for component in _catalogue().values() if component.ready]
+
+
 @cache
 def headers() -> tuple[Header, ...]:
     """Return every public header of the components that can be built, sorted by name."""
     found = dict(PORT_HEADERS)
-    for component in _catalogue().values():
-        if component.ready:
-            found |= dict.fromkeys(component.headers, component.name)
+    for component in _ready():
+        found |= dict.fromkeys(component.headers, component.name)
     found.pop(CONFIG)
     everything = frozenset(found)
     return tuple(Header(n, found[n], tuple(_sections(found[n], n, everything))) for n in sorted(found))
@@ -113,17 +120,13 @@ def _sections(component: str, name: str, everything: frozenset[str]) -> list[Sec
 @cache
 def _contributed() -> Contributed:
     """Return what all components contribute, as if every condition held."""
-    values = SimpleNamespace(holds=lambda _when: True, value=lambda _path: 0)
-    ready = [component for component in _catalogue().values() if component.ready]
-    return contributed(ready, cast(Values, values))
+    return contributed(_ready(), _EVERYTHING_HOLDS)
 
 
 @cache
 def _all_init_options() -> InitOptions:
     """Return the functions of every transport, as if all were selected."""
-    values = SimpleNamespace(holds=lambda _when: True)
-    ready = [component for component in _catalogue().values() if component.ready]
-    return init_options(ready, (), cast(Values, values))
+    return init_options(_ready(), (), _EVERYTHING_HOLDS)
 
 
 def _include(header: str) -> str:

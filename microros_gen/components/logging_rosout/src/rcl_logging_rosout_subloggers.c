@@ -169,37 +169,27 @@ static rcl_ret_t sublogger_remove(const sublogger_name_t * name)
   return RCL_RET_OK;
 }
 
-static bool sublogger_is_given(const sublogger_name_t * name)
+static rcl_ret_t sublogger_change(const char * logger, const char * sub, bool adds)
 {
-  return name->logger != NULL && name->sub != NULL && name->sub[0] != '\0';
+  const sublogger_name_t name = {logger, sub};
+  rcl_ret_t result;
+
+  if (logger == NULL || sub == NULL || sub[0] == '\0') {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "logger_name or sublogger_name");
+  }
+  microros_lock();
+  sublogger_clear_closed();
+  result = adds ? sublogger_add(&name) : sublogger_remove(&name);
+  microros_unlock();
+  return result;
 }
 
 rcl_ret_t rcl_logging_rosout_add_sublogger(const char * logger_name, const char * sublogger_name)
 {
-  const sublogger_name_t name = {logger_name, sublogger_name};
-  rcl_ret_t result;
-
-  if (!sublogger_is_given(&name)) {
-    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "logger_name or sublogger_name");
-  }
-  microros_lock();
-  sublogger_clear_closed();
-  result = sublogger_add(&name);
-  microros_unlock();
-  return result;
+  return sublogger_change(logger_name, sublogger_name, true);
 }
 
 rcl_ret_t rcl_logging_rosout_remove_sublogger(const char * logger_name, const char * sublogger_name)
 {
-  const sublogger_name_t name = {logger_name, sublogger_name};
-  rcl_ret_t result;
-
-  if (!sublogger_is_given(&name)) {
-    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "logger_name or sublogger_name");
-  }
-  microros_lock();
-  sublogger_clear_closed();
-  result = sublogger_remove(&name);
-  microros_unlock();
-  return result;
+  return sublogger_change(logger_name, sublogger_name, false);
 }

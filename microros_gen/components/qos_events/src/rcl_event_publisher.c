@@ -3,7 +3,7 @@
 
 #include <stddef.h>
 
-/* Returns why there is no event of this type; NULL: there is. */
+/* Returns why this type has no event; NULL if it has one. */
 static const char * publisher_event_refusal(rcl_publisher_event_type_t event_type)
 {
   switch (event_type) {

@@ -32,7 +32,7 @@ typedef enum rclc_diagnosis_level_t {
  */
 rcl_ret_t rclc_diagnosis_set(uint8_t check, int32_t value);
 
-/* Returns the level of a check, an rclc_diagnosis_level_t; RCLC_DIAGNOSIS_STALE also if there is no such check. */
+/* Returns the level of a check, an rclc_diagnosis_level_t; RCLC_DIAGNOSIS_STALE also if the check does not exist. */
 uint8_t rclc_diagnosis_level(uint8_t check);
 
 #ifdef __cplusplus
