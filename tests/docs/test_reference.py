@@ -17,7 +17,7 @@ import yaml
 from click.testing import CliRunner
 from generators import c_api, command_line, python_api
 from generators.c_headers import read_header
-from hooks import SCHEMA_FILES, generated
+from hooks import OUTSIDE, SCHEMA_FILES, generated
 
 from microros_gen import compiler
 from microros_gen.cli.main import cli
@@ -58,6 +58,12 @@ def described(part: Any, path: str = "") -> Iterator[tuple[str, str]]:
     elif isinstance(part, list):
         for value in part:
             yield from described(value, path)
+
+
+def test_each_page_is_in_the_navigation_once() -> None:
+    written = {path.relative_to(ROOT / "docs").as_posix() for path in (ROOT / "docs").rglob("*.md")}
+    listed = re.findall(r"(?m)^ +- .*?([\w/]+\.md)$", (ROOT / "mkdocs.yml").read_text(encoding="utf-8"))
+    assert sorted(listed) == sorted(written | set(generated()) | set(OUTSIDE.values()))
 
 
 @pytest.mark.parametrize("name", SCHEMAS)
@@ -180,7 +186,7 @@ def test_the_counters_of_troubleshooting_exist() -> None:
 @pytest.mark.system
 def test_two_runs_write_the_same() -> None:
     """In a process with other hashes too."""
-    script = "import json; from hooks import SCHEMA_FILES, generated; print(json.dumps(generated()))"
+    script = "import json; from hooks import OUTSIDE, SCHEMA_FILES, generated; print(json.dumps(generated()))"
     environment = {"PYTHONPATH": f"{ROOT}:{ROOT / 'docs'}", "PYTHONHASHSEED": "4711", "PATH": ""}
     done = subprocess.run(
         [sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True

@@ -100,6 +100,13 @@ def agent(shared_agent: AgentProcess, relay: Relay) -> AgentProcess:
 
 
 @pytest.fixture(scope="session")
-def observer(domain: int) -> Iterator[Observer]:
+def shared_observer(domain: int) -> Iterator[Observer]:
     with observing(domain) as running:
         yield running
+
+
+@pytest.fixture
+def observer(shared_observer: Observer) -> Iterator[Observer]:
+    """The same process for each test, without the subscriptions of the test before."""
+    yield shared_observer
+    shared_observer.ask(do="forget")

@@ -44,7 +44,7 @@ WAYS = {
 }
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def subscribed(observer: Observer) -> Observer:
     for topic in (topic for name in WAYS for topic in topics_of(name)):
         observer.subscribe(topic, "std_msgs/msg/Int32", reliable=not topic.endswith("fast"))

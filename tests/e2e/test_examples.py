@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from datetime import datetime, timezone
 from functools import partial
 from pathlib import Path
@@ -30,14 +30,6 @@ Samples = dict[str, list[Any]]
 @pytest.fixture(scope="module")
 def examples(tmp_path_factory: pytest.TempPathFactory, image_port: Relay) -> Examples:
     return Examples(tmp_path_factory.mktemp("examples"), image_port.port)
-
-
-@pytest.fixture
-def fresh(observer: Observer) -> Iterator[Observer]:
-    """The observer, without samples of other tests."""
-    observer.ask(do="samples")
-    yield observer
-    observer.ask(do="samples")
 
 
 def collect(observer: Observer, found: Samples, wanted: Mapping[str, int]) -> None:
@@ -83,17 +75,17 @@ def numbers(*values: int) -> list[dict[str, int]]:
     return [{"data": value} for value in values]
 
 
-def test_topics(examples: Examples, agent: AgentProcess, fresh: Observer) -> None:
+def test_topics(examples: Examples, agent: AgentProcess, observer: Observer) -> None:
     """A publisher, a subscriber, ping-pong and the executor with a trigger, at the same time."""
-    listen(fresh, {"/count": INT32, "/difference": INT32, "/ping": HEADER, "/pong": HEADER})
-    speak(fresh, {"/numbers": INT32, "/left": INT32, "/right": INT32, "/ping": HEADER, "/pong": HEADER})
+    listen(observer, {"/count": INT32, "/difference": INT32, "/ping": HEADER, "/pong": HEADER})
+    speak(observer, {"/numbers": INT32, "/left": INT32, "/right": INT32, "/ping": HEADER, "/pong": HEADER})
     found: Samples = {}
     with examples.running("publisher", "subscriber", "ping_pong", "executor_trigger") as running:
         publisher, subscriber, ping_pong, _ = running
-        check_publisher(publisher, fresh, found)
-        check_subscriber(subscriber, fresh)
-        check_trigger(fresh, found)
-        check_ping_pong(ping_pong, fresh, found)
+        check_publisher(publisher, observer, found)
+        check_subscriber(subscriber, observer)
+        check_trigger(observer, found)
+        check_ping_pong(ping_pong, observer, found)
 
 
 def check_publisher(publisher: Example, observer: Observer, found: Samples) -> None:
@@ -142,20 +134,20 @@ def check_ping_pong(ping_pong: Example, observer: Observer, found: Samples) -> N
     assert len(ping_pong.log) == 2
 
 
-def test_devices(examples: Examples, agent: AgentProcess, fresh: Observer) -> None:
+def test_devices(examples: Examples, agent: AgentProcess, observer: Observer) -> None:
     """Timers, memory of messages, time of the agent, at the same time."""
     begin = time.time()
-    listen(fresh, {"/blinks": INT32, "/joint_states": JOINTS, "/stamps": HEADER})
-    speak(fresh, {"/joint_commands": JOINTS})
+    listen(observer, {"/blinks": INT32, "/joint_states": JOINTS, "/stamps": HEADER})
+    speak(observer, {"/joint_commands": JOINTS})
     found: Samples = {}
     with examples.running("timers", "static_types", "time_sync", "epoch") as running:
         timers, static_types, _, epoch = running
-        collect(fresh, found, {"/blinks": 12})
+        collect(observer, found, {"/blinks": 12})
         assert timers.wait_for("pauses") == "pauses: 100 ms, were 250 ms"
         blinks = [sample["data"] for sample in found["/blinks"]]
         assert blinks == [1 + (blinks[0] - 1 + i) % 3 for i in range(len(blinks))]
-        check_static_types(static_types, fresh, found)
-        collect(fresh, found, {"/stamps": 3})
+        check_static_types(static_types, observer, found)
+        collect(observer, found, {"/stamps": 3})
         check_stamps(found["/stamps"], begin)
         check_epoch(epoch, begin)
 
@@ -214,50 +206,50 @@ def test_services(examples: Examples, agent: AgentProcess, observer: Observer) -
 
 
 def test_reconnection(
-    tmp_path: Path, shared_agent: AgentProcess, fresh: Observer, examples: Examples
+    tmp_path: Path, shared_agent: AgentProcess, observer: Observer, examples: Examples
 ) -> None:
     """The agent cannot be reached for a while; numbers and orders go on without a line of the application."""
-    listen(fresh, {"/alive": INT32})
-    speak(fresh, {"/orders": INT32})
+    listen(observer, {"/alive": INT32})
+    speak(observer, {"/orders": INT32})
     found: Samples = {}
     with Relay() as relay:
         relay.connect(shared_agent.port)
         with Examples(tmp_path, relay.port).running("reconnection") as (survivor,):
-            meet(fresh, {"/orders": 1}, "/survivor", "/alive")
-            collect(fresh, found, {"/alive": 2})
+            meet(observer, {"/orders": 1}, "/survivor", "/alive")
+            collect(observer, found, {"/alive": 2})
             relay.connect(0)
             survivor.wait_for("the agent is gone")
             relay.connect(shared_agent.port)
             assert survivor.wait_for("again") == "connected, 1 times again"
             before = len(found["/alive"])
-            collect(fresh, found, {"/alive": before + 5})
-            meet(fresh, {"/orders": 1}, "/survivor")
-            say(fresh, "/orders", INT32, *numbers(42))
+            collect(observer, found, {"/alive": before + 5})
+            meet(observer, {"/orders": 1}, "/survivor")
+            say(observer, "/orders", INT32, *numbers(42))
             survivor.wait_for("order 42")
     values = [sample["data"] for sample in found["/alive"]]
     assert values == sorted(set(values))
 
 
-def test_custom_transport(examples: Examples, domain: int, fresh: Observer) -> None:
+def test_custom_transport(examples: Examples, domain: int, observer: Observer) -> None:
     """The agent has a pseudo-terminal, the example its device."""
-    listen(fresh, {"/over_own_line": INT32})
+    listen(observer, {"/over_own_line": INT32})
     found: Samples = {}
     with (
         running_agent(domain, "--domain", str(domain), transport=("pty",)) as line,
         examples.running("custom_transport", argument=line.device),
     ):
-        collect(fresh, found, {"/over_own_line": 10})
+        collect(observer, found, {"/over_own_line": 10})
     values = [sample["data"] for sample in found["/over_own_line"]]
     assert values == list(range(values[0], values[0] + len(values)))
 
 
-def test_parameters(examples: Examples, agent: AgentProcess, fresh: Observer) -> None:
+def test_parameters(examples: Examples, agent: AgentProcess, observer: Observer) -> None:
     """`make demo` sets them; here the example runs with sanitizers."""
     wanted = {"/brightness": "std_msgs/msg/Float64", "/diagnostics": "diagnostic_msgs/msg/DiagnosticArray"}
-    listen(fresh, wanted)
+    listen(observer, wanted)
     found: Samples = {}
     with examples.running("parameters"):
-        collect(fresh, found, {"/brightness": 20, "/diagnostics": 1})
+        collect(observer, found, {"/brightness": 20, "/diagnostics": 1})
     assert {sample["data"] for sample in found["/brightness"]} == {0.0, 1.0, 2.0, 3.0, 4.0, 5.0}
     (status,) = found["/diagnostics"][0]["status"]
     assert (status["name"], status["message"]) == ("dimmer", "the lamp is on")

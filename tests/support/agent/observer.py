@@ -127,6 +127,8 @@ def main() -> None:
             answer = _graph(node)
         elif command["do"] == "samples":
             answer, arrived[:] = list(arrived), []
+        elif command["do"] == "forget":
+            answer = _forget(node, arrived)
         else:
             answer = getattr(peer, command.pop("do"))(**command)
         print(json.dumps(answer), flush=True)
@@ -355,6 +357,14 @@ def _subscribe(node: Any, command: dict[str, Any], arrived: list[tuple[str, Any]
         lambda message: arrived.append((topic, _plain(message))),
         _profile(command.get("reliable", True), command.get("transient_local", False)),
     )
+
+
+def _forget(node: Any, arrived: list[tuple[str, Any]]) -> bool:
+    """Destroy the subscriptions, and with them what has come."""
+    for subscription in list(node.subscriptions):
+        node.destroy_subscription(subscription)
+    arrived.clear()
+    return True
 
 
 def _plain(value: Any) -> Any:
