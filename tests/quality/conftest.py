@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.support.quality.corpus import Tree, Unit, make_examples, make_trees, units
+from tests.support.quality.corpus import Tree, Unit, covering_units, make_examples, make_trees, units
 
 
 @pytest.fixture(scope="session")
@@ -16,17 +16,15 @@ def trees(tmp_path_factory: pytest.TempPathFactory) -> list[Tree]:
 
 @pytest.fixture(
     scope="session",
-    params=[pytest.param(False, id="texts"), pytest.param(True, id="headers", marks=pytest.mark.long)],
+    params=[pytest.param(False, id="lines"), pytest.param(True, id="all", marks=pytest.mark.long)],
 )
-def is_header_a_difference(request: pytest.FixtureRequest) -> bool:
-    """Whether a file is analyzed with each set of headers that it includes, or once for each text that it has."""
+def is_every_unit(request: pytest.FixtureRequest) -> bool:
+    """Whether a file is analyzed with each set of headers that it includes, or each different line once."""
     return bool(request.param)
 
 
 @pytest.fixture(scope="session")
-def all_units(
-    trees: list[Tree], is_header_a_difference: bool, tmp_path_factory: pytest.TempPathFactory
-) -> list[Unit]:
-    """Every C file of every tree, and the applications of examples/."""
+def all_units(trees: list[Tree], is_every_unit: bool, tmp_path_factory: pytest.TempPathFactory) -> list[Unit]:
+    """C files of the trees, and the applications of examples/."""
     every = [*trees, *make_examples(tmp_path_factory.mktemp("examples"))]
-    return units(every, is_header_a_difference)
+    return units(every) if is_every_unit else covering_units(every)

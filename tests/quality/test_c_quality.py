@@ -18,6 +18,7 @@ from tests.support.quality.corpus import (
     Unit,
     analyze,
     covered,
+    covering_units,
     ready_components,
     run,
     tree_key,
@@ -95,8 +96,31 @@ def test_corpus_holds_every_template_of_types(trees: list[Tree]) -> None:
 
 
 @pytest.mark.lint
-def test_corpus_holds_one_unit_a_difference(all_units: list[Unit]) -> None:
-    assert len({unit.key for unit in all_units}) < len(all_units)
+def test_a_part_of_the_corpus_has_each_line(tmp_path: Path) -> None:
+    """What `make lint` reads: files that differ in numbers and texts only count once, those with another line twice."""
+    one = 'const char *f(int a)\n{\n    return (a > 1) ? "x" : "y";\n}\n'
+    texts = {
+        "src/read/a.c": [one, one.replace("1", "0x20").replace('"x"', '"\\""'), one.replace(">", "<")],
+        "src/p_msgs/t__storage.c": [one, one.replace("f(", "g("), one.replace("int", "long")],
+        "src/q_msgs/u__storage.c": [one.replace("f(", "h(")],
+    }
+    trees: list[Tree] = []
+    for source, versions in texts.items():
+        for number, text in enumerate(versions):
+            path = tmp_path / f"{len(trees)}" / source
+            path.parent.mkdir(parents=True)
+            path.write_text(text, encoding="utf-8")
+            trees.append(Tree(f"{source} {number}", tmp_path / f"{len(trees)}", (source,)))
+    assert [unit.tree.name for unit in covering_units(trees)] == [
+        *("src/read/a.c 0", "src/read/a.c 2"),
+        *("src/p_msgs/t__storage.c 0", "src/p_msgs/t__storage.c 2"),
+    ]
+
+
+@pytest.mark.long
+def test_corpus_holds_one_unit_a_difference(trees: list[Tree]) -> None:
+    every = units(trees)
+    assert len({unit.key for unit in every}) < len(every)
 
 
 def complaints(answers: dict[str, str]) -> str:
@@ -124,18 +148,20 @@ def test_clang_tidy(all_units: list[Unit]) -> None:
 
 @pytest.mark.lint
 @pytest.mark.skipif(not shutil.which("cppcheck"), reason="no cppcheck")
-def test_cppcheck(trees: list[Tree]) -> None:
-    """What is suppressed, and why, stands in cppcheck-suppressions.txt. A tree is checked as a whole."""
+def test_cppcheck(trees: list[Tree], is_every_unit: bool) -> None:
+    """What is suppressed, and why, stands in cppcheck-suppressions.txt. The long run checks each tree as a whole."""
     checks = ("--enable=warning,style,performance,portability", "--inline-suppr", "--error-exitcode=1")
     options = ("-q", "--std=c99", *checks, f"--suppressions-list={SUPPRESSIONS}", "-Iinclude")
 
     def check(unit: Unit) -> str:
-        done = run(["cppcheck", *options, "src", "examples"], unit.tree.out)
+        sources = [unit.source] if unit.source else ["src", "examples"]
+        done = run(["cppcheck", *options, *sources], unit.tree.out)
         return f"{unit.tree.name}: {done.stdout}{done.stderr}" if done.returncode else ""
 
     version = run(["cppcheck", "--version"], ROOT).stdout
-    name = f"cppcheck of trees {version} {options} {SUPPRESSIONS.read_text(encoding='utf-8')}"
-    assert complaints(analyze(name, [Unit(tree, "", tree_key(tree)) for tree in trees], check)) == ""
+    name = f"cppcheck of files {version} {options} {SUPPRESSIONS.read_text(encoding='utf-8')}"
+    every = [Unit(tree, "", tree_key(tree)) for tree in trees] if is_every_unit else covering_units(trees)
+    assert complaints(analyze(name, every, check)) == ""
 
 
 def compile_quietly(compiler: str, flags: Sequence[str], each: list[Unit]) -> str:
@@ -171,12 +197,12 @@ def test_clang_everything(all_units: list[Unit]) -> None:
 
 
 @pytest.fixture(scope="module")
-def places(trees: list[Tree], is_header_a_difference: bool) -> misra.Places:
+def places(trees: list[Tree], is_every_unit: bool) -> misra.Places:
     if misra.find_addon() is None:
         pytest.skip("no cppcheck with its addons")
-    if is_header_a_difference:
-        return misra.check(trees, units(trees))
-    return misra.check(trees, units(trees, is_header_a_difference), is_whole=False)
+    return misra.check(
+        trees, units(trees) if is_every_unit else covering_units(trees), is_whole=is_every_unit
+    )
 
 
 @pytest.mark.lint

@@ -8,6 +8,7 @@ is analyzed once.
 from __future__ import annotations
 
 import hashlib
+import re
 import shutil
 import subprocess
 from collections.abc import Callable, Mapping, Sequence
@@ -25,6 +26,11 @@ EXAMPLES = ROOT / "examples"
 INTERFACES = TESTS / "quality" / "interfaces"
 CACHE = ROOT / "build" / "quality"
 WORKERS = 2
+_WORDS_OF_C = re.compile(
+    r"(bool|break|case|char|const|continue|default|do|double|else|enum|extern|float|for|goto|if|inline|int|long|NULL"
+    r"|return|short|signed|sizeof|static|struct|switch|typedef|union|unsigned|void|volatile|while"
+    r"|size_t|u?int(8|16|32|64)_t)"
+)
 
 _POOL = "version: 1\nprofiles: [pure_sender]\n"
 _INT32 = _POOL + "interfaces: [std_msgs/msg/Int32]\n"
@@ -367,21 +373,15 @@ def width_flags(unit: Unit) -> tuple[str, ...]:
     return ("-m32",) if unit.source.startswith(bare) else ()
 
 
-def units(trees: Sequence[Tree], is_header_a_difference: bool = True) -> list[Unit]:
+def units(trees: Sequence[Tree]) -> list[Unit]:
     """Return every file of every tree; a file with the text of one in an earlier tree has the key of that one.
 
     What is rendered from a template counts as another file where the headers that it includes differ, and so does
-    every file where errors are codes; with `is_header_a_difference` false, where its own text differs.
+    every file where errors are codes.
     """
     rendered = {
         p.name.removesuffix(".j2") for c in load_catalogue().values() for p in c.folder.rglob("*.c.j2")
     }
-
-    def preprocess(tree: Tree, source: str) -> str:
-        # -dD keeps the definitions of macros: a finding may be in one.
-        done = run(["gcc", "-std=c99", "-E", "-P", "-dD", "-Iinclude", source], tree.out)
-        assert done.returncode == 0, f"{tree.name}: {done.stderr}"
-        return hashlib.sha256((source + done.stdout).encode()).hexdigest()
 
     first: dict[tuple[str, ...], tuple[Tree, str]] = {}
     found: list[tuple[Tree, str, tuple[str, ...]]] = []
@@ -392,13 +392,66 @@ def units(trees: Sequence[Tree], is_header_a_difference: bool = True) -> list[Un
         for source in tree.sources:
             same = (source, names, (tree.out / source).read_text(encoding="utf-8"))
             identity: tuple[str, ...] = (*same, tree.name) if Path(source).name in rendered else same
-            if not is_header_a_difference:
-                identity = (source, same[-1])
             first.setdefault(identity, (tree, source))
             found.append((tree, source, identity))
-    with ThreadPoolExecutor(WORKERS) as pool:
-        keys = dict(zip(first, pool.map(lambda job: preprocess(*job), first.values()), strict=True))
+    keys = dict(zip(first, _keys(list(first.values())), strict=True))
     return [Unit(tree, source, keys[identity]) for tree, source, identity in found]
+
+
+def _keys(sources: Sequence[tuple[Tree, str]]) -> list[str]:
+    """Return what identifies each file with all that it includes."""
+
+    def preprocess(job: tuple[Tree, str]) -> str:
+        tree, source = job
+        # -dD keeps the definitions of macros: a finding may be in one.
+        done = run(["gcc", "-std=c99", "-E", "-P", "-dD", "-Iinclude", source], tree.out)
+        assert done.returncode == 0, f"{tree.name}: {done.stderr}"
+        return hashlib.sha256((source + done.stdout).encode()).hexdigest()
+
+    with ThreadPoolExecutor(WORKERS) as pool:
+        return list(pool.map(preprocess, sources))
+
+
+def covering_units(trees: Sequence[Tree]) -> list[Unit]:
+    """Return files that together have each different line of all files, as few as are found from the largest on.
+
+    Two lines are the same where only numbers and texts in quotation marks differ. Files of types are rendered from a
+    handful of templates: there two lines are the same where names differ, too.
+    """
+    components = frozenset(load_catalogue())
+    texts: dict[str, dict[str, tuple[Tree, str]]] = {}
+    for tree in trees:
+        for source in tree.sources:
+            text = (tree.out / source).read_text(encoding="utf-8")
+            texts.setdefault(_family(source, components), {}).setdefault(text, (tree, source))
+    chosen = [place for name, same in texts.items() for place in _covering(same, name.startswith("*"))]
+    return [Unit(*place, key) for place, key in zip(chosen, _keys(chosen), strict=True)]
+
+
+def _family(source: str, components: frozenset[str]) -> str:
+    """Return what files of one template have in common: their path, and of files of types `*` and the ending."""
+    folder, _, name = source.removeprefix("src/").partition("/")
+    is_of_type = source.startswith("src/") and folder not in components
+    return f"*__{name.rpartition('__')[2]}" if is_of_type else source
+
+
+def _covering(texts: Mapping[str, tuple[Tree, str]], is_any_name: bool) -> list[tuple[Tree, str]]:
+    lines = {text: _lines(text, is_any_name) for text in texts}
+    left = set().union(*lines.values())
+    found = []
+    while left:
+        best = max(lines, key=lambda text: len(lines[text] & left))
+        left -= lines[best]
+        found.append(texts[best])
+    return found
+
+
+def _lines(text: str, is_any_name: bool) -> set[str]:
+    code = re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.DOTALL)
+    code = re.sub(r"\b(0x[0-9A-Fa-f]+|\d+)", "N", re.sub(r'"(\\.|[^"\n])*"', "S", code))
+    if is_any_name:
+        code = re.sub(r"[A-Za-z_]\w*", lambda name: name[0] if _WORDS_OF_C.fullmatch(name[0]) else "I", code)
+    return {line.strip() for line in code.splitlines() if line.strip()}
 
 
 def analyze(tool: str, each: Sequence[Unit], check: Callable[[Unit], str]) -> dict[str, str]:

@@ -144,8 +144,8 @@ def _whole_program(tree: Tree, summaries: Sequence[str], addon: Path) -> str:
 def check(trees: Sequence[Tree], every: Sequence[Unit], is_whole: bool = True) -> Places:
     """Return what the addon finds in `trees`, whose files are `every`.
 
-    `is_whole`: with the rules about all files of a program together. Without them where a file represents the same
-    one of other trees: its headers may differ there, and two trees are no program.
+    `is_whole`: with the rules about all files of a program together. Without them where `every` has only some files
+    of a tree: they are no program.
     """
     addon = find_addon()
     assert addon is not None, "cppcheck is not installed, or without its addons"
