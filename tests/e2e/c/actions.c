@@ -4,7 +4,6 @@
  * "ret CODE TEXT". Meanwhile the executor spins. Goals are kept in the order in which they were accepted.
  */
 #define _POSIX_C_SOURCE 200809L
-#include <poll.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -17,6 +16,8 @@
 #include <rclc/rclc.h>
 
 #include <test_msgs/action/fibonacci.h>
+
+#include "commanded.h"
 
 enum { GOALS = 2, KEPT = 64, NUMBERS = 24 };
 
@@ -32,15 +33,6 @@ static int rejects;
 static int keeps_going;
 static int ends_at_cancel;
 static int cancels;
-static char last_error[512];
-
-static void check(rcl_ret_t result, const char * what)
-{
-  if (result != RCL_RET_OK) {
-    (void)fprintf(stderr, "%s: %s\n", what, rcl_get_error_string().str);
-    exit(1);
-  }
-}
 
 static rcl_ret_t end_goal(rclc_action_goal_handle_t * goal, int status, int numbers)
 {
@@ -154,45 +146,13 @@ static rcl_ret_t run(char ** word)
   return RCL_RET_OK;
 }
 
-static bool answer(void)
-{
-  static char line[256];
-  char * words[4] = {NULL};
-  size_t found = 0;
-  rcl_ret_t result;
-
-  if (fgets(line, sizeof(line), stdin) == NULL || strcmp(line, "end\n") == 0) {
-    return false;
-  }
-  for (char * word = strtok(line, " \n"); word != NULL && found < 4u; word = strtok(NULL, " \n")) {
-    words[found++] = word;
-  }
-  result = run(words);
-  (void)printf("ret %d %s\n", (int)result, result == RCL_RET_OK ? "" : rcl_get_error_string().str);
-  (void)fflush(stdout);
-  rcl_reset_error();
-  return true;
-}
-
 int main(void)
 {
-  struct pollfd input = {0, POLLIN, 0};
-  bool goes_on = true;
-
-  (void)setvbuf(stdin, NULL, _IONBF, 0);
   allocator = rcl_get_default_allocator();
   check(rclc_support_init(&support, 0, NULL, &allocator), "init");
   check(rclc_node_init_default(&node, "device", "arm", &support), "node");
   begin();
-  while (goes_on) {
-    if (rclc_executor_spin_some(&executor, RCL_MS_TO_NS(2)) != RCL_RET_OK) {
-      (void)snprintf(last_error, sizeof(last_error), "%s", rcl_get_error_string().str);
-      rcl_reset_error();
-    }
-    if (poll(&input, 1, 0) > 0) {
-      goes_on = answer();
-    }
-  }
+  obey(&executor, 2, run);
   check(rclc_executor_fini(&executor), "executor fini");
   check(rclc_action_server_fini(&server, &node), "action server fini");
   check(rcl_node_fini(&node), "node fini");

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A node with modes, a timer and checks under an executor, until its standard input ends. Lines: "set NUMBER" sets the
- * battery, "busy NUMBER" lets the next callback of the timer take so many milliseconds, "fail" makes an error, "refuse"
- * and "accept" say what the callback of modes does, "activate" changes the state. Each is answered with what it
- * returned.
+ * A node with modes, a timer and checks under an executor, in the hands of a test: "set NUMBER" sets the battery, "busy
+ * NUMBER" lets the next callback of the timer take so many milliseconds, "fail" makes an error, "refuse" and "accept"
+ * say what the callback of modes does, "activate" changes the state, "show" prints mode and level.
  */
 #define _POSIX_C_SOURCE 200809L
-#include <poll.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -22,6 +20,8 @@
 #include <rclc_modes/declared_modes.h>
 #include <rclc_parameter/declared_parameters.h>
 
+#include "commanded.h"
+
 enum { HANDLES = 4 + RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES + RCLC_EXECUTOR_MODES_HANDLES, PERIOD_MS = 20 };
 
 static rclc_support_t support;
@@ -36,14 +36,6 @@ static rclc_parameter_server_t parameters;
 static rclc_modes_t modes;
 static bool refuses;
 static int busy_ms;
-
-static void check(rcl_ret_t result, const char * what)
-{
-  if (result != RCL_RET_OK) {
-    (void)fprintf(stderr, "%s: %s\n", what, rcl_get_error_string().str);
-    exit(1);
-  }
-}
 
 static bool on_mode(uint8_t start_mode, uint8_t goal_mode, void * unused)
 {
@@ -91,50 +83,35 @@ static rcl_ret_t activate(void)
                               : result;
 }
 
-static bool answer(void)
+/* set NUMBER | busy MS | refuse | accept | activate | fail | show */
+static rcl_ret_t run(char ** words)
 {
-  static char line[64];
-  rcl_ret_t result = RCL_RET_OK;
+  const char * what = words[0];
 
-  if (fgets(line, sizeof(line), stdin) == NULL || strcmp(line, "end\n") == 0) {
-    return false;
+  if (strcmp(what, "set") == 0) {
+    return rclc_diagnosis_set((uint8_t)DIAGNOSIS_BATTERY, (int32_t)atoi(words[1]));
   }
-  line[strcspn(line, "\n")] = '\0';
-  if (strncmp(line, "set ", 4) == 0) {
-    result = rclc_diagnosis_set((uint8_t)DIAGNOSIS_BATTERY, (int32_t)atoi(&line[4]));
-  } else if (strncmp(line, "busy ", 5) == 0) {
-    busy_ms = atoi(&line[5]);
-  } else if (strcmp(line, "refuse") == 0 || strcmp(line, "accept") == 0) {
-    refuses = line[0] == 'r';
-  } else if (strcmp(line, "activate") == 0) {
-    result = activate();
-  } else if (strcmp(line, "fail") == 0) {
-    result = rclc_diagnosis_set(99u, 0);
-  } else {
+  if (strcmp(what, "activate") == 0) {
+    return activate();
+  }
+  if (strcmp(what, "fail") == 0) {
+    return rclc_diagnosis_set(99u, 0);
+  }
+  if (strcmp(what, "busy") == 0) {
+    busy_ms = atoi(words[1]);
+  } else if (strcmp(what, "show") == 0) {
     (void)printf("%s %u\n", rclc_modes_name(&modes, rclc_modes_get(&modes)), rclc_diagnosis_level(0));
+  } else {
+    refuses = strcmp(what, "refuse") == 0;
   }
-  (void)printf("ret %d %s\n", (int)result, result == RCL_RET_OK ? "" : rcl_get_error_string().str);
-  (void)fflush(stdout);
-  rcl_reset_error();
-  return true;
+  return RCL_RET_OK;
 }
 
 int main(void)
 {
-  struct pollfd input = {0, POLLIN, 0};
-  bool goes_on = true;
-
-  (void)setvbuf(stdin, NULL, _IONBF, 0);
   allocator = rcl_get_default_allocator();
   begin();
-  while (goes_on) {
-    if (rclc_executor_spin_some(&executor, RCL_MS_TO_NS(20)) != RCL_RET_OK) {
-      rcl_reset_error(); /* a request above the limits was reported */
-    }
-    if (poll(&input, 1, 0) > 0) {
-      goes_on = answer();
-    }
-  }
+  obey(&executor, 20, run);
   check(rclc_modes_fini(&modes), "modes fini");
   check(rclc_lifecycle_node_fini(&lifecycle, &allocator), "life cycle fini");
   check(rclc_parameter_server_fini(&parameters, &node), "parameters fini");

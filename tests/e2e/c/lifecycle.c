@@ -4,7 +4,6 @@
  * Meanwhile the executor spins. What a callback returns is set by a line; each call of one is counted.
  */
 #define _POSIX_C_SOURCE 200809L
-#include <poll.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -17,6 +16,8 @@
 #include <rclc/rclc.h>
 #include <rclc_lifecycle/rclc_lifecycle.h>
 
+#include "commanded.h"
+
 enum { CONFIGURE, ACTIVATE, DEACTIVATE, CLEANUP, SHUTDOWN, ERROR, CALLBACKS };
 
 static rclc_support_t support;
@@ -28,14 +29,6 @@ static rclc_lifecycle_node_t lifecycle;
 static rclc_lifecycle_service_context_t context = {&lifecycle};
 static int outcomes[CALLBACKS];
 static int calls[CALLBACKS];
-
-static void check(rcl_ret_t result, const char * what)
-{
-  if (result != RCL_RET_OK) {
-    (void)fprintf(stderr, "%s: %s\n", what, rcl_get_error_string().str);
-    exit(1);
-  }
-}
 
 static int called(int which)
 {
@@ -138,44 +131,13 @@ static rcl_ret_t run(char ** word)
   return RCL_RET_OK;
 }
 
-static bool answer(void)
-{
-  static char line[256];
-  char * words[4] = {NULL};
-  size_t count = 0;
-  rcl_ret_t result;
-
-  if (fgets(line, sizeof(line), stdin) == NULL || strcmp(line, "end\n") == 0) {
-    return false;
-  }
-  for (char * word = strtok(line, " \n"); word != NULL && count < 4u; word = strtok(NULL, " \n")) {
-    words[count++] = word;
-  }
-  result = run(words);
-  (void)printf("ret %d %s\n", (int)result, result == RCL_RET_OK ? "" : rcl_get_error_string().str);
-  (void)fflush(stdout);
-  rcl_reset_error();
-  return true;
-}
-
 int main(void)
 {
-  struct pollfd input = {0, POLLIN, 0};
-  bool goes_on = true;
-
-  (void)setvbuf(stdin, NULL, _IONBF, 0);
   allocator = rcl_get_default_allocator();
   check(rclc_support_init(&support, 0, NULL, &allocator), "init");
   check(rclc_node_init_default(&node, "device", "arm", &support), "node");
   begin();
-  while (goes_on) {
-    if (rclc_executor_spin_some(&executor, RCL_MS_TO_NS(2)) != RCL_RET_OK) {
-      rcl_reset_error(); /* a request above the limits was reported */
-    }
-    if (poll(&input, 1, 0) > 0) {
-      goes_on = answer();
-    }
-  }
+  obey(&executor, 2, run);
   end();
   check(rcl_node_fini(&node), "node fini");
   check(rclc_support_fini(&support), "support fini");

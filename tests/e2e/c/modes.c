@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A node with modes under an executor, until its standard input ends. Of a line "refuse" the callback of modes refuses,
- * "accept" it accepts; "reconfigure MODE" is answered with what it returned. Others print the speed.
+ * A node with modes under an executor, in the hands of a test. "refuse" and "accept" say what the callback of modes
+ * does; "show" prints the speed and the state.
  */
 #define _POSIX_C_SOURCE 200809L
-#include <poll.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -17,6 +16,8 @@
 #include <rclc/rclc.h>
 #include <rclc_modes/declared_modes.h>
 #include <rclc_parameter/declared_parameters.h>
+
+#include "commanded.h"
 
 enum { HANDLES = 3 + RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES + RCLC_EXECUTOR_MODES_HANDLES };
 
@@ -31,14 +32,6 @@ static rclc_parameter_server_t parameters;
 static rclc_modes_t modes;
 static arm_device_parameters_t values;
 static bool refuses;
-
-static void check(rcl_ret_t result, const char * what)
-{
-  if (result != RCL_RET_OK) {
-    (void)fprintf(stderr, "%s: %s\n", what, rcl_get_error_string().str);
-    exit(1);
-  }
-}
 
 static bool on_mode(uint8_t start_mode, uint8_t goal_mode, void * unused)
 {
@@ -64,45 +57,26 @@ static void begin(void)
   check(rclc_executor_add_modes(&executor, &modes, on_mode, NULL), "services of modes");
 }
 
-static bool answer(void)
+/* reconfigure MODE | refuse | accept | show */
+static rcl_ret_t run(char ** words)
 {
-  static char line[64];
-  rcl_ret_t result = RCL_RET_OK;
-
-  if (fgets(line, sizeof(line), stdin) == NULL || strcmp(line, "end\n") == 0) {
-    return false;
+  if (strcmp(words[0], "reconfigure") == 0) {
+    return rclc_modes_reconfigure(&modes, rclc_modes_find(&modes, words[1]));
   }
-  line[strcspn(line, "\n")] = '\0';
-  if (strncmp(line, "reconfigure ", 12) == 0) {
-    result = rclc_modes_reconfigure(&modes, rclc_modes_find(&modes, &line[12]));
-  } else if (strcmp(line, "refuse") == 0 || strcmp(line, "accept") == 0) {
-    refuses = line[0] == 'r';
-  } else {
-    (void)arm_device_parameters_update(&values, &parameters);
-    (void)printf("%.2f %s\n", values.speed, machine.current_state->label);
+  if (strcmp(words[0], "show") != 0) {
+    refuses = strcmp(words[0], "refuse") == 0;
+    return RCL_RET_OK;
   }
-  (void)printf("ret %d %s\n", (int)result, result == RCL_RET_OK ? "" : rcl_get_error_string().str);
-  (void)fflush(stdout);
-  rcl_reset_error();
-  return true;
+  (void)arm_device_parameters_update(&values, &parameters);
+  (void)printf("%.2f %s\n", values.speed, machine.current_state->label);
+  return RCL_RET_OK;
 }
 
 int main(void)
 {
-  struct pollfd input = {0, POLLIN, 0};
-  bool goes_on = true;
-
-  (void)setvbuf(stdin, NULL, _IONBF, 0);
   allocator = rcl_get_default_allocator();
   begin();
-  while (goes_on) {
-    if (rclc_executor_spin_some(&executor, RCL_MS_TO_NS(2)) != RCL_RET_OK) {
-      rcl_reset_error(); /* a request above the limits was reported */
-    }
-    if (poll(&input, 1, 0) > 0) {
-      goes_on = answer();
-    }
-  }
+  obey(&executor, 2, run);
   check(rclc_modes_fini(&modes), "modes fini");
   check(rclc_lifecycle_node_fini(&lifecycle, &allocator), "life cycle fini");
   check(rclc_parameter_server_fini(&parameters, &node), "parameters fini");
