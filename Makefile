@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# make demo | test | quick | system | lint | misra | proof | bench | golden | footprint | docs. Each sets up its own virtual environment in .venv first.
+# make demo | test | quick | system | check | lint | misra | proof | bench | golden | footprint | docs. Each sets up its own virtual environment in .venv first.
 
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test quick system lint misra proof bench golden footprint docs clean
+.PHONY: demo test quick system check lint misra proof bench golden footprint docs clean
 
 demo: $(VENV)/ros.stamp
 	@$(BIN)/python examples/demo/demo.py
@@ -20,6 +20,10 @@ quick: $(VENV)/dev.stamp
 system: $(VENV)/dev.stamp
 	@$(PYTHON) tests/tools/system_packages.py
 	@$(BIN)/python -m tests.tools.run_suite system
+
+check: $(VENV)/dev.stamp
+	@$(PYTHON) tests/tools/system_packages.py
+	@$(BIN)/python -m tests.tools.run_suite check
 
 lint: $(VENV)/dev.stamp
 	@$(PYTHON) tests/tools/system_packages.py

@@ -37,9 +37,9 @@ def runs(name: str, folder: str, markers: frozenset[str]) -> list[Run]:
 
 @pytest.mark.parametrize("folder", FOLDERS)
 def test_every_test_that_is_not_long_runs_in_ci(folder: str) -> None:
-    in_ci = ("test", "system", "lint")
-    missing = [markers for markers in SETS if not any(runs(name, folder, markers) for name in in_ci)]
-    assert missing == []
+    targets = [{"check", "lint"}, {"test", "system", "lint"}]  # of .ci/run, and of a developer
+    for names in targets:
+        assert [markers for markers in SETS if not any(runs(name, folder, markers) for name in names)] == []
 
 
 @pytest.mark.parametrize("folder", FOLDERS)
@@ -48,7 +48,8 @@ def test_make_system_runs_no_test_twice(folder: str) -> None:
 
 
 def test_make_system_has_all_examples_and_all_sanitizers() -> None:
-    assert all(run.environment == {EXAMPLES: "all", EVERYWHERE: "all"} for run in RUNS["system"])
+    every = [*RUNS["system"], *RUNS["check"]]
+    assert all(run.environment == {EXAMPLES: "all", EVERYWHERE: "all"} for run in every)
     for marker in ("hypothesis", "examples"):
         assert all(runs("system", folder, frozenset({marker})) for folder in FOLDERS)
     assert all(runs("system", folder, frozenset()) for folder in SANITIZED)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`make test`, `make quick`, `make system`, `make lint`: which tests each of them runs, side by side.
+"""`make test`, `quick`, `system`, `check`, `lint`: which tests each of them runs, side by side.
 
-python -m tests.tools.run_suite [test | quick | system | lint] [options of pytest]
+python -m tests.tools.run_suite [test | quick | system | check | lint] [options of pytest]
 """
 
 from __future__ import annotations
@@ -66,6 +66,8 @@ RUNS: Mapping[str, tuple[Run, ...]] = {
         ),
         Run("not long and not lint", SANITIZED, environment=EVERYTHING),
     ),
+    # What `test` and `system` run, each test once: images and agents that several tests share are made once, too.
+    "check": (Run("not long and not lint", environment=EVERYTHING),),
     "lint": (Run("lint and not long", more_processes=1),),
 }
 
