@@ -7,6 +7,7 @@ import time
 from typing import Any
 
 import pytest
+from _pytest.mark import ParameterSet
 
 from tests.support.agent.observer import Observer
 from tests.support.firmware.board import BOARDS, Board, Builds, board, need
@@ -68,9 +69,17 @@ def test_rclpy_receives_what_the_board_logs(builds: Builds, domain: int, observe
     assert 0 < dropped < MANY
 
 
-@pytest.mark.system
-@pytest.mark.parametrize("name", ["host", *BOARDS])
-@pytest.mark.parametrize("entities", ENTITIES)
+def ways() -> list[ParameterSet]:
+    """Return every board with one way to create entities and the host with each; the others for long runs."""
+    rows = [(name, way) for name in ("host", *BOARDS) for way in ENTITIES]
+    chosen = {(name, ENTITIES[number % len(ENTITIES)]) for number, name in enumerate(BOARDS)}
+    chosen |= {("host", way) for way in ENTITIES}
+    return [
+        pytest.param(*row, marks=pytest.mark.system if row in chosen else pytest.mark.long) for row in rows
+    ]
+
+
+@pytest.mark.parametrize(("name", "entities"), ways())
 def test_the_profile_with_diagnostics_builds(builds: Builds, name: str, entities: str) -> None:
     """With XML, types of services take more than the 512 bytes that a message has by default on a serial line."""
     need(name)
