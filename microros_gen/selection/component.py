@@ -84,6 +84,7 @@ class Component:
     `contributes` is what it adds to files that all share; `presence`, where the tool shows it.
     `asks` are capabilities of the platform; a component of layer `port` `provides` some. `folder` has its files.
     `implies`: what it opens by itself; the components that this takes are among its `needs`.
+    `pools` are the keys of the application file's `pools` that have an effect with it.
     `origin` says where a component is from that does not ship with the tool; `digest` changes with its files.
     """
 
@@ -101,6 +102,7 @@ class Component:
     asks: tuple[Ask, ...] = ()
     provides: tuple[Provision, ...] = ()
     implies: tuple[Implied, ...] = ()
+    pools: tuple[str, ...] = ()
     contributes: Contributions = NOTHING
     presence: Presence = ABSENT
     folder: Path = field(default_factory=Path, compare=False)

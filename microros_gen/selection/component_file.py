@@ -19,7 +19,7 @@ from microros_gen.selection.xrce import OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
 
 LAYERS = ("micro-ROS", "middleware", "port")
 _REQUIRED = ("component", "summary", "layer", "status")
-_LISTS = ("needs", "asks", "xrce", "sends", "receives", "objects", "headers", "sources", "implies")
+_LISTS = ("needs", "asks", "xrce", "sends", "receives", "objects", "headers", "sources", "implies", "pools")
 _IMPLIED = ("type", "every_node", "queue", "qos", "limits", "executed", "storage", "unless", "outside_ros")
 _PROVISION = ("sources", "asks", "always")
 _STATUS = ("ready", "planned")
@@ -52,6 +52,7 @@ def parse_component(source: Source, diagnostics: Diagnostics) -> Component | Non
         asks=_asks(node, diagnostics),
         provides=_provides(node, diagnostics),
         implies=_implies(node, diagnostics),
+        pools=_names(node, "pools", diagnostics),
         contributes=read_contributions(node, diagnostics),
         presence=read_presence(node),
     )

@@ -36,6 +36,7 @@ def check_contradictions(
     _check_discovery(picker, axes["transport"])
     _check_sleep(picker, axes["transport"])
     _check_creation(picker, application, axes["entities"])
+    _check_pools(picker, application)
 
 
 def _check_drop(picker: Picker, name: str, span: Span | None, text: str) -> None:
@@ -96,6 +97,19 @@ def _check_axis_components(picker: Picker, axes: Mapping[str, AxisChoice], middl
 def placed(cause: Named) -> str:
     """Return a cause with its place, where its text has none."""
     return cause.name if cause.name.endswith(")") else f"{cause.name}{at(cause.span)}"
+
+
+def _check_pools(picker: Picker, application: Application) -> None:
+    for key, count in application.pools.items():
+        owners = [name for name, component in sorted(picker.catalogue.items()) if key in component.pools]
+        if count == 0 or not owners or any(name in picker.causes for name in owners):
+            continue
+        picker.diagnostics.warning(
+            f"'pools.{key}' has no effect: nothing selects the component {' or '.join(map(repr, owners))}",
+            application.spans.get(f"pools.{key}"),
+            f"Remove it, or add `components: [+{owners[0]}]`",
+            id="MG-4051",
+        )
 
 
 def _check_liveliness(picker: Picker, choice: AxisChoice) -> None:

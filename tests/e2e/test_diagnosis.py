@@ -220,7 +220,7 @@ def test_a_lost_session_is_reported_afterwards(
                 assert (lost["level"], lost["message"]) == (WARN, "reconnects has changed")
                 for _ in range(
                     2
-                ):  # it is told again: readers find the new data writer after the first reports
+                ):  # it is reported again: readers find the new data writer after the first reports
                     assert values(board.next("session", lambda s: s["level"] == WARN))["reconnects"] == "1"
                 assert board.next("session", lambda s: s["level"] == OK)
                 assert values(board.next("battery"))["value"] == "11400"

@@ -98,11 +98,11 @@ def test_corpus_holds_every_template_of_types(trees: list[Tree]) -> None:
 @pytest.mark.lint
 def test_a_part_of_the_corpus_has_each_line(tmp_path: Path) -> None:
     """What `make lint` reads: files that differ in numbers and texts only count once, those with another line twice."""
-    one = 'const char *f(int a)\n{\n    return (a > 1) ? "x" : "y";\n}\n'
+    code = 'const char *f(int a)\n{\n    return (a > 1) ? "x" : "y";\n}\n'
     texts = {
-        "src/read/a.c": [one, one.replace("1", "0x20").replace('"x"', '"\\""'), one.replace(">", "<")],
-        "src/p_msgs/t__storage.c": [one, one.replace("f(", "g("), one.replace("int", "long")],
-        "src/q_msgs/u__storage.c": [one.replace("f(", "h(")],
+        "src/read/a.c": [code, code.replace("1", "0x20").replace('"x"', '"\\""'), code.replace(">", "<")],
+        "src/p_msgs/t__storage.c": [code, code.replace("f(", "g("), code.replace("int", "long")],
+        "src/q_msgs/u__storage.c": [code.replace("f(", "h(")],
     }
     trees: list[Tree] = []
     for source, versions in texts.items():

@@ -10,9 +10,11 @@ from pathlib import Path
 
 import pytest
 
+from microros_gen.application.parser import SCHEMA as APPLICATION_SCHEMA
 from microros_gen.client.plan.board import BoardPlan
 from microros_gen.client.plan.features import feature_of
 from microros_gen.diagnostics import UserError
+from microros_gen.documents.schema import load_schema
 from microros_gen.platform.target import Target
 from microros_gen.selection.component import Ask, Catalogue, Component, Middleware, Provision, SourceFile
 from microros_gen.selection.contribution import Conditional
@@ -230,3 +232,11 @@ def test_needs_have_no_cycle(real_catalogue: Catalogue) -> None:
 
     for name in real_catalogue:
         walk(name, ())
+
+
+def test_each_pool_is_of_a_component() -> None:
+    """Those of streams and of the bytes of queues are checked where the plan has their sizes."""
+    keys = set(load_schema(APPLICATION_SCHEMA)["properties"]["pools"]["properties"])
+    owned = {key for component in load_catalogue().values() for key in component.pools}
+    assert keys - owned == {"history", "input_history", "slot_size", "queue_bytes"}
+    assert owned - keys == set()

@@ -231,6 +231,16 @@ ERRORS = {
         "are searched "
         "for by UDP multicast. Write `transport: {type: udp}`, or drop it: `components: [-discovery]`",
     ),
+    "pools of what is not selected": (
+        "profiles: [pure_sender]\npools: {nodes: 2, timers: 3, services: 0, slot_size: 99}\n",
+        "microros.yaml:2:19: warning: 'pools.timers' has no effect: nothing selects the component 'timers'. "
+        "Remove it, or add `components: [+timers]`",
+    ),
+    "pools of two components": (
+        "profiles: [pure_sender]\npools: {queue: 9}\n",
+        "microros.yaml:2:9: warning: 'pools.queue' has no effect: nothing selects the component 'services' or "
+        "'subscribe'. Remove it, or add `components: [+services]`",
+    ),
     "sleep over TCP": (
         "profiles: [pure_sender]\ncomponents: [+sleep_cycles]\ntransport: {type: tcp}\n",
         "microros.yaml:3:19: error: transport: tcp (microros.yaml:3) contradicts the component 'sleep_cycles' "

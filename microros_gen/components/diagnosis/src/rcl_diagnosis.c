@@ -18,8 +18,8 @@
 
 enum { DIAGNOSIS_BODY = XRCE_SUBMESSAGE_HEADER + XRCE_OBJECT_PREFIX, DIAGNOSIS_DEPTH = 100 };
 
-/* Messages that tell of a change: of an agent that is new, the first ones reach no data reader yet. */
-enum { DIAGNOSIS_TELLS = 5 };
+/* Messages that report a change: those that a new agent sends first reach no data reader yet. */
+enum { DIAGNOSIS_REPORTS = 5 };
 
 /* Statuses are encoded when they are sent. */
 static const microros_message_type_t diagnosis_message = {
@@ -30,10 +30,11 @@ static const rosidl_message_type_support_t diagnosis_type = {
   .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &diagnosis_message};
 
 static rmw_publisher_t * diagnosis_publisher;
-static const rmw_node_t * diagnosis_node;                   /* the owner */
-static uint32_t diagnosis_waiting;                          /* a bit for each status that is to be sent */
-static uint32_t diagnosis_seen[MICROROS_DIAGNOSIS_ROWS];    /* as reported often enough */
-static uint8_t diagnosis_told[MICROROS_DIAGNOSIS_STATUSES]; /* messages that have told of the same change */
+static const rmw_node_t * diagnosis_node;                /* the owner */
+static uint32_t diagnosis_waiting;                       /* a bit for each status that is to be sent */
+static uint32_t diagnosis_seen[MICROROS_DIAGNOSIS_ROWS]; /* as reported often enough */
+static uint8_t
+  diagnosis_reported[MICROROS_DIAGNOSIS_STATUSES]; /* messages that have reported the same change */
 
 rcl_ret_t rcl_diagnosis_open(const rcl_node_t * node)
 {
@@ -52,7 +53,7 @@ rcl_ret_t rcl_diagnosis_open(const rcl_node_t * node)
     for (uint8_t row = 0; row < (uint8_t)MICROROS_DIAGNOSIS_ROWS; ++row) {
       diagnosis_seen[row] = rcl_diagnosis_count(client, row);
     }
-    (void)memset(diagnosis_told, 0, sizeof(diagnosis_told));
+    (void)memset(diagnosis_reported, 0, sizeof(diagnosis_reported));
     rcl_diagnosis_times_begin();
     client->diagnosis.due_ms = port_time_ms() + MICROROS_DIAGNOSIS_PERIOD_MS;
     client->diagnosis.running = true;
@@ -96,12 +97,12 @@ static void diagnosis_see(const xrce_client_t * client, uint8_t status)
   const rcl_diagnosis_status_t * about = &rcl_diagnosis_statuses[status];
 
   if (rcl_diagnosis_changed(client, status) != NULL) {
-    diagnosis_told[status] = (uint8_t)(diagnosis_told[status] + 1u);
-    if (diagnosis_told[status] < (uint8_t)DIAGNOSIS_TELLS) {
+    diagnosis_reported[status] = (uint8_t)(diagnosis_reported[status] + 1u);
+    if (diagnosis_reported[status] < (uint8_t)DIAGNOSIS_REPORTS) {
       return;
     }
   }
-  diagnosis_told[status] = 0u;
+  diagnosis_reported[status] = 0u;
   for (uint8_t i = 0; i < about->row_count; ++i) {
     const uint8_t row = (uint8_t)(about->first_row + i);
 
