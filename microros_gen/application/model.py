@@ -48,7 +48,7 @@ class Transport:
     `read_polls`: its read function returns at once with a time-out of 0.
     `send_buffer`: bytes that wait for a serial line; None: planned. `discover`: the agent is to be found by
     multicast to this port; None: `host` and `port` say where it is, or, where `agent_span` is None too, the
-    selection decides.
+    selection decides. `agents`: address and port of each of several, of which `host` and `port` are the first; or none.
     """
 
     type: str = "udp"
@@ -65,6 +65,7 @@ class Transport:
     read_polls: bool = False
     discover: int | None = None
     send_buffer: int | None = None
+    agents: tuple[tuple[str, int], ...] = ()
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import ipaddress
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from types import MappingProxyType
 
@@ -43,6 +44,8 @@ from microros_gen.documents.yaml_tree import Entry, MappingNode, ScalarNode, Yam
 SCHEMA = Path(__file__).with_name("application.schema.json")
 LONGEST_BLOCK_MS = 60_000
 """Longest time that `on_full: block …` may take, milliseconds."""
+MOST_AGENTS = 8
+"""Agents in a list: `connect_timeout` is at least ten round trips, which is one for each of them."""
 
 _BLOCK = re.compile(r"block ([0-9]{1,12}) ?(ms|s)")
 _POOLS_BESIDE_NODES = (
@@ -174,7 +177,8 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
     type_name = text_of(kind) or Transport().type
     discover = parse_discover(text_of(agent) or "", span_of(agent), diagnostics)
     address = None if discover is not None else _agent(agent, diagnostics)
-    host, port = address or (Transport().host, Transport().port)
+    agents = _agents(node, diagnostics)
+    host, port = address or next(iter(agents), (Transport().host, Transport().port))
     if agent is not None and type_name in _WITHOUT_ADDRESS:
         message = f"transport: {type_name} has no agent address"
         diagnostics.error(message, agent.span, "Remove `agent`, or use type: udp or tcp", id="MG-3013")
@@ -202,7 +206,8 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
         span=node.span,
         mtu_span=span_of(mtu),
         type_span=span_of(kind),
-        agent_span=span_of(agent),
+        agent_span=span_of(agent) or span_of(child(node, "agents")),
+        agents=agents,
         device=text_of(child(node, "device")) or Transport().device,
         baud=int_of(child(node, "baud")) or Transport().baud,
         framing=bool_of(framing),
@@ -228,6 +233,41 @@ def _agent(node: YamlNode | None, diagnostics: Diagnostics) -> tuple[str, int] |
     """Return host and port; a host name and a missing or wrong port are errors."""
     text = text_of(node)
     return None if text is None else parse_agent_address(text, span_of(node), diagnostics)
+
+
+def _agents(transport: YamlNode, diagnostics: Diagnostics) -> tuple[tuple[str, int], ...]:
+    node = child(transport, "agents")
+    if node is None:
+        return ()
+    if child(transport, "agent") is not None:
+        message = "'transport.agent' and 'transport.agents' contradict each other"
+        diagnostics.error(message, node.span, "Remove `agent`: the first of the list is tried first", id="MG-3180")
+    return parse_agents([(text_of(item) or "", item.span) for item in items(node)], node.span, diagnostics)
+
+
+def parse_agents(
+    given: Sequence[tuple[str, Span | None]], span: Span | None, diagnostics: Diagnostics
+) -> tuple[tuple[str, int], ...]:
+    """Return address and port of each agent of a list with their places; none and errors where it is no such list."""
+    found: list[tuple[str, int]] = []
+    for text, place in given:
+        if text.partition(":")[0] == "discover":
+            message = "a list of agents cannot contain 'discover'"
+            diagnostics.error(message, place, "Write `agent: discover` instead of `agents`", id="MG-3181")
+            return ()
+        address = parse_agent_address(text, place, diagnostics)
+        if address is None:
+            return ()
+        if address in found:
+            diagnostics.error(f"the agent '{text}' is in the list twice", place, "Remove it", id="MG-3182")
+        found.append(address)
+    if not 2 <= len(found) <= MOST_AGENTS:
+        message = f"the list has {len(found)} agents; it must have 2 to {MOST_AGENTS}"
+        diagnostics.error(message, span, "Write one as `agent`", id="MG-3183")
+    if len({":" in host for host, _ in found}) > 1:
+        message = "the agents have IPv4 and IPv6 addresses"
+        diagnostics.error(message, span, "Give all of them addresses of one kind", id="MG-3184")
+    return tuple(found)
 
 
 def parse_agent_address(text: str, span: Span | None, diagnostics: Diagnostics) -> tuple[str, int] | None:

@@ -60,8 +60,9 @@ def selection_options(function: F) -> F:
             ),
             click.option(
                 "--agent",
-                metavar="HOST:PORT|DEVICE",
-                help="Address of the agent (default: 127.0.0.1:8888), or a serial device (/dev/ttyACM0).",
+                metavar="HOST:PORT[,…]|DEVICE",
+                help="Address of the agent (default: 127.0.0.1:8888), several with commas, or a serial device"
+                " (/dev/ttyACM0).",
             ),
         ]
     ):

@@ -10,7 +10,7 @@ from pathlib import Path
 from microros_gen.application.find import read_application
 from microros_gen.application.model import Application, TargetRef, Transport, component_change
 from microros_gen.application.parameter_find import with_parameter_files
-from microros_gen.application.parser import parse_agent_address, parse_application, parse_discover
+from microros_gen.application.parser import parse_agent_address, parse_agents, parse_application, parse_discover
 from microros_gen.compiler.options import Options
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, Span
 from microros_gen.documents.named import Named
@@ -120,7 +120,8 @@ def _with_options(application: Application, options: Options, diagnostics: Diagn
 
 
 def _with_agent(transport: Transport, agent: Named, diagnostics: Diagnostics) -> Transport:
-    """Return the transport to an agent at `HOST:PORT`, or at the other end of a device named by its path."""
+    """Return the transport to agents at `HOST:PORT[,HOST:PORT…]`, or at the other end of a device named by its path."""
+    transport = replace(transport, agents=())
     is_device = agent.name.startswith("/")
     chosen = transport.type if transport.type_span else None
     if is_device and chosen in (None, "serial"):
@@ -132,6 +133,13 @@ def _with_agent(transport: Transport, agent: Named, diagnostics: Diagnostics) ->
         hint = "Give the path of a device such as /dev/ttyUSB0" if chosen == "serial" else "Leave it out"
         diagnostics.error(f"transport: {chosen} has no {what}", agent.span, hint, id="MG-8607")
         return transport
+    if "," in agent.name:
+        several = [(part.strip(), agent.span) for part in agent.name.split(",")]
+        agents = parse_agents(several, agent.span, diagnostics)
+        host, port = next(iter(agents), (transport.host, transport.port))
+        return replace(
+            transport, host=host, port=port, agents=agents, discover=None, agent_span=agent.span
+        )
     discover = parse_discover(agent.name, agent.span, diagnostics)
     if discover is not None:
         return replace(transport, discover=discover, agent_span=agent.span)

@@ -75,6 +75,8 @@ def resolve_selection(
         picker.pick("liveliness_hard", f"session: {{hard_liveliness}}{at(place)}", place)
     if application.transport.discover is not None:
         picker.pick("discovery", "transport: {agent: discover}", application.transport.agent_span)
+    if application.transport.agents:
+        picker.pick("agents", "transport: {agents}", application.transport.agent_span)
     picker.close()
     _pick_parts(picker, application, parts)
     check_contradictions(picker, application, profiles, axes, middleware)
