@@ -241,7 +241,9 @@ def _agents(transport: YamlNode, diagnostics: Diagnostics) -> tuple[tuple[str, i
         return ()
     if child(transport, "agent") is not None:
         message = "'transport.agent' and 'transport.agents' contradict each other"
-        diagnostics.error(message, node.span, "Remove `agent`: the first of the list is tried first", id="MG-3180")
+        diagnostics.error(
+            message, node.span, "Remove `agent`: the first of the list is tried first", id="MG-3180"
+        )
     return parse_agents([(text_of(item) or "", item.span) for item in items(node)], node.span, diagnostics)
 
 

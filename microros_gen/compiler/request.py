@@ -10,7 +10,12 @@ from pathlib import Path
 from microros_gen.application.find import read_application
 from microros_gen.application.model import Application, TargetRef, Transport, component_change
 from microros_gen.application.parameter_find import with_parameter_files
-from microros_gen.application.parser import parse_agent_address, parse_agents, parse_application, parse_discover
+from microros_gen.application.parser import (
+    parse_agent_address,
+    parse_agents,
+    parse_application,
+    parse_discover,
+)
 from microros_gen.compiler.options import Options
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, Span
 from microros_gen.documents.named import Named
@@ -137,9 +142,7 @@ def _with_agent(transport: Transport, agent: Named, diagnostics: Diagnostics) ->
         several = [(part.strip(), agent.span) for part in agent.name.split(",")]
         agents = parse_agents(several, agent.span, diagnostics)
         host, port = next(iter(agents), (transport.host, transport.port))
-        return replace(
-            transport, host=host, port=port, agents=agents, discover=None, agent_span=agent.span
-        )
+        return replace(transport, host=host, port=port, agents=agents, discover=None, agent_span=agent.span)
     discover = parse_discover(agent.name, agent.span, diagnostics)
     if discover is not None:
         return replace(transport, discover=discover, agent_span=agent.span)

@@ -70,10 +70,14 @@ def _refusals(context: PlanContext) -> Iterator[tuple[str, str, str]]:
         message = f"transport: {selection.transport} has no agent addresses"
         yield message, "Remove `agents`, or use type: udp or tcp", "MG-7181"
     elif selection.liveliness == "none" and selection.transport == "udp":
-        message = "several agents contradict 'liveliness: none': the client does not notice that its agent is gone"
+        message = (
+            "several agents contradict 'liveliness: none': the client does not notice that its agent is gone"
+        )
         yield message, "Write `liveliness: ping`, or use type: tcp", "MG-7182"
     elif selection.has("sleep_cycles"):
-        message = "several agents contradict the component 'sleep_cycles': a session is resumed at its own agent"
+        message = (
+            "several agents contradict the component 'sleep_cycles': a session is resumed at its own agent"
+        )
         yield message, "Write one `agent`, or drop it: `components: [-sleep_cycles]`", "MG-7183"
 
 

@@ -19,7 +19,7 @@
 #include <std_msgs/msg/int32.h>
 #include <std_msgs/msg/string.h>
 
-enum { NODES = 3, PUBLISHERS = 4, WORDS = 6, COMMAND = 512 };
+enum { NODES = 3, PUBLISHERS = 4, WORDS = 6, COMMAND = 512, LATCHED = 100 };
 
 static rclc_support_t support;
 static rcl_init_options_t options;
@@ -41,7 +41,7 @@ static int64_t now_us(void)
   return (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000;
 }
 
-/* open KEY PORT */
+/* open KEY PORT; without a port (-), where the plan says */
 static rcl_ret_t open_session(char ** word)
 {
   rmw_init_options_t * rmw;
@@ -50,9 +50,11 @@ static rcl_ret_t open_session(char ** word)
   options = rcl_get_zero_initialized_init_options();
   result = rcl_init_options_init(&options, allocator);
   rmw = rcl_init_options_get_rmw_init_options(&options);
-  if (result == RCL_RET_OK) {
+#ifndef LIVE_NO_UDP
+  if (result == RCL_RET_OK && strcmp(word[2], "-") != 0) {
     result = rmw_uros_options_set_udp_address("127.0.0.1", word[2], rmw);
   }
+#endif
   if (result == RCL_RET_OK) {
     result = rmw_uros_options_set_client_key((uint32_t)number(word[1]), rmw);
   }
@@ -71,7 +73,13 @@ static rcl_ret_t open_publisher(char ** word)
                                                  : ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
   rcl_publisher_t * publisher = &publishers[number(word[1])];
   const rcl_node_t * node = &nodes[number(word[2])];
+  rmw_qos_profile_t qos = rmw_qos_profile_default;
 
+  if (strcmp(word[5], "latched") == 0) {
+    qos.durability = RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL;
+    qos.depth = LATCHED;
+    return rclc_publisher_init(publisher, node, type, word[4], &qos);
+  }
   return strcmp(word[5], "best_effort") == 0 ? rclc_publisher_init_best_effort(publisher, node, type, word[4])
                                              : rclc_publisher_init_default(publisher, node, type, word[4]);
 }
@@ -135,10 +143,50 @@ static rcl_ret_t ping(char ** word)
 #endif
 }
 
+/* The agent as "agent HOST PORT INDEX CHANGES" */
+static rcl_ret_t print_agent(void)
+{
+#ifdef LIVE_AGENTS
+  rmw_uros_agent_t agent;
+  const rcl_ret_t result = rmw_uros_get_agent(rcl_context_get_rmw_context(&support.context), &agent);
+
+  if (result == RCL_RET_OK) {
+    printf(
+      "agent %s %u %u %u\n", agent.host, (unsigned)agent.port, (unsigned)agent.index,
+      (unsigned)agent.changes);
+  }
+  return result;
+#else
+  return -1;
+#endif
+}
+
+/* sync MS: asks for the time; epoch: the time as "epoch SECONDS SYNCHRONIZED" */
+static rcl_ret_t call_time(char ** word)
+{
+#ifdef LIVE_TIME
+  if (strcmp(word[0], "sync") == 0) {
+    return rmw_uros_sync_session((int)number(word[1]));
+  }
+  printf(
+    "epoch %lld %d\n", (long long)(rmw_uros_epoch_millis() / 1000), (int)rmw_uros_epoch_synchronized());
+  return RCL_RET_OK;
+#else
+  (void)word;
+  return -1;
+#endif
+}
+
 static rcl_ret_t call_session(char ** word)
 {
   rmw_context_t * context = rcl_context_get_rmw_context(&support.context);
 
+  if (strcmp(word[0], "agent") == 0) {
+    return print_agent();
+  }
+  if (strcmp(word[0], "sync") == 0 || strcmp(word[0], "epoch") == 0) {
+    return call_time(word);
+  }
   if (strcmp(word[0], "open") == 0) {
     return open_session(word);
   }

@@ -123,11 +123,14 @@ class Images:
     def live(self, image: Image) -> Path:
         """Return the program of live.c for an image."""
         program = image.out.parent / "live"
-        ping = "-DLIVE_PING" if (image.out / "src" / "ping").is_dir() else "-DLIVE_NO_PING"
+        folders = {"ping": "PING", "agents": "AGENTS", "time_sync": "TIME"}
+        parts = [f"-DLIVE_{name}" for place, name in folders.items() if (image.out / "src" / place).is_dir()]
+        if not (image.out / "src" / "transport_udp").is_dir():
+            parts.append("-DLIVE_NO_UDP")
         with self._once(f"{image.out.parent.name}-live") as first:
             if first:
                 source = C_FILES / "live.c"
-                image.application(source, program, "-std=c99", "-Wall", "-Wextra", "-Werror", ping)
+                image.application(source, program, "-std=c99", "-Wall", "-Wextra", "-Werror", *parts)
         return program
 
     @contextmanager

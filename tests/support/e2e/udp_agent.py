@@ -12,10 +12,10 @@ from tests.support.runtime.fake_agent import FakeAgent
 
 
 @contextmanager
-def serving(agent: FakeAgent) -> Iterator[int]:
-    """Serve one client at a time; gives the port."""
+def serving(agent: FakeAgent, number: int = 0) -> Iterator[int]:
+    """Serve one client at a time, at a UDP port or any; gives the port."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as port:
-        port.bind(("127.0.0.1", 0))
+        port.bind(("127.0.0.1", number))
         port.settimeout(0.05)
         ends = threading.Event()
         thread = threading.Thread(target=_serve, args=(agent, port, ends), daemon=True)

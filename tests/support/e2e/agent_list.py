@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Applications with a list of agents, and live.c with such a list."""
+
+from __future__ import annotations
+
+import socket
+import time
+from collections.abc import Sequence
+from contextlib import ExitStack
+
+from tests.support.e2e.images import POOLS
+from tests.support.e2e.live import Live
+from tests.support.patience import deadline
+
+
+def free_ports(count: int, family: int = socket.AF_INET, kind: int = socket.SOCK_DGRAM) -> list[int]:
+    """Return ports that nobody uses."""
+    with ExitStack() as stack:
+        probes = [stack.enter_context(socket.socket(family, kind)) for _ in range(count)]
+        for probe in probes:
+            probe.bind(("::1" if family == socket.AF_INET6 else "127.0.0.1", 0))
+        return [int(probe.getsockname()[1]) for probe in probes]
+
+
+def listed(
+    ports: Sequence[int], times: str, application: str = POOLS, kind: str = "udp", host: str = "127.0.0.1"
+) -> str:
+    """Return an application file with agents at these ports; `times` are entries of `session:`."""
+    agents = ", ".join(f'"{host}:{port}"' for port in ports)
+    return f"{application}transport: {{type: {kind}, agents: [{agents}]}}\nsession: {{{times}}}\n"
+
+
+def agent_of(live: Live) -> tuple[int, int, int]:
+    """Return port, index and changes of what rmw_uros_get_agent says."""
+    (line,) = live.ok("agent").lines
+    _, host, *numbers = line.split()
+    assert host in ("127.0.0.1", "::1")
+    port, index, changes = map(int, numbers)
+    return port, index, changes
+
+
+def wait_for_agent(live: Live, index: int, timeout_s: float = 15.0) -> None:
+    """Wait until all entities exist at this agent."""
+    end = deadline(timeout_s)
+    while live.call("connected").code != 1 or agent_of(live)[1] != index:
+        assert time.monotonic() < end, f"agent {index} is not used: {agent_of(live)}"
+        time.sleep(0.01)
