@@ -244,15 +244,16 @@ def _agents(transport: YamlNode, diagnostics: Diagnostics) -> tuple[tuple[str, i
         diagnostics.error(
             message, node.span, "Remove `agent`: the first of the list is tried first", id="MG-3180"
         )
-    return parse_agents([(text_of(item) or "", item.span) for item in items(node)], node.span, diagnostics)
+    texts = [(text, item.span) for item in items(node) if (text := text_of(item)) is not None]
+    return parse_agents(texts, node.span, diagnostics)
 
 
 def parse_agents(
-    given: Sequence[tuple[str, Span | None]], span: Span | None, diagnostics: Diagnostics
+    texts: Sequence[tuple[str, Span | None]], span: Span | None, diagnostics: Diagnostics
 ) -> tuple[tuple[str, int], ...]:
     """Return address and port of each agent of a list with their places; none and errors where it is no such list."""
     found: list[tuple[str, int]] = []
-    for text, place in given:
+    for text, place in texts:
         if text.partition(":")[0] == "discover":
             message = "a list of agents cannot contain 'discover'"
             diagnostics.error(message, place, "Write `agent: discover` instead of `agents`", id="MG-3181")
@@ -263,9 +264,9 @@ def parse_agents(
         if address in found:
             diagnostics.error(f"the agent '{text}' is in the list twice", place, "Remove it", id="MG-3182")
         found.append(address)
-    if not 2 <= len(found) <= MOST_AGENTS:
-        message = f"the list has {len(found)} agents; it must have 2 to {MOST_AGENTS}"
-        diagnostics.error(message, span, "Write one as `agent`", id="MG-3183")
+    if len(found) > MOST_AGENTS:
+        message = f"the list has {len(found)} agents; it may have {MOST_AGENTS}"
+        diagnostics.error(message, span, f"Keep the {MOST_AGENTS} nearest", id="MG-3183")
     if len({":" in host for host, _ in found}) > 1:
         message = "the agents have IPv4 and IPv6 addresses"
         diagnostics.error(message, span, "Give all of them addresses of one kind", id="MG-3184")

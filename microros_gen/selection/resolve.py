@@ -7,10 +7,10 @@ not change the result.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from microros_gen.application.model import Application
-from microros_gen.diagnostics import Diagnostics
+from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.documents.named import Named
 from microros_gen.selection.axes import AxisChoice, choose_axes
 from microros_gen.selection.component import (
@@ -70,17 +70,24 @@ def resolve_selection(
         picker.pick(
             "framing", "transport: {type: custom} without `framing: false`", application.transport.span
         )
-    if application.hard_liveliness_ms:
-        place = application.spans.get("session.hard_liveliness")
-        picker.pick("liveliness_hard", f"session: {{hard_liveliness}}{at(place)}", place)
-    if application.transport.discover is not None:
-        picker.pick("discovery", "transport: {agent: discover}", application.transport.agent_span)
-    if application.transport.agents:
-        picker.pick("agents", "transport: {agents}", application.transport.agent_span)
+    for name, text, span in _of_keys(application):
+        picker.pick(name, text, span)
     picker.close()
     _pick_parts(picker, application, parts)
     check_contradictions(picker, application, profiles, axes, middleware)
     return _selection(picker, profiles, axes, middleware)
+
+
+def _of_keys(application: Application) -> Iterator[tuple[str, str, Span | None]]:
+    """Yield each component that the value of a key selects, with the key and its place."""
+    transport = application.transport
+    if application.hard_liveliness_ms:
+        place = application.spans.get("session.hard_liveliness")
+        yield "liveliness_hard", f"session: {{hard_liveliness}}{at(place)}", place
+    if transport.discover is not None:
+        yield "discovery", "transport: {agent: discover}", transport.agent_span
+    if transport.agents:
+        yield "agents", "transport: {agents}", transport.agent_span
 
 
 def _report_nothing(application: Application, diagnostics: Diagnostics) -> None:

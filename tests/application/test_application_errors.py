@@ -377,6 +377,38 @@ ERRORS: dict[str, tuple[str, str]] = {
         'transport: {type: serial, agent: "10.0.0.1:8888"}\n',
         "f:1:34: error: transport: serial has no agent address. Remove `agent`, or use type: udp or tcp",
     ),
+    "one agent and a list": (
+        'transport: {agent: "10.0.0.1:1", agents: ["10.0.0.1:1", "10.0.0.2:1"]}\n',
+        "f:1:42: error: 'transport.agent' and 'transport.agents' contradict each other. Remove `agent`",
+    ),
+    "a list of one agent": (
+        'transport: {agents: ["10.0.0.1:1"]}\n',
+        "f:1:21: error: 'transport.agents' must be a list of 2 to 8 addresses",
+    ),
+    "a list with a number": (
+        'transport: {agents: ["10.0.0.1:1", 3]}\n',
+        "f:1:36: error: 'transport.agents[1]' must be an address and a port in quotes",
+    ),
+    "a list with an address that is none": (
+        'transport: {agents: ["10.0.0.1:1", "10.0.0.2"]}\n',
+        "f:1:36: error: missing port in the agent address '10.0.0.2'",
+    ),
+    "a list with a search": (
+        'transport: {agents: ["10.0.0.1:1", discover]}\n',
+        "f:1:36: error: a list of agents cannot contain 'discover'. Write `agent: discover` instead of `agents`",
+    ),
+    "an agent twice in the list": (
+        'transport: {agents: ["10.0.0.1:1", "10.0.0.1:1"]}\n',
+        "f:1:36: error: the agent '10.0.0.1:1' is in the list twice. Remove it",
+    ),
+    "more agents than connect_timeout is for": (
+        "transport: {agents: [" + ", ".join(f'"10.0.0.{i}:1"' for i in range(1, 10)) + "]}\n",
+        "f:1:21: error: the list has 9 agents; it may have 8. Keep the 8 nearest",
+    ),
+    "agents with addresses of two kinds": (
+        'transport: {agents: ["10.0.0.1:1", "[fd00::1]:1"]}\n',
+        "f:1:21: error: the agents have IPv4 and IPv6 addresses. Give all of them addresses of one kind",
+    ),
     "mtu above a datagram": (
         "transport: {mtu: 65508}\n",
         "f:1:18: error: 'transport.mtu' is 65508; a UDP datagram holds 65507. Set mtu: 65507 or less",

@@ -70,10 +70,10 @@ class Counted:
         return self.accepted[-1]
 
     def take(self, timeout_s: float = 20.0) -> None:
-        """Take samples until the last one that was accepted has come, and for a moment more."""
+        """Take samples until the last one that was accepted was received, and for a moment more."""
         end = deadline(timeout_s)
         while self.received[self.accepted[-1]] == 0:
-            assert time.monotonic() < end, f"{self.accepted[-1]} does not come"
+            assert time.monotonic() < end, f"{self.accepted[-1]} is not received"
             self._take()
         time.sleep(0.3)
         self._take()
@@ -150,7 +150,7 @@ def test_killed_and_stopped_agents(images: Images, observer: Observer, domain: i
         live.ok("close")
 
 
-def test_both_are_away_and_one_comes_back_over_ipv6(images: Images, observer: Observer, domain: int) -> None:
+def test_both_are_away_and_one_returns_over_ipv6(images: Images, observer: Observer, domain: int) -> None:
     ports = free_ports(2, socket.AF_INET6, socket.SOCK_STREAM)
     topic = "/agents_ipv6"
     application = listed(ports, PATIENT, kind="tcp", host="[::1]")

@@ -131,7 +131,7 @@ def test_an_address_of_the_application(live: Live, agents: Agents) -> None:
 
 
 def test_unacknowledged_samples_go_to_the_next_agent(live: Live, agents: Agents) -> None:
-    """Round robin: from the second to the third, and from there to the first, which has come back."""
+    """Round robin: from the second to the third, and from there to the first, which was started again."""
     agents.start(1, 2)
     talk(live)
     assert agent_of(live)[1] == 1
@@ -198,16 +198,16 @@ def test_a_ping_without_a_session_asks_all(live: Live, agents: Agents) -> None:
 
 
 class Clock(FakeAgent):
-    """An agent whose clock says a time of its own."""
+    """An agent whose clock says another time."""
 
     def __init__(self, seconds: int) -> None:
         super().__init__()
         self.seconds = seconds
-        self.asked = 0
+        self.requests = 0
 
     def receive(self, datagram: bytes) -> list[bytes]:
         if len(datagram) >= 16 and datagram[4] == 0x0E and self.connected and not self.silent:
-            self.asked += 1
+            self.requests += 1
             stamp = struct.pack("<II", self.seconds, 0)
             return [bytes.fromhex("81000000 0f011800") + stamp + stamp + datagram[8:16]]
         return super().receive(datagram)
@@ -220,7 +220,7 @@ def test_the_time_is_that_of_the_new_agent(live: Live, agents: Agents) -> None:
     talk(live)
     agents.stop(0)
     wait_for_agent(live, 1)
-    assert second.asked == 0, "a client that never asked for the time gets none"
+    assert second.requests == 0, "a client that never asked for the time gets none"
     agents.start(0)
     agents.stop(1)
     wait_for_agent(live, 0)
@@ -233,7 +233,7 @@ def test_the_time_is_that_of_the_new_agent(live: Live, agents: Agents) -> None:
     while not live.ok("epoch").lines[0].startswith("epoch 20000"):
         assert time.monotonic() < end
     assert live.ok("epoch").lines[0].endswith(" 1")
-    asked = second.asked
+    requests = second.requests
     time.sleep(0.5)
-    assert second.asked == asked, "once answered, it is not asked again"
+    assert second.requests == requests, "once answered, no further request follows"
     live.ok("close")

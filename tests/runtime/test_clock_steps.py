@@ -361,6 +361,7 @@ STEPPED = {
 }
 ELSEWHERE = {
     "action_server": "test_action_server.py: results and goals over the wrap",
+    "agents": "unit_agents.c: searches over the wrap and days apart",
     "clock": "unit_days.c",
     "diagnosis": "tests/components/test_diagnosis.py: checks and shares over the wraps of ms and us",
     "executor": "unit_days.c",

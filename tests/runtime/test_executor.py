@@ -8,8 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from microros_gen.client.plan.feature_slices import Features, FeatureSlice
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan, TimerPlan
+from microros_gen.components.agents.plan import AgentPlan, AgentsPlan
 from tests.support.patience import seconds
 from tests.support.plans import EXECUTOR, ROS_TIME, changed
 from tests.support.runtime.harness import SANITIZE, Tree, build, compilers, components, render
@@ -32,6 +34,7 @@ CHANGES = changed(
     entities__clients__max=2,
     input__queues=(*(QueuePlan(2, 16),) * 2, *(QueuePlan(2, 40),) * 3, *(QueuePlan(2, 20),) * 2),
 )
+THREE = AgentsPlan(declared=tuple(AgentPlan("127.0.0.1", 8888 + i) for i in range(3)), try_ms=300)
 UNITS = {
     "unit_clock.c": EXECUTOR,
     "unit_timer.c": EXECUTOR,
@@ -44,6 +47,12 @@ UNITS = {
     "unit_qos_events.c": changed(CHANGES, entities__timed_qos=True),
     "unit_ticks.c": TICKS,
     "unit_clock_ros.c": ROS_TIME,
+    "unit_agents.c": changed(
+        EXECUTOR,
+        times__retry_first_ms=100,
+        times__retry_most_ms=4000,
+        features=Features((FeatureSlice("agents", THREE, "[]"),)),
+    ),
 }
 
 SELECTED = {
@@ -51,6 +60,7 @@ SELECTED = {
     "unit_executor_nodes.c": ("executor_nodes",),
     "unit_new_data.c": ("new_data_callbacks",),
     "unit_qos_events.c": ("qos_events",),
+    "unit_agents.c": ("agents",),
 }
 """Components that a unit has besides those of its plan."""
 

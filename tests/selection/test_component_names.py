@@ -16,6 +16,7 @@ _ASKS = ("has", "serves_only", "pick", "Demand", "EntityKind")
 """Functions that are asked for a component by its name."""
 _OTHER_MEANING = {
     *(
+        "agents",
         "cdr",
         "actions",
         "clock",
@@ -84,7 +85,7 @@ MENTIONS = {
     "clock": 1,
     "clock_ros": 2,
     "diagnosis": 2,
-    "discovery": 4,
+    "discovery": 3,
     "executor": 2,
     "framing": 1,
     "lifecycle": 1,

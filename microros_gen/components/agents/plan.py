@@ -3,10 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from microros_gen.client.plan.features import PlanContext
-from microros_gen.diagnostics import Diagnostics, Span
+from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass
 
 TRIED_ROUND_TRIPS = 3
@@ -47,38 +45,47 @@ class AgentsPlan:
 def plan(context: PlanContext, diagnostics: Diagnostics) -> AgentsPlan:
     """Return the list; a selection that cannot change its agent is an error."""
     transport = context.application.transport
-    for message, hint, id in _refusals(context):
-        diagnostics.error(message, _place(context), hint, id=id)
+    _check_list(context, diagnostics)
+    _check_selection(context, diagnostics)
     times = context.runtime.times
     each = times.connect_timeout_ms // max(1, len(transport.agents))
     try_ms = max(times.retry_first_ms, min(TRIED_ROUND_TRIPS * times.retry_first_ms, each))
     return AgentsPlan(declared=tuple(AgentPlan(*agent) for agent in transport.agents), try_ms=try_ms)
 
 
-def _place(context: PlanContext) -> Span | None:
-    application = context.application
-    return application.transport.agent_span or application.spans.get("components")
+def _check_list(context: PlanContext, diagnostics: Diagnostics) -> None:
+    """Report a component without a list, and a list without network addresses."""
+    transport, kind = context.application.transport, context.selection.transport
+    if not transport.agents:
+        diagnostics.error(
+            "the component 'agents' is for several agents, and the application has one",
+            context.application.spans.get("components"),
+            'Write `transport: {agents: ["192.168.1.10:8888", "192.168.1.11:8888"]}`',
+            id="MG-7180",
+        )
+    elif kind not in ("udp", "tcp"):
+        message = f"transport: {kind} has no agent addresses"
+        hint = "Remove `agents`, or use type: udp or tcp"
+        diagnostics.error(message, transport.agent_span, hint, id="MG-7181")
 
 
-def _refusals(context: PlanContext) -> Iterator[tuple[str, str, str]]:
-    """Yield message, hint and id of what contradicts several agents."""
-    selection = context.selection
-    if not context.application.transport.agents:
-        message = "the component 'agents' is for several agents, and the application has one"
-        yield message, 'Write `transport: {agents: ["192.168.1.10:8888", "192.168.1.11:8888"]}`', "MG-7180"
-    elif selection.transport not in ("udp", "tcp"):
-        message = f"transport: {selection.transport} has no agent addresses"
-        yield message, "Remove `agents`, or use type: udp or tcp", "MG-7181"
-    elif selection.liveliness == "none" and selection.transport == "udp":
-        message = (
-            "several agents contradict 'liveliness: none': the client does not notice that its agent is gone"
+def _check_selection(context: PlanContext, diagnostics: Diagnostics) -> None:
+    """Report a client that does not notice a loss, or that resumes its session."""
+    place, selection = context.application.transport.agent_span, context.selection
+    if selection.liveliness == "none" and selection.transport == "udp":
+        diagnostics.error(
+            "several agents contradict 'liveliness: none': the client does not notice that its agent is gone",
+            place,
+            "Write `liveliness: ping`, or use type: tcp",
+            id="MG-7182",
         )
-        yield message, "Write `liveliness: ping`, or use type: tcp", "MG-7182"
-    elif selection.has("sleep_cycles"):
-        message = (
-            "several agents contradict the component 'sleep_cycles': a session is resumed at its own agent"
+    if selection.has("sleep_cycles"):
+        diagnostics.error(
+            "several agents contradict the component 'sleep_cycles': a session is resumed at its own agent",
+            place,
+            "Write one `agent`, or drop it: `components: [-sleep_cycles]`",
+            id="MG-7183",
         )
-        yield message, "Write one `agent`, or drop it: `components: [-sleep_cycles]`", "MG-7183"
 
 
 def record(part: AgentsPlan) -> object:

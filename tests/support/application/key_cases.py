@@ -286,6 +286,14 @@ _TOP = {
         "1:20",
         "'transport.agent' must be an IPv4 address and a port in quotes",
     ),
+    "transport.agents": KeyCase(
+        'transport: {agents: ["192.168.1.10:9999", "192.168.1.11:8888"]}',
+        lambda a: (a.transport.host, a.transport.port, a.transport.agents),
+        ("192.168.1.10", 9999, (("192.168.1.10", 9999), ("192.168.1.11", 8888))),
+        'transport: {agents: "192.168.1.10:8888"}',
+        "1:21",
+        "'transport.agents' must be a list of 2 to 8 addresses",
+    ),
     "transport.mtu": KeyCase(
         "transport: {mtu: 0x200}",
         lambda a: (a.transport.mtu, a.transport.mtu_span and a.transport.mtu_span.column),

@@ -164,6 +164,8 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "serial": _INT32 + _SERIAL,
         "tcp": _INT32
         + "transport: {type: tcp, agent: '[::1]:8888'}\ncomponents: [+time_sync, +clock, +session_state]\n",
+        "agents": _INT32
+        + "transport: {agents: ['10.0.0.1:8888', '10.0.0.2:8888']}\ncomponents: [+executor, +time_sync]\n",
         "discovery": "version: 1\nprofiles: [ad_hoc_discoverable_sender]\ninterfaces: [std_msgs/msg/Int32]\n",
         "custom": _INT32 + "transport: {type: custom}\n",
         "cortex_m": _BOTH + "target: {name: qemu-microbit}\nsession: {key: device}\n",
