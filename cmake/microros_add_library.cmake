@@ -7,7 +7,7 @@
 #   [INTERFACE_PATHS <folder>…]    searched before AMENT_PREFIX_PATH, pip and what ships with the tool
 #   [TARGET <name or file>]        what it is compiled for; replaces `target` of the file. Where neither says it, and this
 #                                  project compiles for a board: the target that CMAKE_SYSTEM_PROCESSOR names
-#   [AGENT <host:port or device>]  replaces the agent of the file
+#   [AGENT <host:port[,host:port...] or device>]  replaces the agent of the file
 #   [OUTPUT <folder>])             of the generated sources; default: <target>-microros in the build folder
 #
 # Adds the static library <target>, compiled by this project's tool chain; what links to it gets its include folder.
