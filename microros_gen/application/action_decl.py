@@ -22,3 +22,20 @@ class ActionDecl:
     waiting: int = 1
     span: Span | None = None
     type_span: Span | None = None
+
+
+@dataclass(frozen=True)
+class ActionClientDecl:
+    """An action client of a node; `type` is `pkg/action/Type`.
+
+    `goals` are under way at once. `response_timeout_ms`: for the response to a goal or a cancel request.
+    `result_timeout_ms`: from the acceptance of a goal to its result; 0: as long as it takes.
+    """
+
+    name: str
+    type: str
+    goals: int = 1
+    response_timeout_ms: int = 10_000
+    result_timeout_ms: int = 0
+    span: Span | None = None
+    type_span: Span | None = None

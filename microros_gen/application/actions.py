@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`actions:` of a node → its action servers."""
+"""`actions:` and `action_clients:` of a node → its action servers and clients."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from microros_gen.application.action_decl import ActionDecl
+from microros_gen.application.action_decl import ActionClientDecl, ActionDecl
 from microros_gen.application.names import expand_topic_name, expanded_fault, substitute, topic_fault
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.documents.tree_values import child, int_of, items, report_name, span_of, text_of, time_of
@@ -20,34 +20,57 @@ def parse_actions(
     tree: YamlNode | None, node: str, namespace: str, diagnostics: Diagnostics
 ) -> Iterator[ActionDecl]:
     """Yield the declarations; faulty names and times are errors at their places."""
+    default = ActionDecl("", "")
     for item in items(tree):
-        name, kind = child(item, "name"), child(item, "type")
-        if name is not None and report_name(name, "the action name", topic_fault, diagnostics):
-            full = expand_topic_name(text_of(name) or "", node, namespace)
-            fault = expanded_fault(full + LONGEST_PART)
-            if fault:
-                message = f"the service '{full[:40]}…{LONGEST_PART}' {fault.message}"
-                diagnostics.error(message, name.span, fault.hint, id=fault.id)
-        default = ActionDecl("", "")
         yield ActionDecl(
-            name=substitute(text_of(name) or "", node, namespace),
-            type=text_of(kind) or "",
+            name=_name(item, node, namespace, diagnostics),
+            type=text_of(child(item, "type")) or "",
             goals=int_of(child(item, "goals")) or default.goals,
-            result_timeout_ms=_timeout(child(item, "result_timeout"), diagnostics),
+            result_timeout_ms=_timeout(item, "result_timeout", default.result_timeout_ms, diagnostics),
             waiting=int_of(child(item, "waiting")) or default.waiting,
             span=item.span,
-            type_span=span_of(kind),
+            type_span=span_of(child(item, "type")),
         )
 
 
-def _timeout(node: YamlNode | None, diagnostics: Diagnostics) -> int:
+def parse_action_clients(
+    tree: YamlNode | None, node: str, namespace: str, diagnostics: Diagnostics
+) -> Iterator[ActionClientDecl]:
+    """Yield the declarations, as above."""
+    default = ActionClientDecl("", "")
+    for item in items(tree):
+        yield ActionClientDecl(
+            name=_name(item, node, namespace, diagnostics),
+            type=text_of(child(item, "type")) or "",
+            goals=int_of(child(item, "goals")) or default.goals,
+            response_timeout_ms=_timeout(item, "response_timeout", default.response_timeout_ms, diagnostics),
+            result_timeout_ms=_timeout(item, "result_timeout", default.result_timeout_ms, diagnostics),
+            span=item.span,
+            type_span=span_of(child(item, "type")),
+        )
+
+
+def _name(item: YamlNode, node: str, namespace: str, diagnostics: Diagnostics) -> str:
+    """Return the name of the action with {node} and {ns} replaced; a faulty or too long one is an error."""
+    name = child(item, "name")
+    if name is not None and report_name(name, "the action name", topic_fault, diagnostics):
+        full = expand_topic_name(text_of(name) or "", node, namespace)
+        fault = expanded_fault(full + LONGEST_PART)
+        if fault:
+            message = f"the service '{full[:40]}…{LONGEST_PART}' {fault.message}"
+            diagnostics.error(message, name.span, fault.hint, id=fault.id)
+    return substitute(text_of(name) or "", node, namespace)
+
+
+def _timeout(item: YamlNode, key: str, default: int, diagnostics: Diagnostics) -> int:
     """Return the time in milliseconds; one that a counter of 32 bits cannot tell apart is an error."""
+    node = child(item, key)
     time = time_of(node)
     if time is None:
-        return ActionDecl.result_timeout_ms
+        return default
     if not US_PER_MS <= time < US_PER_MS << 31:
         diagnostics.error(
-            f"'result_timeout' must be at least 1 ms and less than 24 days; it is {text_of(node)}",
+            f"'{key}' must be at least 1 ms and less than 24 days; it is {text_of(node)}",
             span_of(node),
             "Write a time such as 10 s",
             id="MG-3094",

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import field
 
-from microros_gen.application.action_decl import ActionDecl
+from microros_gen.application.action_decl import ActionClientDecl, ActionDecl
 from microros_gen.application.diagnosis_decl import DiagnosisDecl
 from microros_gen.application.mode_decl import ModeDecl
 from microros_gen.diagnostics import Span
@@ -283,6 +283,7 @@ class NodeDecl:
     parameter_clients: tuple[ParameterClientDecl, ...] = ()
     modes: tuple[ModeDecl, ...] = ()
     actions: tuple[ActionDecl, ...] = ()
+    action_clients: tuple[ActionClientDecl, ...] = ()
     executors: tuple[ExecutorDecl, ...] = ()
     name_span: Span | None = None
     given_name: str = ""

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from microros_gen.application.actions import parse_actions
+from microros_gen.application.actions import parse_action_clients, parse_actions
 from microros_gen.application.kinds import KIND, KINDS
 from microros_gen.application.limits import endpoint_limits
 from microros_gen.application.model import EndpointDecl, ExecutorDecl, NodeDecl, ParameterDecl, TimerDecl
@@ -89,18 +89,21 @@ def _node(item: YamlNode, diagnostics: Diagnostics) -> NodeDecl:
         child(item, "parameter_clients"), node.name, node.namespace, diagnostics
     )
     actions = parse_actions(child(item, "actions"), node.name, node.namespace, diagnostics)
+    callers = parse_action_clients(child(item, "action_clients"), node.name, node.namespace, diagnostics)
     node = replace(
         node,
         endpoints=tuple(_endpoints(item, node, diagnostics)),
         parameter_clients=tuple(clients),
         actions=tuple(actions),
+        action_clients=tuple(callers),
     )
     executors = tuple(_executor(e, node, diagnostics) for e in items(child(item, "executors")))
     for kind, named in (("timer", node.timers), ("parameter", node.parameters), ("executor", executors)):
         check_unique(kind, [(n.name, n.span) for n in named], diagnostics)
     for mode in node.modes:
         check_unique("parameter of a mode", [(v.parameter, v.name_span) for v in mode.values], diagnostics)
-    check_unique("action", [(a.name, a.span) for a in node.actions], diagnostics)
+    for kind, actions_of in (("action", node.actions), ("action client", node.action_clients)):
+        check_unique(kind, [(a.name, a.span) for a in actions_of], diagnostics)
     check_unique("parameter client", [(c.node, c.span) for c in node.parameter_clients], diagnostics)
     return rename_endpoints(replace(node, executors=executors), remap, diagnostics)
 

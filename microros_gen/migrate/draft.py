@@ -73,11 +73,12 @@ class DraftClient:
 
 @dataclass(frozen=True)
 class DraftAction:
-    """An action server. `name` or `type` empty: not known, see the remarks."""
+    """An action server, or a client. `name` or `type` empty: not known, see the remarks."""
 
     name: str
     type: str
     goals: int = 1
+    is_client: bool = False
     span: Span | None = None
     remarks: tuple[Remark, ...] = ()
 

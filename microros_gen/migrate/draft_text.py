@@ -147,8 +147,9 @@ def _node(node: DraftNode) -> Iterator[str]:
         yield from _list(key, [(_endpoint(e), bool(e.name and e.type), e.span, e.remarks) for e in endpoints])
     timers = [(_timer(t), t.period_ns is not None, t.span, t.remarks) for t in node.timers]
     yield from _list("timers", timers)
-    actions = [(_action(a), bool(a.name and a.type), a.span, a.remarks) for a in node.actions]
-    yield from _list("actions", actions)
+    for key, is_client in (("actions", False), ("action_clients", True)):
+        found = [action for action in node.actions if action.is_client == is_client]
+        yield from _list(key, [(_action(a), bool(a.name and a.type), a.span, a.remarks) for a in found])
     clients = [(_client(c), bool(c.node), c.span, c.remarks) for c in node.clients]
     yield from _list("parameter_clients", clients)
     if node.at_agent:

@@ -9,12 +9,6 @@ from microros_gen.migrate.c_program import Call
 from microros_gen.migrate.draft import Remark
 from microros_gen.selection.component import NOT_READY, Catalogue
 
-# Names with these prefixes belong to a component that has no folder yet, unless some component declares it.
-_COMPONENTS = {
-    "rclc_action_client_": "action_client",
-    "rclc_action_send_": "action_client",
-    "rclc_executor_add_action_client": "action_client",
-}
 _KNOWN_BUT_NOT_DECLARED = ("rosidl_runtime_c__", "rmw_uros_set_custom_transport")
 _UNKNOWN = "is not in this version"
 _HINT = "Remove the call and what belongs to it"
@@ -53,10 +47,7 @@ def find_missing(
         planned = next((name for name in names if not catalogue[name].ready), "")
         if (names and not planned) or call.name.startswith(_KNOWN_BUT_NOT_DECLARED):
             continue
-        component = planned or next(
-            (c for prefix, c in _COMPONENTS.items() if call.name.startswith(prefix)), ""
-        )
-        what = f"needs the component '{component}', which {NOT_READY}" if component else _UNKNOWN
+        what = f"needs the component '{planned}', which {NOT_READY}" if planned else _UNKNOWN
         remark = Remark(f"{call.name} {what}", call.span, refused=_HINT)
-        first.setdefault(component or call.name, remark)
+        first.setdefault(planned or call.name, remark)
     return list(first.values())

@@ -8,7 +8,6 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.migrate.action_servers import actions_of, find_actions
 from microros_gen.migrate.c_program import Call, CFile, read_program
 from microros_gen.migrate.c_tokens import read_c
 from microros_gen.migrate.c_values import Values, handle_of
@@ -17,6 +16,7 @@ from microros_gen.migrate.draft import Draft, DraftNode, DraftValue, Remark, pla
 from microros_gen.migrate.missing import find_missing, selected_by
 from microros_gen.migrate.parameter_clients import find_clients, owner, watches
 from microros_gen.migrate.parameter_servers import SERVERS, server_limits, server_pools
+from microros_gen.migrate.rclc_actions import actions_of, find_actions
 from microros_gen.migrate.rclc_calls import (
     ENDPOINT_CALLS,
     NODE_CALLS,

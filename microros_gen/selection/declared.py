@@ -51,6 +51,8 @@ def declared_components(application: Application) -> Iterator[Demand]:
             yield Demand("parameters", "a parameter", parameter.span)
         for action in node.actions:
             yield Demand("action_server", "an action server", action.span)
+        for caller in node.action_clients:
+            yield Demand("action_client", "an action client", caller.span)
         for client in node.parameter_clients:
             yield Demand("parameter_client", "a client of parameters", client.span)
             if "watch" in client.operations:
@@ -86,6 +88,7 @@ def _without(node: NodeDecl, dropped: Container[str]) -> NodeDecl:
         parameter_clients=node.parameter_clients if "parameter_client" not in dropped else (),
         modes=node.modes if has_parameters and "node_modes" not in dropped else (),
         actions=node.actions if "action_server" not in dropped else (),
+        action_clients=node.action_clients if "action_client" not in dropped else (),
     )
     if "lifecycle" in dropped:
         endpoints = tuple(replace(endpoint, managed=False) for endpoint in node.endpoints)

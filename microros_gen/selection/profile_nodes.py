@@ -61,6 +61,7 @@ def _joined(first: NodeDecl, other: NodeDecl) -> NodeDecl:
         ),
         modes=_once(("", m.name, m) for m in (*first.modes, *other.modes)),
         actions=_once(("", a.name, a) for a in (*first.actions, *other.actions)),
+        action_clients=_once(("", a.name, a) for a in (*first.action_clients, *other.action_clients)),
         executors=_once(("", e.name, e) for e in (*first.executors, *other.executors)),
         clock_topic=first.clock_topic or other.clock_topic,
         clock_span=first.clock_span or other.clock_span,

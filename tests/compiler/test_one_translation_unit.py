@@ -16,7 +16,7 @@ EVERYTHING = """\
 version: 1
 profiles: [pure_reader]
 components: [+publish, +services, +executor, +timers, +multithread, +session_state, +micro_ros_utilities, +time_sync,
-  +parameters, +parameter_storage, +parameter_client, +lifecycle, +node_modes, +action_server,
+  +parameters, +parameter_storage, +parameter_client, +lifecycle, +node_modes, +action_server, +action_client,
   +graph, +logger_services, +logging_float, +logging_wide, +name_substitutions, +publish_statistics,
   +ping, +session_close, +clock_ros, +service_call, +executor_nodes, +new_data_callbacks, +qos_events, {choice}]
 logging: [rosout, {{to: ring, level: debug}}, console, callback]
@@ -27,6 +27,7 @@ nodes:
     parameter_clients:
       - {{node: /motor, elements: 3, operations: [get, set, set_atomically, list, describe, get_types, watch]}}
     actions: [{{name: find, type: tf2_msgs/action/LookupTransform, goals: 2}}]
+    action_clients: [{{name: find, type: tf2_msgs/action/LookupTransform, goals: 2}}]
     publishers: [{{topic: out, type: std_msgs/msg/String, limits: {{string: 20}}, managed: true}}]
     subscriptions: [{{topic: in, type: std_msgs/msg/String, limits: {{string: 20}}, queue: 2}}]
     services: [{{name: on, type: std_srvs/srv/SetBool, limits: {{message: 9}}}}]

@@ -148,30 +148,28 @@ def test_what_is_proposed_is_taken(init: Init, tmp_path: Path) -> None:
     assert limits["*",] == (32, 8)
 
 
-ACTION = """#include <rcl/rcl.h>
+MISSING = """#include <rcl/rcl.h>
 int main(void)
 {
   rclc_node_init_default(&node, "n", "", &support);
-  rclc_action_client_init_default(&client, &node, type, "/a");
-  rclc_action_client_fini(&client, &node);
+  rcl_no_such_call(&node);
+  rcl_no_such_call(&client);
   return 0;
 }
 """
 
 
-def test_what_needs_a_component_that_is_not_there_is_refused(init: Init, tmp_path: Path) -> None:
-    """Once a component, at the first call; nobody is told to build what does not build."""
-    (tmp_path / "main.c").write_text(ACTION)
+def test_what_is_not_there_is_refused(init: Init, tmp_path: Path) -> None:
+    """Once, at the first call; nobody is told to build what does not build."""
+    (tmp_path / "main.c").write_text(MISSING)
     status, out, err = init("app", "--from", "main.c")
     assert status == 2
     first, code, mark = without_id(err).splitlines()
-    assert first.startswith(
-        "main.c:5:3: error: rclc_action_client_init_default needs the component 'action_client', which this"
-    )
+    assert first.startswith("main.c:5:3: error: rcl_no_such_call is not in this version")
     assert first.endswith("Remove the call and what belongs to it")
     assert (code.strip(), mark.strip()) == (
-        'rclc_action_client_init_default(&client, &node, type, "/a");',
-        "^" + "~" * 30,
+        "rcl_no_such_call(&node);",
+        "^" + "~" * 15,
     )
     assert len(undecided_in(tmp_path / "app/microros.yaml")) == 1
     assert "cmake" not in out

@@ -267,7 +267,6 @@ def test_settings_of_transport_session_and_domain() -> None:
 @pytest.mark.parametrize(
     ("call", "reason"),
     [
-        ("rclc_action_send_goal_request(&a, &goal, NULL);", "needs the component 'action_client'"),
         ("rcl_get_node_names(&node, a, &b, &c);", "rcl_get_node_names takes memory from `memory.arena`"),
         ("rcl_no_such_call(&node);", "rcl_no_such_call is not in this version"),
         ("set_microros_serial_transports(Serial);", "set_microros_serial_transports() is of another library"),

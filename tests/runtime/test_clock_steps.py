@@ -360,6 +360,7 @@ STEPPED = {
     "write": ["full"],
 }
 ELSEWHERE = {
+    "action_client": "test_action_client.py: time-outs over the wrap",
     "action_server": "test_action_server.py: results and goals over the wrap",
     "agents": "unit_agents.c: searches over the wrap and days apart",
     "clock": "unit_days.c",
@@ -375,7 +376,7 @@ ELSEWHERE = {
     "timers": "unit_days.c",
 }
 TIMELESS = {
-    "actions": "declares members of goals; the action server reads the clock",
+    "actions": "declares members of goals; the action server and client read the clock",
     "base": "constants, and a lock that sleeps a millisecond; no state",
     "graph": "its waits are those of wait sets; the period is a time-out",
     "graph_topic": "its waits are those of wait sets; the period is a time-out",

@@ -79,6 +79,7 @@ _OTHER_FILES = {
 """Values in modes; files with a key `parameters` of clients or a proposal; parameters of C functions, or those in
 messages and in a file."""
 MENTIONS = {
+    "action_client": 1,
     "action_server": 1,
     "cdr": 1,
     "cdr_decode": 1,
@@ -193,7 +194,7 @@ def test_a_file_that_names_a_component_is_found(tmp_path: Path) -> None:
 
 
 def test_most_components_are_named_by_few() -> None:
-    assert sum(MENTIONS.values()) <= 60
+    assert sum(MENTIONS.values()) <= 61
     assert max(MENTIONS.values()) <= 6
 
 

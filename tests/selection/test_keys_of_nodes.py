@@ -20,6 +20,11 @@ NEEDING = {
     "timers": ("timers: [{name: t, period: 1 s}]", "timers"),
     "parameters": ("parameters: [{name: p, type: integer}]", "parameters"),
     "parameter_clients": ("parameter_clients: [{node: /b, operations: [get]}]", "parameter_client"),
+    "actions": ("actions: [{name: a, type: example_interfaces/action/Fibonacci}]", "action_server"),
+    "action_clients": (
+        "action_clients: [{name: a, type: example_interfaces/action/Fibonacci}]",
+        "action_client",
+    ),
     "executors": ("executors: [{name: e}]", "executor"),
     "managed": ("timers: [{name: t, period: 1 s, managed: true}]", "lifecycle"),
 }
@@ -33,8 +38,8 @@ SELECTING = {
     "transport: {type: tcp}": "transport_tcp",
     "entities: xml": "entities_xml",
 }
-WITHOUT_COMPONENT = {"name", "namespace", "domain_id", "remap", "actions", "action_clients", "modes"}
-"""Keys that every node can have, those of a later version, and the one that selects its component."""
+WITHOUT_COMPONENT = {"name", "namespace", "domain_id", "remap", "modes"}
+"""Keys that every node can have, and the one that selects its component."""
 
 
 def reported(tmp_path: Path, text: str) -> str:

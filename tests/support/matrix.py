@@ -162,6 +162,9 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         "action-server": _BUSY
         + "    actions: [{name: walk, type: tf2_msgs/action/LookupTransform, goals: 2, waiting: 2}]\n"
         + "profiles: [pure_sender]\ncomponents: [+action_server]\nerrors: code\n",
+        "action-client": _BUSY
+        + "    action_clients: [{name: walk, type: tf2_msgs/action/LookupTransform, goals: 2}]\n"
+        + "profiles: [pure_sender]\ncomponents: [+action_client]\nerrors: code\n",
         "executor-all": _BUSY
         + _SERVES
         + _ASKS

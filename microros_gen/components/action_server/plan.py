@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from microros_gen.application.action_decl import ActionDecl
-from microros_gen.application.kinds import NAMES
 from microros_gen.application.model import Application, EndpointDecl, LimitRule, NodeDecl, Qos
-from microros_gen.client.plan.declared import declarations, full_name, type_name
+from microros_gen.client.plan.declared import full_name, type_name
 from microros_gen.client.plan.features import PlanContext, refuse_own_limits
 from microros_gen.client.plan.receiving import buffers_of
+from microros_gen.components.actions.plan import place_of
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.dds_names import dds_type
 from microros_gen.interfaces.derived import derived_name
@@ -139,9 +139,10 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> ActionServerPlan:
 
 
 def _server(context: PlanContext, index: int, at: int, node: NodeDecl, action: ActionDecl) -> ActionServer:
-    kind = type_name(action.type)
-    request = context.types[derived_name(kind, "SendGoal_Request")]
-    places = tuple(_place(context, at, f"{action.name}/_action/{part}") for part in (*SERVICES, *TOPICS))
+    action_type = type_name(action.type)
+    request = context.types[derived_name(action_type, "SendGoal_Request")]
+    parts = [("service", part) for part in SERVICES] + [("publisher", part) for part in TOPICS]
+    places = tuple(place_of(context, at, kind, f"{action.name}/_action/{part}") for kind, part in parts)
     messages = {name: plan.message for name, plan in context.types.items()}
     goal = full_name(node, EndpointDecl("service", f"{action.name}/_action/{SERVICES[0]}", action.type))
     storage = GoalStorage(
@@ -153,28 +154,16 @@ def _server(context: PlanContext, index: int, at: int, node: NodeDecl, action: A
         index=index,
         node=at,
         name=full_name(node, EndpointDecl("service", action.name, action.type)),
-        package=kind.package,
-        type=kind.name,
-        c_type=c_name(kind),
-        send_goal=dds_type(derived_name(kind, "SendGoal")),
-        get_result=dds_type(derived_name(kind, "GetResult")),
+        package=action_type.package,
+        type=action_type.name,
+        c_type=c_name(action_type),
+        send_goal=dds_type(derived_name(action_type, "SendGoal")),
+        get_result=dds_type(derived_name(action_type, "GetResult")),
         places=places,
         goals=action.goals,
         result_timeout_ms=action.result_timeout_ms,
         storages=(storage,) if request.storage else (),
     )
-
-
-def _place(context: PlanContext, node: int, name: str) -> int:
-    """Return the position of an endpoint in the table of declared endpoints."""
-    first = 0
-    for kind in NAMES:
-        declared = declarations(context.application, kind)
-        for index, (owner, _, endpoint) in enumerate(declared):
-            if owner == node and endpoint.topic == name and endpoint.of_the_library:
-                return first + index
-        first += len(declared)
-    raise KeyError(name)
 
 
 def record(part: ActionServerPlan) -> object:

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from microros_gen.client.plan.declared import type_name
+from microros_gen.application.kinds import NAMES
+from microros_gen.client.plan.declared import declarations, type_name
 from microros_gen.client.plan.features import PlanContext
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.dds_names import dds_type
@@ -35,9 +36,11 @@ class ActionsPlan:
 def plan(context: PlanContext, diagnostics: Diagnostics) -> ActionsPlan:
     """Return the types that nodes declare; without servers one request has room, since a C array has an element."""
     del diagnostics
-    declared = [action for node in context.application.nodes for action in node.actions]
+    nodes = context.application.nodes
+    declared = [action for node in nodes for action in node.actions]
+    every = [*declared, *(action for node in nodes for action in node.action_clients)]
     return ActionsPlan(
-        types=tuple(_type(name) for name in sorted({type_name(action.type) for action in declared})),
+        types=tuple(_type(name) for name in sorted({type_name(action.type) for action in every})),
         result_requests=max((action.waiting for action in declared), default=1),
     )
 
@@ -55,3 +58,15 @@ def _type(name: TypeName) -> ActionType:
 def record(part: ActionsPlan) -> object:
     """Return what the plan id is made of."""
     return {"types": [kind.name for kind in part.types], "result_requests": part.result_requests}
+
+
+def place_of(context: PlanContext, node: int, kind: str, name: str) -> int:
+    """Return the position of an endpoint of an action in the table of declared endpoints."""
+    first = 0
+    for other in NAMES:
+        declared = declarations(context.application, other)
+        for index, (owner, _, endpoint) in enumerate(declared):
+            if (owner, other, endpoint.topic) == (node, kind, name) and endpoint.of_the_library:
+                return first + index
+        first += len(declared)
+    raise KeyError(name)

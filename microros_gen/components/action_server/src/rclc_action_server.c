@@ -3,6 +3,7 @@
 
 #include "action_msgs/msg/goal_status_array.h"
 #include "action_msgs/srv/cancel_goal.h"
+#include "microros/action_name.h"
 #include "microros/action_type.h"
 #include "microros/error.h"
 #include "microros/lock.h"
@@ -16,9 +17,6 @@
 
 #include <string.h>
 
-/* What ROS 2 appends to the name of an action for its goal service. */
-static const char action_goal_part[] = "/_action/send_goal";
-
 static const char * action_endpoint(uint16_t at)
 {
   return microros_declared_name(&microros_declared_endpoints[at]);
@@ -29,28 +27,6 @@ const char * rclc_action_name(const rclc_action_server_t * server)
   return server->goal_service.impl->service_name;
 }
 
-/* Returns whether `full` is the name of an action, followed by that part. */
-static bool action_is_named(const char * full, const rmw_name_t * name)
-{
-  const size_t size = rmw_name_size(name);
-  size_t at = 0;
-
-  if (
-    microros_text_size(full) != size + sizeof(action_goal_part) - 1u ||
-    !microros_text_equals(&full[size], action_goal_part)) {
-    return false;
-  }
-  for (size_t i = 0; i < sizeof(name->part) / sizeof(name->part[0]); ++i) {
-    const size_t length = strlen(name->part[i]);
-
-    if (memcmp(&full[at], name->part[i], length) != 0) {
-      return false;
-    }
-    at += length;
-  }
-  return true;
-}
-
 static const rclc_action_declared_t * action_find(
   const rcl_node_t * node, const rmw_name_t * name, const microros_action_type_t * type)
 {
@@ -59,7 +35,7 @@ static const rclc_action_declared_t * action_find(
 
     if (
       declared->node == rmw_node_index(node->impl) &&
-      action_is_named(action_endpoint(declared->goal_at), name) &&
+      rcl_action_is_named(action_endpoint(declared->goal_at), name) &&
       microros_text_equals(microros_declared_endpoints[declared->goal_at].dds_type, type->send_goal)) {
       return declared;
     }

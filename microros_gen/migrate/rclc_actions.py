@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The calls of action servers → the actions of each node, with their goals at once."""
+"""The calls of action servers and clients → the actions of each node, with their goals at once."""
 
 from __future__ import annotations
 
@@ -11,26 +11,41 @@ from microros_gen.migrate.draft import DraftAction, Remark
 from microros_gen.migrate.rclc_calls import FoundNode
 from microros_gen.records import dataclass
 
-_OPENS = "rclc_action_server_init_default"
-_ADDS = "rclc_executor_add_action_server"
+
+@dataclass(frozen=True)
+class _Calls:
+    """The functions of servers, or of clients; `opens` has so many arguments, the last two are type and name."""
+
+    opens: str
+    arguments: int
+    adds: str
+    is_client: bool
+
+
+_CALLS = (
+    _Calls("rclc_action_server_init_default", 5, "rclc_executor_add_action_server", is_client=False),
+    _Calls("rclc_action_client_init_default", 4, "rclc_executor_add_action_client", is_client=True),
+)
 
 
 @dataclass(frozen=True)
 class FoundAction:
-    """An action server, and the variable with its node."""
+    """An action server or client, and the variable with its node."""
 
     node: str
     draft: DraftAction
 
 
 def find_actions(calls: Iterable[Call], values: Values) -> list[FoundAction]:
-    """Return the servers in the order of the sources; one that is opened again is there once."""
+    """Return servers and clients in the order of the sources; one that is opened again is there once."""
     calls = list(calls)
-    found: dict[tuple[str, str], FoundAction] = {}
+    found: dict[tuple[str, str, bool], FoundAction] = {}
     for call in calls:
-        if call.name == _OPENS and len(call.arguments) == 5:
-            action = _action(call, calls, values)
-            found.setdefault((action.node, action.draft.name or str(call.span)), action)
+        for kind in _CALLS:
+            if call.name == kind.opens and len(call.arguments) == kind.arguments:
+                action = _action(call, kind, calls, values)
+                key = (action.node, action.draft.name or str(call.span), kind.is_client)
+                found.setdefault(key, action)
     return list(found.values())
 
 
@@ -46,14 +61,14 @@ def actions_of(
     )
 
 
-def _action(call: Call, calls: Iterable[Call], values: Values) -> FoundAction:
+def _action(call: Call, kind: _Calls, calls: Iterable[Call], values: Values) -> FoundAction:
     remarks: list[Remark] = []
     if call.token.condition:
         remarks.append(Remark(f"only with `{call.token.condition}`", call.span, undecided=False))
-    name = values.text(call.arguments[4], call)
+    name = values.text(call.arguments[-1], call)
     if isinstance(name, Unknown):
         remarks.append(Remark(f"the name of the action: {name.reason}", call.span))
-    support = values.type_support(call.arguments[3], call)
+    support = values.type_support(call.arguments[-2], call)
     if isinstance(support, Unknown):
         remarks.append(Remark(f"the type of the action: {support.reason}", call.span))
     elif support.kind != "action":
@@ -62,17 +77,18 @@ def _action(call: Call, calls: Iterable[Call], values: Values) -> FoundAction:
     draft = DraftAction(
         name if isinstance(name, str) else "",
         str(support) if isinstance(support, TypeSupport) else "",
-        _goals(handle_of(call.arguments[0]), calls, values, remarks),
+        _goals(handle_of(call.arguments[0]), kind, calls, values, remarks),
+        kind.is_client,
         call.span,
         tuple(remarks),
     )
     return FoundAction(handle_of(call.arguments[1]), draft)
 
 
-def _goals(handle: str, calls: Iterable[Call], values: Values, remarks: list[Remark]) -> int:
-    """Return how many goals the executor runs at once for a server; 1, with a remark, where this is not known."""
+def _goals(handle: str, kind: _Calls, calls: Iterable[Call], values: Values, remarks: list[Remark]) -> int:
+    """Return how many goals the executor runs at once; 1, with a remark, where this is not known."""
     for call in calls:
-        if call.name == _ADDS and len(call.arguments) > 2 and handle_of(call.arguments[1]) == handle:
+        if call.name == kind.adds and len(call.arguments) > 2 and handle_of(call.arguments[1]) == handle:
             goals = values.number(call.arguments[2], call)
             if isinstance(goals, int):
                 return goals

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What an action client asks the session. Internal. */
+#ifndef MICROROS_RMW_ACTION_CLIENT_H
+#define MICROROS_RMW_ACTION_CLIENT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "rmw/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* --- for open clients and subscriptions --- */
+
+/* Returns whether there is a session and room for a request. */
+bool rmw_action_client_may_send(const rmw_client_t * client);
+
+/* Returns a number that is another one in each session. */
+uint8_t rmw_action_client_session(const rmw_client_t * client);
+
+/* Returns the number of the device at its agent. */
+uint32_t rmw_action_client_key(const rmw_client_t * client);
+
+/* Discards the reply to an outstanding request. */
+void rmw_action_client_give_up(const rmw_client_t * client, int64_t sequence_number);
+
+/* Copies the first `size` bytes of the oldest sample; false: there is none, or it is shorter. */
+bool rmw_action_client_peek(const rmw_subscription_t * subscription, uint8_t * beginning, uint16_t size);
+
+/* Removes the oldest sample. */
+void rmw_action_client_drop(const rmw_subscription_t * subscription);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RMW_ACTION_CLIENT_H */

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Requests that are given up. Internal. */
+#ifndef MICROROS_XRCE_ACTION_CLIENT_H
+#define MICROROS_XRCE_ACTION_CLIENT_H
+
+#include <stdint.h>
+
+#include "microros/xrce_objects.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Frees the place of an outstanding request, whose reply is discarded from now on; nothing if it is not outstanding. It
+ * is not reported as lost with a session either. */
+void xrce_action_client_give_up(const xrce_endpoint_t * endpoint, int64_t sequence_number);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_XRCE_ACTION_CLIENT_H */

@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What the application asks of a server. */
+#include "action_msgs/srv/cancel_goal.h"
+#include "microros/error.h"
+#include "microros/lock.h"
+#include "microros/port.h"
+#include "microros/rclc_action_client.h"
+#include "microros/rmw_action_client.h"
+#include "microros/rmw_service.h"
+
+#include <string.h>
+
+/* Called with the lock. */
+static rcl_ret_t request_goal(
+  rclc_action_client_t * client, void * ros_request, rclc_action_goal_handle_t ** goal_handle)
+{
+  rclc_action_goal_handle_t * goal = rclc_action_client_take_place(client);
+  rcl_ret_t result;
+
+  if (goal == NULL) {
+    const uint32_t goals = (uint32_t)client->goal_handles_memory_size;
+
+    microros_error_set(
+      microros_error_action_client_goals, rclc_action_client_name(client), NULL, goals, goals + 1u);
+    return RCL_RET_ERROR;
+  }
+  goal->ros_goal_request = ros_request;
+  goal->since_ms = port_time_ms();
+  (void)memcpy(ros_request, goal->goal_id.uuid, UUID_SIZE); /* the first member of every request */
+  result = rmw_requester_send(
+    client->rcl_handle.goal_client.impl, ros_request, &goal->goal_request_sequence_number);
+  goal->awaits_goal_response = result == RCL_RET_OK;
+  goal->is_used = goal->awaits_goal_response;
+  if (goal->is_used && goal_handle != NULL) {
+    *goal_handle = goal;
+  }
+  return goal->is_used ? RCL_RET_OK : RCL_RET_ERROR;
+}
+
+rcl_ret_t rclc_action_send_goal_request(
+  rclc_action_client_t * action_client, void * ros_request, rclc_action_goal_handle_t ** goal_handle)
+{
+  rcl_ret_t result;
+
+  if (action_client == NULL || ros_request == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "action_client or ros_request");
+  }
+  microros_lock();
+  result = action_client->goal_handles_memory_size != 0u
+             ? request_goal(action_client, ros_request, goal_handle)
+             : microros_error_named(RCL_RET_ERROR, microros_error_action_client_closed, NULL);
+  microros_unlock();
+  return result;
+}
+
+/* Called with the lock. */
+static rcl_ret_t request_result(rclc_action_goal_handle_t * goal)
+{
+  const rmw_client_t * client = goal->action_client->rcl_handle.result_client.impl;
+  rcl_ret_t result;
+
+  if (goal->awaits_result_response) {
+    rmw_action_client_give_up(client, goal->result_request_sequence_number);
+    goal->awaits_result_response = false;
+  }
+  result = rmw_requester_send(client, goal->goal_id.uuid, &goal->result_request_sequence_number);
+  goal->awaits_result_response = result == RCL_RET_OK;
+  goal->result_due = goal->result_due && result != RCL_RET_OK;
+  return result;
+}
+
+rcl_ret_t rclc_action_send_result_request(rclc_action_goal_handle_t * goal_handle)
+{
+  rcl_ret_t result;
+
+  if (goal_handle == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "goal_handle");
+  }
+  microros_lock();
+  result = rclc_action_client_has(goal_handle)
+             ? request_result(goal_handle)
+             : microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "goal_handle");
+  microros_unlock();
+  return result;
+}
+
+/* Called with the lock. */
+static rcl_ret_t request_cancel(rclc_action_goal_handle_t * goal)
+{
+  const rmw_client_t * client = goal->action_client->rcl_handle.cancel_client.impl;
+  action_msgs__srv__CancelGoal_Request request;
+  int64_t sequence_number;
+  rcl_ret_t result;
+
+  (void)memset(&request, 0, sizeof(request)); /* without a time: this goal alone */
+  request.goal_info.goal_id = goal->goal_id;
+  if (goal->awaits_cancel_response && rmw_action_client_may_send(client)) {
+    rmw_action_client_give_up(client, goal->cancel_request_sequence_number);
+  }
+  result = rmw_requester_send(client, &request, &sequence_number);
+  if (result != RCL_RET_OK) {
+    return result;
+  }
+  goal->cancel_request_sequence_number = sequence_number;
+  goal->cancel_ms = port_time_ms();
+  goal->awaits_cancel_response = true;
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rclc_action_send_cancel_request(rclc_action_goal_handle_t * goal_handle)
+{
+  rcl_ret_t result;
+
+  if (goal_handle == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "goal_handle");
+  }
+  microros_lock();
+  result = rclc_action_client_has(goal_handle)
+             ? request_cancel(goal_handle)
+             : microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "goal_handle");
+  microros_unlock();
+  return result;
+}

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/rmw_action_client.h"
+
+#include "microros/lock.h"
+#include "microros/xrce_action_client.h"
+#include "microros/xrce_client.h"
+#include "microros/xrce_read.h"
+#include "microros/xrce_write.h"
+
+#include <stddef.h>
+#include <string.h>
+
+bool rmw_action_client_may_send(const rmw_client_t * client)
+{
+  bool result;
+
+  microros_lock();
+  result = xrce_write_reserve(client->data) != NULL;
+  microros_unlock();
+  return result;
+}
+
+uint8_t rmw_action_client_session(const rmw_client_t * client)
+{
+  const xrce_endpoint_t * endpoint = client->data;
+  uint8_t result;
+
+  microros_lock();
+  result = endpoint->client->action_client_sessions;
+  microros_unlock();
+  return result;
+}
+
+uint32_t rmw_action_client_key(const rmw_client_t * client)
+{
+  const xrce_endpoint_t * endpoint = client->data;
+  uint32_t result;
+
+  microros_lock();
+  result = endpoint->client->session.key;
+  microros_unlock();
+  return result;
+}
+
+void rmw_action_client_give_up(const rmw_client_t * client, int64_t sequence_number)
+{
+  microros_lock();
+  xrce_action_client_give_up(client->data, sequence_number);
+  microros_unlock();
+}
+
+bool rmw_action_client_peek(const rmw_subscription_t * subscription, uint8_t * beginning, uint16_t size)
+{
+  xrce_sample_t sample;
+  bool found;
+
+  microros_lock();
+  found = xrce_read_peek(subscription->data, &sample) && sample.size >= size;
+  if (found) {
+    (void)memcpy(beginning, sample.data, size);
+  }
+  microros_unlock();
+  return found;
+}
+
+void rmw_action_client_drop(const rmw_subscription_t * subscription)
+{
+  microros_lock();
+  xrce_read_pop(subscription->data, false);
+  microros_unlock();
+}
