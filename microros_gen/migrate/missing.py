@@ -17,13 +17,15 @@ _HINT = "Remove the call and what belongs to it"
 def selected_by(
     function: str, declared: Mapping[str, str], catalogue: Catalogue, texts: Collection[str] = ()
 ) -> tuple[str, ...]:
-    """Return what a call selects: the component that declares the function, else those that list it in `calls`.
+    """Return what a call selects: the component that declares the function and those that list its very name in
+    `calls`, else those that list it there in any way.
 
     `declared` says which component declares a function; `texts` are the strings among the arguments. Of the names under
     which it is listed, the longest counts.
     """
     if function in declared:
-        return (declared[function],)
+        named = {c.name for c in catalogue.values() for call in c.presence.calls if call.name == function}
+        return tuple(sorted(named | {declared[function]}))
     listed = [
         (len(call.name), component.name)
         for component in catalogue.values()

@@ -20,6 +20,7 @@ from tests.support.e2e.action_server_peer import (
     fibonacci,
 )
 from tests.support.e2e.commanded import CommandedProgram
+from tests.support.e2e.graph_server import graph_server
 from tests.support.e2e.images import C_FILES, Images, ends_well, started
 from tests.support.e2e.relay import Relay
 from tests.support.patience import deadline
@@ -28,7 +29,7 @@ pytestmark = pytest.mark.ros
 
 APPLICATION = """\
 version: 1
-components: [+action_client]
+components: [+action_client, +graph]
 session: {connect_timeout: 20 s, create_timeout: 10 s}
 nodes:
   - name: device
@@ -173,6 +174,20 @@ def test_without_a_server_a_goal_is_not_accepted(device: Device) -> None:
     device.peer.ask(do="serve")
     number = device.accepted(1)
     device.until(f"result {number} {SUCCEEDED} 0")
+
+
+def test_whether_the_server_is_available(device: Device, domain: int) -> None:
+    def until(expected: str) -> None:
+        end = deadline(20)
+        while device.program.call("available")[::2] != (0, [expected]):
+            assert time.monotonic() < end
+
+    with graph_server(domain):
+        until("1")
+        device.peer.ask(do="close")
+        until("0")
+        device.peer.ask(do="serve")
+        until("1")
 
 
 def test_the_agent_restarts_in_the_middle_of_a_goal(

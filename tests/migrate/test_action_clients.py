@@ -38,3 +38,9 @@ def test_a_client_that_is_opened_again_is_there_once_and_beside_a_server() -> No
 )
 def test_what_is_not_known_is_said(call: str, reason: str) -> None:
     assert any(reason in message for message in reasons(program(call)))
+
+
+def test_whether_a_server_is_there_needs_the_graph() -> None:
+    asks = "rcl_action_server_is_available(&node, &client.rcl_handle, &available);"
+    draft = adopted(program(f"{OPENS} {asks}")).draft
+    assert {"+action_client", "+graph"} <= set(draft.components)

@@ -113,7 +113,7 @@ static void begin(void)
     "add");
 }
 
-/* send ORDER | cancel I | id I | events | faults | reset */
+/* send ORDER | cancel I | id I | events | faults | available */
 static rcl_ret_t run(char ** word)
 {
   const char * what = word[0];
@@ -139,11 +139,12 @@ static rcl_ret_t run(char ** word)
     }
   } else if (strcmp(what, "faults") == 0) {
     (void)printf("%d %s\n", faults, last_error);
-  } else if (strcmp(what, "reset") == 0) {
-    check(rclc_executor_fini(&executor), "executor fini");
-    check(rclc_action_client_fini(&client, &node), "action client fini");
-    event_count = 0;
-    begin();
+  } else if (strcmp(what, "available") == 0) {
+    bool available = false;
+    const rcl_ret_t result = rcl_action_server_is_available(&node, &client.rcl_handle, &available);
+
+    (void)printf("%d\n", available ? 1 : 0);
+    return result;
   } else {
     return RCL_RET_INVALID_ARGUMENT;
   }
