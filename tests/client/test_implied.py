@@ -76,6 +76,51 @@ def test_they_are_planned_in_front_of_the_declared_ones(made_up: Path) -> None:
     assert (entities.services.max, entities.services.implied) == (3, 2)
 
 
+def test_they_are_planned_in_front_of_what_components_plan_from_other_keys(tmp_path: Path) -> None:
+    """The subscription to /clock is searched for in the first place of all subscriptions."""
+    text = """\
+version: 1
+components: [+action_client, +clock_ros]
+clock: ros
+nodes:
+  - name: one
+    action_clients: [{name: walk, type: example_interfaces/action/Fibonacci}]
+limits: {"*": {sequence: 4}}
+"""
+    entities = planned(tmp_path, text).project.runtime.entities
+    assert [s.topic for s in entities.subscriptions.declared] == ["/clock", "/walk/_action/feedback"]
+
+
+@pytest.mark.parametrize("component", ["", "+subscribe, +graph"])
+def test_actions_know_their_places_in_the_table_of_endpoints(tmp_path: Path, component: str) -> None:
+    """Also where a kind has a place without a declaration."""
+    text = f"""\
+version: 1
+components: [+action_client, +action_server, {component}]
+nodes:
+  - {{name: one, actions: [{{name: walk, type: example_interfaces/action/Fibonacci}}]}}
+  - {{name: two, action_clients: [{{name: walk, type: example_interfaces/action/Fibonacci, goals: 3}}]}}
+limits: {{"*": {{sequence: 4}}}}
+"""
+    runtime = planned(tmp_path, text).project.runtime
+    entities = runtime.entities
+    kinds = (entities.publishers, entities.subscriptions, entities.services, entities.clients)
+    names = []
+    for places in kinds:
+        found = [getattr(plan, "topic", getattr(plan, "name", "")) for plan in places.declared]
+        names += [*found, *[""] * (places.max - len(found))]
+    (server,) = runtime.features.of("action_server").servers
+    (client,) = runtime.features.of("action_client").clients
+    services = ("send_goal", "cancel_goal", "get_result")
+    assert [names[at] for at in server.places] == [
+        f"/walk/_action/{part}" for part in (*services, "feedback", "status")
+    ]
+    assert [names[at] for at in client.places] == [
+        f"/walk/_action/{part}" for part in (*services, "feedback")
+    ]
+    assert len(set(server.places) | set(client.places)) == 9
+
+
 @pytest.mark.system
 @pytest.mark.builds
 def test_what_is_built_has_them_and_the_example_leaves_them_to_the_library(made_up: Path) -> None:

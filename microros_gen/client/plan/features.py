@@ -63,15 +63,23 @@ class Opening(Protocol):
 
 
 def with_endpoints(application: Application, selection: Selection) -> Application:
-    """Return the application with the endpoints that selected components plan, before those of each node."""
+    """Return the application with the endpoints that selected components plan, before those that each node declares.
+
+    They follow what components imply: /clock has the first place of all subscriptions.
+    """
     opening = [cast(Opening, feature) for feature in _features(selection) if hasattr(feature, "endpoints")]
     if not opening:
         return application
     nodes = (
-        replace(node, endpoints=(*(e for part in opening for e in part.endpoints(node)), *node.endpoints))
+        replace(node, endpoints=_joined(node, [e for part in opening for e in part.endpoints(node)]))
         for node in application.nodes
     )
     return replace(application, nodes=tuple(nodes))
+
+
+def _joined(node: NodeDecl, planned: Iterable[EndpointDecl]) -> tuple[EndpointDecl, ...]:
+    implied = next((i for i, e in enumerate(node.endpoints) if not e.of_the_library), len(node.endpoints))
+    return (*node.endpoints[:implied], *planned, *node.endpoints[implied:])
 
 
 def with_limits(application: Application, selection: Selection) -> Application:

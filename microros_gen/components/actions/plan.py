@@ -61,12 +61,12 @@ def record(part: ActionsPlan) -> object:
 
 
 def place_of(context: PlanContext, node: int, kind: str, name: str) -> int:
-    """Return the position of an endpoint of an action in the table of declared endpoints."""
-    first = 0
-    for other in NAMES:
-        declared = declarations(context.application, other)
-        for index, (owner, _, endpoint) in enumerate(declared):
-            if (owner, other, endpoint.topic) == (node, kind, name) and endpoint.of_the_library:
-                return first + index
-        first += len(declared)
+    """Return the position of an endpoint of an action in the table of declared endpoints.
+
+    A kind has at least one place there, even where nothing of it is declared.
+    """
+    before = [context.runtime.entities.places(other).max for other in NAMES[: NAMES.index(kind)]]
+    for index, (owner, _, endpoint) in enumerate(declarations(context.application, kind)):
+        if (owner, endpoint.topic) == (node, name) and endpoint.of_the_library:
+            return sum(before) + index
     raise KeyError(name)
