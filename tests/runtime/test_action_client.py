@@ -17,7 +17,7 @@ from tests.support.runtime.surface import write_application
 
 APPLICATION = """\
 version: 1
-components: [+action_client]
+components: [+action_client, +executor_nodes]
 nodes:
   - name: device
     action_clients:
@@ -292,3 +292,27 @@ def test_a_client_is_removed_and_added_while_a_goal_is_active(device: Device) ->
     assert device.spin() == []
     device.client.ok("add")
     assert device.spin() == [f"result {goal} {SUCCEEDED} 1"]
+
+
+def test_a_client_leaves_an_executor_with_its_node_and_returns(device: Device) -> None:
+    device.start()
+    goal = device.active()
+    assert device.client.ok("query").lines == ("nodes 2 0",)
+    device.client.ok("leave")
+    assert device.client.ok("query").lines == ("nodes 0 2",)
+    device.end(device.asked("result")[0], SUCCEEDED, 1)
+    assert device.spin() == []
+    device.client.ok("return")
+    assert device.client.ok("query").lines == ("nodes 2 0",)
+    assert device.spin() == [f"result {goal} {SUCCEEDED} 1"]
+
+
+def test_a_goal_that_is_rejected_has_no_other_callbacks(device: Device) -> None:
+    """Although the response to its cancel request comes in the same round."""
+    device.start()
+    device.client.ok("send 1")
+    device.client.ok("cancel 0")
+    device.spin(2)
+    device.confirm(device.asked("cancel")[0])
+    device.accept(device.asked("goal")[0], accepted=False)
+    assert device.spin() == ["goal 0 0"]

@@ -7,6 +7,7 @@
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
 #include <rclc/executor.h>
+#include <rclc/executor_nodes.h>
 #include <rclc/rclc.h>
 #include <tf2_msgs/action/lookup_transform.h>
 
@@ -185,6 +186,19 @@ static rcl_ret_t call(char * line)
   }
   if (strcmp(word, "add") == 0) {
     return add(GOALS);
+  }
+  if (strcmp(word, "leave") == 0) {
+    return rclc_executor_remove_node(&executor, &node);
+  }
+  if (strcmp(word, "return") == 0) {
+    return rclc_executor_add_node(&executor, &node);
+  }
+  if (strcmp(word, "query") == 0) {
+    rclc_executor_node_info_t info = {0, 0};
+    const rcl_ret_t result = rclc_executor_query_node(&executor, &node, &info);
+
+    printf("nodes %u %u\n", (unsigned int)info.running, (unsigned int)info.removed);
+    return result;
   }
   if (strcmp(word, "let") == 0) {
     return rclc_executor_set_semantics(&executor, RCLC_SEMANTICS_LOGICAL_EXECUTION_TIME);

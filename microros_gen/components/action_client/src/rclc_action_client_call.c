@@ -11,10 +11,10 @@
 
 #include <string.h>
 
-/* Clears a mark of a goal; returns whether it was set. */
-static bool call_unmark(bool * mark)
+/* Clears a mark of a goal; returns whether it was set. A callback of the same round may have ended the goal. */
+static bool call_unmark(const rclc_action_goal_handle_t * goal, bool * mark)
 {
-  const bool was_marked = *mark;
+  const bool was_marked = goal->is_used && *mark;
 
   *mark = false;
   return was_marked;
@@ -78,7 +78,7 @@ static void call_marked(rclc_action_client_t * client)
   for (size_t i = 0; i < client->goal_handles_memory_size; ++i) {
     rclc_action_goal_handle_t * goal = &client->declared->goals[i];
 
-    if (call_unmark(&goal->available_goal_response)) {
+    if (call_unmark(goal, &goal->available_goal_response)) {
       call_goal(client, goal);
     }
   }
@@ -86,21 +86,21 @@ static void call_marked(rclc_action_client_t * client)
   for (size_t i = 0; i < client->goal_handles_memory_size; ++i) {
     rclc_action_goal_handle_t * goal = &client->declared->goals[i];
 
-    if (call_unmark(&goal->available_feedback)) {
+    if (call_unmark(goal, &goal->available_feedback)) {
       client->feedback_callback(goal, client->ros_feedback, client->context);
     }
   }
   for (size_t i = 0; i < client->goal_handles_memory_size; ++i) {
     rclc_action_goal_handle_t * goal = &client->declared->goals[i];
 
-    if (call_unmark(&goal->available_cancel_response)) {
+    if (call_unmark(goal, &goal->available_cancel_response)) {
       call_cancel(client, goal);
     }
   }
   for (size_t i = 0; i < client->goal_handles_memory_size; ++i) {
     rclc_action_goal_handle_t * goal = &client->declared->goals[i];
 
-    if (call_unmark(&goal->available_result_response)) {
+    if (call_unmark(goal, &goal->available_result_response)) {
       call_result(client, goal);
     }
   }

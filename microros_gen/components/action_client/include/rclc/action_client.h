@@ -43,8 +43,8 @@ typedef void (*rclc_action_client_result_callback_t)(
   rclc_action_goal_handle_t * goal_handle, void * ros_result_response, void * context);
 
 /*
- * Called once for the last cancel request of a goal. `cancelled`: the server will end the goal, whose result follows;
- * otherwise the goal goes on, has ended or is unknown, or there was no response within `response_timeout`.
+ * Called once for the last cancel request of a goal, unless its result comes before. `cancelled`: the server will end the
+ * goal, whose result follows; otherwise the goal goes on, is unknown, or there was no response within `response_timeout`.
  */
 typedef void (*rclc_action_client_cancel_callback_t)(
   rclc_action_goal_handle_t * goal_handle, bool cancelled, void * context);
