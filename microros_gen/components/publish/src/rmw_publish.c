@@ -2,6 +2,7 @@
 #include "microros/error.h"
 #include "microros/lock.h"
 #include "microros/rmw_encode.h"
+#include "microros/rmw_publish_parts.h"
 #include "microros/rmw_publisher.h"
 #include "microros/xrce_routes.h"
 #include "microros/xrce_wire.h"
@@ -45,6 +46,9 @@ rmw_ret_t rmw_publisher_write(const rmw_publisher_t * publisher, const void * ro
   rmw_ret_t result = RMW_RET_OK;
   xrce_write_t outcome;
 
+  if (rmw_publish_parts(writer, ros_message, &result)) {
+    return result;
+  }
   microros_lock();
   outcome = xrce_write_message(writer, ros_message, &fault);
   if (outcome != XRCE_WRITTEN) {

@@ -5,6 +5,7 @@
 #include "microros/lock.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_node.h"
+#include "microros/rmw_publish_parts.h"
 #include "microros/rmw_qos.h"
 #include "microros/xrce_drops.h"
 #include "microros/xrce_routes.h"
@@ -62,6 +63,7 @@ rmw_ret_t rmw_publisher_open(
 
     *writer = wanted;
     xrce_drops_clear(writer->client, writer->index);
+    rmw_publish_parts_clear(writer);
     result = rmw_place_open(writer->client, publisher_place(writer), writer->name);
     if (result == RMW_RET_OK) {
       *publisher = publisher_prepare(writer);
