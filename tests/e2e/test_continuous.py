@@ -127,7 +127,9 @@ def test_the_whole_arrives_byte_for_byte(
         assert device.run("image 60000") == (0, 0, "")
         assert device.run("plain 2") == (0, 0, "")
         found = observer.got(len(sizes) + 5, timeout_s=30)
-    assert [value["data"] for topic, value in found if topic == TEXT] == [text(size) for size in [*sizes, 3000]]
+    assert [value["data"] for topic, value in found if topic == TEXT] == [
+        text(size) for size in [*sizes, 3000]
+    ]
     assert [value for topic, value in found if topic == IMAGE] == [image(60_000)]
     assert [value["data"] for topic, value in found if topic == NUMBER] == [1, 3000, 2]
 
@@ -172,7 +174,9 @@ def test_a_network_that_loses_and_doubles(
     assert found == [(TEXT, {"data": text(60_000)}), (IMAGE, image(9000))]
 
 
-def test_an_agent_restarts_in_the_middle(program: Path, relay: Relay, domain: int, observer: Observer) -> None:
+def test_an_agent_restarts_in_the_middle(
+    program: Path, relay: Relay, domain: int, observer: Observer
+) -> None:
     """The message is refused and nothing of it arrives; the next one in the new session does."""
     subscribe(observer)
     options = ("--domain", str(domain))
@@ -200,7 +204,7 @@ def test_an_agent_restarts_in_the_middle(program: Path, relay: Relay, domain: in
 def test_over_a_bad_line(images: Images, observer: Observer, domain: int, tmp_path: Path) -> None:
     """A line of a megabaud that changes and loses bytes; fragments are as large as its send buffer allows."""
     device_path = tmp_path / "line"
-    transport = f'transport: {{type: serial, device: "{device_path}", baud: 1000000}}\n'
+    transport = f'transport: {{type: serial, device: "{device_path}", baud: 1000000, send_buffer: 1100}}\n'
     built = images.build(0, APPLICATION.format(transport=transport))
     program = built.application(
         C_FILES / "continuous.c", tmp_path / "continuous", "-std=c99", "-DCONTINUOUS_LINE"
@@ -213,5 +217,5 @@ def test_over_a_bad_line(images: Images, observer: Observer, domain: int, tmp_pa
             running_agent(domain, "--domain", str(domain), transport=transport_options),
             camera(program) as device,
         ):
-            assert device.run("text 60000") == (0, 0, "")
-            assert observer.got(1, timeout_s=30) == [(TEXT, {"data": text(60_000)})]
+            assert device.run("text 20000") == (0, 0, "")
+            assert observer.got(1, timeout_s=30) == [(TEXT, {"data": text(20_000)})]

@@ -364,6 +364,7 @@ ELSEWHERE = {
     "action_server": "test_action_server.py: results and goals over the wrap",
     "agents": "unit_agents.c: searches over the wrap and days apart",
     "clock": "unit_days.c",
+    "continuous_serialization": "test_continuous.py: fragments, time-outs and sessions over the wrap",
     "diagnosis": "tests/components/test_diagnosis.py: checks and shares over the wraps of ms and us",
     "executor": "unit_days.c",
     "lifecycle": "test_lifecycle.py: parts and timers over the wrap",

@@ -94,7 +94,7 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         "demo": DEMO.read_text(encoding="utf-8"),
         "pool-none-drop-code-arena-device": _POOL_LARGE
         + "liveliness: none\non_full: drop_oldest\nerrors: code\nmemory: {arena: 1024}\n"
-        + "session: {key: device}\ncomponents: [+publish_statistics, +name_substitutions]\n",
+        + "session: {key: device}\ncomponents: [+publish_statistics, +name_substitutions, +continuous_serialization]\n",
         "pool-acknack-block-xml-reliable": _POOL
         + "liveliness: acknack\non_full: block 20 ms\nentities: xml\ncreation: reliable\n",
         "declared-acknack-drop-arena-reference-pieces": _NODES.replace("sequence: 6", "sequence: 80")

@@ -177,6 +177,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "console": _BOTH + "target: {name: own.yaml}\nlogging: console\n",
         "console_riscv": _BOTH + "target: {name: own.yaml}\nlogging: console\n",
         "prints_nowhere": _BOTH + "target: {name: own.yaml}\n",
+        "continuous": _BOTH + "components: [+continuous_serialization, +multithread]\n",
         "kept_output": _NODES
         + "      - {topic: large, type: std_msgs/msg/String}\nlimits: {'*': {string: 300}}\n"
         + "target: {name: qemu-mps2-an386}\n",
