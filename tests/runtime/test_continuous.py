@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Continuous serialization with a scripted agent: the bytes, what is refused, lost fragments and sessions, clock wrap."""
+"""Continuous serialization with a scripted agent: bytes, refusals, lost fragments and sessions, clock wrap."""
 
 from __future__ import annotations
 
@@ -97,8 +97,9 @@ def test_values_are_encoded_as_in_cdr(client: Client) -> None:
 
     for form, value in (("<?", True), ("<h", -2), ("<c", b"x"), ("<Q", 0x0102030405060708), ("<b", -1)):
         add(form, value)
-    for form, value in (("<f", 1.5), ("<B", 7), ("<I", 3)):
-        add(form, value)
+    add("<f", 1.5)
+    add("<B", 7)
+    add("<I", 3)
     for word in (0x0102, 0x0304, 0x0506):
         add("<H", word)
     add("<q", -3)
@@ -173,7 +174,7 @@ def test_lost_fragments_and_acknowledgements_are_repeated(client: Client) -> Non
 
 
 def test_a_deaf_agent_ends_the_call(client: Client) -> None:
-    """The message is abandoned; when the agent hears again, an empty last fragment ends it, and the next one arrives."""
+    """The message is abandoned; an empty last fragment ends it later, and the next one arrives."""
     agent = agent_of(client)
     client.ok("publish bytes 1000 1000 0")
     before = len(agent.fragments)

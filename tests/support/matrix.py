@@ -105,6 +105,7 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         "best-effort-ping-drop": _BEST_EFFORT + "on_full: drop_oldest\nsession: {key: 7}\n",
         "best-effort-reference-reliable-held": _BEST_EFFORT
         + "entities: reference\ncreation: reliable\npools: {input_history: 2}\n",
+        "reader-loans": _READER + "components: [+loaned_messages]\n",
         "reader": _READER
         + "      - {topic: shared, type: std_msgs/msg/String, limits: {string: 900}, queue: 8, queue_bytes: 1000}\n"
         + "      - {topic: fast, type: std_msgs/msg/Int32, qos: {reliability: best_effort}}\n",

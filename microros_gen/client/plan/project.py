@@ -42,6 +42,9 @@ from microros_gen.typesupport.plan.types import TypePlan
 
 ERROR_TEXT_SIZE = 160
 
+LOANED_MESSAGES = "loaned_messages"
+"""The component whose samples are used where they wait."""
+
 
 @dataclass(frozen=True)
 class Project:
@@ -145,9 +148,10 @@ def plan_project(
         selection.has(STREAM_RELIABLE_INPUT),
         (*receiving.received, *serving.received),
         create_text,
-        # Memory that survives a sleep ends before the input buffer.
+        # Memory that survives a sleep ends before the input buffer; a sample that is in use must not be overwritten.
         lends_input=bool(nodes)
         and not session.has_sleep
+        and not selection.has(LOANED_MESSAGES)
         and all(queue.requested_bytes is None for queue in queues),
         keeps_output=own_driver,
         reliable_output=selection.has(STREAM_RELIABLE),

@@ -213,8 +213,8 @@ int main(int count, char ** arguments)
       result == RCL_RET_OK ? "" : rcl_get_error_string().str);
     (void)fflush(stdout);
   }
-  return rcl_publisher_fini(&texts, &node) != RCL_RET_OK || rcl_publisher_fini(&images, &node) != RCL_RET_OK ||
-         rcl_publisher_fini(&fast, &node) != RCL_RET_OK ||
+  return rcl_publisher_fini(&texts, &node) != RCL_RET_OK ||
+         rcl_publisher_fini(&images, &node) != RCL_RET_OK || rcl_publisher_fini(&fast, &node) != RCL_RET_OK ||
          rcl_publisher_fini(&numbers, &node) != RCL_RET_OK || rcl_node_fini(&node) != RCL_RET_OK ||
          rclc_support_fini(&support) != RCL_RET_OK;
 }

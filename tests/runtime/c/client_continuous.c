@@ -33,10 +33,10 @@ static rcl_ret_t init(void)
   if (result == RCL_RET_OK) {
     result = rclc_node_init_default(&node, "camera", "", &support);
   }
-  return result == RCL_RET_OK ? rclc_publisher_init_default(
-                                  &publisher, &node,
-                                  ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, UInt8MultiArray), "frames")
-                              : result;
+  return result == RCL_RET_OK
+           ? rclc_publisher_init_default(
+               &publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, UInt8MultiArray), "frames")
+           : result;
 }
 
 static void add_size(uint32_t * topic_length)
@@ -118,10 +118,10 @@ static rcl_ret_t call(char * line)
   if (strcmp(word, "again") == 0) {
     const rcl_ret_t result = rcl_publisher_fini(&publisher, &node);
 
-    return result == RCL_RET_OK ? rclc_publisher_init_default(
-                                    &publisher, &node,
-                                    ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, UInt8MultiArray), "frames")
-                                : result;
+    return result == RCL_RET_OK
+             ? rclc_publisher_init_default(
+                 &publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, UInt8MultiArray), "frames")
+             : result;
   }
   if (strcmp(word, "dropped") == 0) {
     (void)rmw_uros_get_statistics(rcl_context_get_rmw_context(&support.context), &statistics);
@@ -137,7 +137,8 @@ static rcl_ret_t call(char * line)
     done[0] = ucdr_serialize_uint8_t(&ucdr, 1);
     done[1] = ucdr_serialize_uint32_t(&ucdr, UINT32_MAX);
     done[2] = ucdr_serialize_uint8_t(&ucdr, 3);
-    printf("%d %d %d %zu %02x%02x\n", done[0], done[1], done[2], ucdr_buffer_length(&ucdr), bytes[0], bytes[1]);
+    printf(
+      "%d %d %d %zu %02x%02x\n", done[0], done[1], done[2], ucdr_buffer_length(&ucdr), bytes[0], bytes[1]);
     return RCL_RET_OK;
   }
   return rmw_uros_spin_once(rcl_context_get_rmw_context(&support.context));

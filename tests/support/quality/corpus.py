@@ -178,6 +178,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "console_riscv": _BOTH + "target: {name: own.yaml}\nlogging: console\n",
         "prints_nowhere": _BOTH + "target: {name: own.yaml}\n",
         "continuous": _BOTH + "components: [+continuous_serialization, +multithread]\n",
+        "loaned": _READER + _ALONE + "components: [+loaned_messages, +multithread]\n",
         "kept_output": _NODES
         + "      - {topic: large, type: std_msgs/msg/String}\nlimits: {'*': {string: 300}}\n"
         + "target: {name: qemu-mps2-an386}\n",

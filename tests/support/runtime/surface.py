@@ -14,7 +14,7 @@ EVERYTHING = """\
 version: 1
 profiles: [pure_sender, pure_reader]
 components: [+timers, +executor, +clock, +time_sync, +micro_ros_utilities, +cdr_decode, +discovery,
-  +new_data_callbacks, +qos_events, +continuous_serialization{more}]
+  +new_data_callbacks, +qos_events, +continuous_serialization, +loaned_messages{more}]
 logging: console
 interfaces: [std_msgs/msg/Int32, std_msgs/msg/String{types}]
 limits: {{'*': {{string: 16, sequence: 4}}}}

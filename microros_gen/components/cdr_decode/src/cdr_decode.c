@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/cdr_decode.h"
 
+#include "microros/cdr_loan.h"
+
 #include <string.h>
 
 /* Common layout of all sequences: those of rosidl_runtime_c differ only in the type of `data`. */
@@ -182,10 +184,12 @@ void cdr_get_size(cdr_in_t * in, void * sequence, uint32_t bound, const char * f
 
 static void get_sequence(cdr_in_t * in, void * sequence, uint32_t bound, uint32_t width, const char * field)
 {
-  uint32_t size;
-  void * const data = get_size(in, sequence, bound, width, field, &size);
+  if (!cdr_loan_sequence(in, sequence, bound, width, field)) {
+    uint32_t size;
+    void * const data = get_size(in, sequence, bound, width, field, &size);
 
-  get_numbers(in, data, size, width, field);
+    get_numbers(in, data, size, width, field);
+  }
 }
 
 void cdr_get_sequence_1(cdr_in_t * in, void * sequence, uint32_t bound, const char * field)

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/cdr_decode.h"
 
+#include "microros/cdr_loan.h"
+
 #include <string.h>
 
 /** Returns how many of `length` characters (at least one) precede the first NUL. */
@@ -17,7 +19,7 @@ static size_t count_characters(const char * from, uint32_t length)
   return size;
 }
 
-void cdr_get_string(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bound, const char * field)
+static void get_text(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bound, const char * field)
 {
   const size_t capacity = (text->data == NULL) ? 0U : text->capacity;
   const uint32_t limit = cdr_in_limit((capacity == 0U) ? 0U : (capacity - 1U), bound);
@@ -42,6 +44,13 @@ void cdr_get_string(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bou
       '\0'; /* do not write the NUL that all empty strings share (rosidl_runtime_c__String__init) */
   }
   text->size = size;
+}
+
+void cdr_get_string(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bound, const char * field)
+{
+  if (!cdr_loan_string(in, text, bound, field)) {
+    get_text(in, text, bound, field);
+  }
 }
 
 void cdr_get_strings(

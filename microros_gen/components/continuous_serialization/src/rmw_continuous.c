@@ -56,7 +56,8 @@ static bool continuous_is_inside(const ucdrBuffer * ucdr)
 }
 
 /* Gives the buffer the room of the next fragment, or what is left of the message. */
-static void continuous_open(const continuous_message_t * message, ucdrBuffer * ucdr, uint8_t * at, size_t room)
+static void continuous_open(
+  const continuous_message_t * message, ucdrBuffer * ucdr, uint8_t * at, size_t room)
 {
   const size_t left = (size_t)message->size - message->done;
 

@@ -5,11 +5,9 @@
 
 static ucdrEndianness buffer_machine(void)
 {
-  static const uint16_t number = 1;
-  uint8_t first;
+  const uint16_t number = 1u;
 
-  (void)memcpy(&first, &number, sizeof(first));
-  return first == 1u ? UCDR_LITTLE_ENDIANNESS : UCDR_BIG_ENDIANNESS;
+  return *(const uint8_t *)&number != 0u ? UCDR_LITTLE_ENDIANNESS : UCDR_BIG_ENDIANNESS;
 }
 
 void ucdr_init_buffer(ucdrBuffer * ub, uint8_t * data, size_t size)
@@ -22,7 +20,8 @@ void ucdr_init_buffer_origin(ucdrBuffer * ub, uint8_t * data, size_t size, size_
   ucdr_init_buffer_origin_offset_endian(ub, data, size, origin, 0u, buffer_machine());
 }
 
-void ucdr_init_buffer_origin_offset(ucdrBuffer * ub, uint8_t * data, size_t size, size_t origin, size_t offset)
+void ucdr_init_buffer_origin_offset(
+  ucdrBuffer * ub, uint8_t * data, size_t size, size_t origin, size_t offset)
 {
   ucdr_init_buffer_origin_offset_endian(ub, data, size, origin, offset, buffer_machine());
 }

@@ -156,7 +156,8 @@ void xrce_continuous_renew(xrce_client_t * client)
   xrce_continuous_t * continuous = &client->continuous;
 
   /* What is outstanding may be the end of an abandoned message. */
-  continuous->broken = continuous->broken || continuous->outstanding || (continuous->busy && continuous->begun);
+  continuous->broken =
+    continuous->broken || continuous->outstanding || (continuous->busy && continuous->begun);
   continuous->lost = continuous->busy;
   continuous->outstanding = false;
   continuous->sequence = 0;

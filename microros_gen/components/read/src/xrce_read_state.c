@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* State of a receiver other than its waiting samples. */
 #include "microros/xrce_client.h"
+#include "microros/xrce_loan.h"
 #include "microros/xrce_read.h"
 
 #include <string.h>
@@ -15,6 +16,7 @@ void xrce_read_open(const xrce_endpoint_t * endpoint)
   xrce_receiver_t * receiver = state_of(endpoint);
 
   (void)memset(receiver, 0, sizeof(*receiver));
+  xrce_loan_clear(endpoint->client, receiver);
 }
 
 void xrce_read_drop(xrce_client_t * client, xrce_receiver_t * receiver)
@@ -27,7 +29,8 @@ bool xrce_read_is_ready(const xrce_endpoint_t * endpoint)
 {
   const xrce_receiver_t * receiver = state_of(endpoint);
 
-  return receiver->count != 0u || receiver->large != 0u || receiver->status != 0u;
+  return (receiver->count != 0u && !xrce_loan_is_out(endpoint->client, receiver)) || receiver->large != 0u ||
+         receiver->status != 0u;
 }
 
 uint16_t xrce_read_large(const xrce_endpoint_t * endpoint, uint16_t * fits)

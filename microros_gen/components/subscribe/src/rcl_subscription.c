@@ -4,6 +4,7 @@
 #include "microros/error.h"
 #include "microros/rcl_names_take.h"
 #include "microros/rcl_subscription_open.h"
+#include "microros/rmw_loan.h"
 #include "microros/rmw_subscription.h"
 
 #include <string.h>
@@ -110,6 +111,5 @@ bool rcl_subscription_is_cft_enabled(const rcl_subscription_t * subscription)
 
 bool rcl_subscription_can_loan_messages(const rcl_subscription_t * subscription)
 {
-  (void)subscription;
-  return false;
+  return subscription != NULL && rmw_loan_is_possible(subscription->impl);
 }
