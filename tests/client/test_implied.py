@@ -165,6 +165,7 @@ def test_ros_time_is_one_of_them() -> None:
         "logging_rosout",
         "parameters",
         "parameters_held",
+        "tf_broadcaster",
     ]
 
 

@@ -18,7 +18,7 @@ profiles: [pure_reader]
 components: [+publish, +services, +executor, +timers, +multithread, +session_state, +micro_ros_utilities, +time_sync,
   +parameters, +parameter_storage, +parameter_client, +lifecycle, +node_modes, +action_server, +action_client,
   +graph, +logger_services, +logging_float, +logging_wide, +name_substitutions, +publish_statistics,
-  +ping, +session_close, +clock_ros, +service_call, +executor_nodes, +new_data_callbacks, +qos_events,
+  +ping, +session_close, +clock_ros, +service_call, +executor_nodes, +new_data_callbacks, +qos_events, +tf_broadcaster,
   +continuous_serialization, +loaned_messages, {choice}]
 logging: [rosout, {{to: ring, level: debug}}, console, callback]
 nodes:

@@ -196,6 +196,7 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         "parameter-storage": _BUSY
         + "    parameters: [{name: gain, type: double}]\n"
         + "profiles: [pure_sender]\ncomponents: [+parameter_storage]\n",
+        "transforms": _BUSY + "profiles: [pure_sender]\ncomponents: [+tf_broadcaster]\nerrors: code\n",
         "logging": _POOL
         + "components: [+logging_float, +logging_wide]\nlogging: [{to: console, level: debug}, callback]\n",
         "rosout": _BUSY + "profiles: [pure_sender]\nlogging: [rosout, console]\n",

@@ -4,6 +4,7 @@
 {"do": "subscribe", "topic": "/a", "type": "std_msgs/msg/Int32", "reliable": true, "transient_local": false}
 {"do": "matched", "topic": "/a"}                   subscriptions that the publisher above has found
 {"do": "subscribe_raw", "topic": "/a", "type": "any_pkg/msg/Any", "hash": null}   samples as hexadecimal text
+                   with QoS as of "subscribe"
 {"do": "publish", "topic": "/a", "type": "std_msgs/msg/Int32", "values": [{"data": 1}], "transient_local": false}
                    one sample a value, the publisher stays; answers the samples as rclpy serializes them, in hexadecimal
 {"do": "serve", "service": "/s", "type": "rcl_interfaces/srv/GetParameterTypes", "hold": 20}
@@ -128,6 +129,7 @@ def main() -> None:
         elif command["do"] == "samples":
             answer, arrived[:] = list(arrived), []
         elif command["do"] == "forget":
+            peer.forget_raw()
             answer = _forget(node, arrived)
         else:
             answer = getattr(peer, command.pop("do"))(**command)
@@ -192,7 +194,7 @@ class _Peer:
     def matched(self, topic: str) -> int:
         return int(self._publishers[topic].get_subscription_count())
 
-    def subscribe_raw(self, topic: str, type: str, hash: str | None) -> bool:
+    def subscribe_raw(self, topic: str, type: str, hash: str | None, **qos: bool) -> bool:
         from rclpy.impl.implementation_singleton import rclpy_implementation
 
         from microros_gen.interfaces.types import TypeName
@@ -200,10 +202,15 @@ class _Peer:
 
         package, kind, name = type.split("/")
         message_class = raw_types().message_class(TypeName(package, kind, name), hash)
-        profile = _profile().get_c_qos_profile()
+        profile = _profile(**qos).get_c_qos_profile()
         handle = rclpy_implementation.Subscription(self._node.handle, message_class, topic, profile)
         self._raw.append((topic, handle))
         return True
+
+    def forget_raw(self) -> None:
+        for _, handle in self._raw:
+            handle.destroy_when_not_in_use()
+        self._raw.clear()
 
     def starve(self, topic: str, type: str) -> bool:
         """Subscribe, and take nothing until `feed`."""

@@ -236,6 +236,8 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + _ASKED
         + "    publishers: [{topic: out, type: std_msgs/msg/Int32, qos: {deadline: 200 ms}}]\n"
         + "    subscriptions: [{topic: in, type: std_msgs/msg/Int32, qos: {deadline: 200 ms}}]\n",
+        "transforms": _NODES.replace("    publishers:\n", "")
+        + "components: [+tf_broadcaster, +multithread]\n",
         "executor_events": _BOTH + "components: [+qos_events]\n",
         "lifecycle": _NODES + _SURE + "components: [+lifecycle, +multithread]\n",
         "lifecycle_managed": _NODES
