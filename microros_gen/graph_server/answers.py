@@ -19,6 +19,8 @@ DDS_TOPICS, DDS_PUBLISHERS_OF, DDS_SUBSCRIPTIONS_OF, NODES_WITH_ENCLAVES = range
 """`what` of microros_graph_msgs/srv/ListNames."""
 PUBLISHERS, SUBSCRIPTIONS, SERVERS, CLIENTS = range(4)
 """`what` of microros_graph_msgs/srv/ListEndpoints."""
+DURABILITY, DEADLINE, LIVELINESS, RELIABILITY = 1 << 1, 1 << 2, 1 << 3, 1 << 4
+"""Policies of rmw/qos_policy_kind.h."""
 _RELIABLE, _BEST_EFFORT = 1, 2
 _TRANSIENT_LOCAL, _VOLATILE = 1, 2
 """Values of rmw/types.h."""
@@ -51,7 +53,7 @@ def list_names(graph: Graph, request: Value, version: Version) -> Value:
 def list_endpoints(graph: Graph, request: Value, version: Version) -> Value:
     """Return the response of ListEndpoints."""
     what, name, node = request["what"], request["name"], request["matched_by"]
-    if not _NAME.fullmatch(name):
+    if not is_name(name):
         return {"status": INVALID, "version": version(*_NOTHING)}
     try:
         if what in (SERVERS, CLIENTS):
@@ -63,7 +65,7 @@ def list_endpoints(graph: Graph, request: Value, version: Version) -> Value:
         found = graph.publishers(name) if what == PUBLISHERS else graph.subscriptions(name)
         if node:
             others = graph.subscriptions(name) if what == PUBLISHERS else graph.publishers(name)
-            found = _matched(what, found, _meant([other for other in others if other.node == node], request))
+            found = _matched(what, found, meant([other for other in others if other.node == node], request))
     except RosError:  # a name too long
         return {"status": INVALID, "version": version(*_NOTHING)}
     if found is None:
@@ -78,16 +80,36 @@ def list_endpoints(graph: Graph, request: Value, version: Version) -> Value:
     return _page(found, request["first"], request["endpoints_max"], item, "endpoints", of)
 
 
+def is_name(name: str) -> bool:
+    """Return whether a topic can have this fully qualified name."""
+    return _NAME.fullmatch(name) is not None
+
+
 def match(publisher: GraphEndpoint, subscription: GraphEndpoint) -> bool:
     """Return whether DDS connects them: the same type, and QoS that offers what is requested (DDS 1.4, 2.2.3)."""
-    return (
-        publisher.type == subscription.type
-        and not (publisher.reliability == _BEST_EFFORT and subscription.reliability == _RELIABLE)
-        and not (publisher.durability == _VOLATILE and subscription.durability == _TRANSIENT_LOCAL)
-        and publisher.deadline <= subscription.deadline
-        and publisher.liveliness >= subscription.liveliness
-        and publisher.lease <= subscription.lease
-    )
+    return publisher.type == subscription.type and not incompatibility(publisher, subscription)
+
+
+def incompatibility(publisher: GraphEndpoint, subscription: GraphEndpoint) -> int:
+    """Return the policy that keeps endpoints of one type apart, 0 for none (DDS 1.4, 2.2.3).
+
+    Of several it is the one that Fast DDS reports last: that with the largest number in DDS.
+    """
+    if publisher.reliability == _BEST_EFFORT and subscription.reliability == _RELIABLE:
+        return RELIABILITY
+    if publisher.liveliness < subscription.liveliness or publisher.lease > subscription.lease:
+        return LIVELINESS
+    if publisher.deadline > subscription.deadline:
+        return DEADLINE
+    if publisher.durability == _VOLATILE and subscription.durability == _TRANSIENT_LOCAL:
+        return DURABILITY
+    return 0
+
+
+def meant(own: Sequence[GraphEndpoint], request: Value) -> Sequence[GraphEndpoint]:
+    """Return the endpoints of a node that have the QoS of the request; all, if none has or it names none."""
+    wanted = _qos(request)
+    return [end for end in own if (end.reliability, end.durability, end.deadline) == wanted] or own
 
 
 def _names(graph: Graph, what: int, node: str) -> Names | int:
@@ -110,12 +132,6 @@ def _names(graph: Graph, what: int, node: str) -> Names | int:
     if what in (TOPICS, DDS_TOPICS):
         return graph.topics(demangle=what == TOPICS)
     return graph.services() if what == SERVICES else INVALID
-
-
-def _meant(own: Sequence[GraphEndpoint], request: Value) -> Sequence[GraphEndpoint]:
-    """Return the endpoints of a node that have the QoS of the request; all, if none has or it names none."""
-    wanted = _qos(request)
-    return [end for end in own if (end.reliability, end.durability, end.deadline) == wanted] or own
 
 
 def _qos(request: Value) -> tuple[int, int, int]:

@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable
 
 from microros_gen.graph_server.answers import list_endpoints, list_names
+from microros_gen.graph_server.status import Arrivals, endpoint_status
 from microros_gen.ros.peer import Peer
 from microros_gen.ros.qos import Qos
 from microros_gen.ros.serving import Serving
@@ -15,6 +16,7 @@ from microros_gen.ros.serving import Serving
 NODE = "microros_graph"
 NAMES_SERVICE = f"/{NODE}/list_names"
 ENDPOINTS_SERVICE = f"/{NODE}/list_endpoints"
+STATUS_SERVICE = f"/{NODE}/endpoint_status"
 CHANGE_TOPIC = f"/{NODE}/changes"
 CHANGE_QOS = Qos(transient_local=True, depth=1)
 BETWEEN_CHANGES_S = 0.2
@@ -52,6 +54,12 @@ class GraphServer(Serving):
             ENDPOINTS_SERVICE,
             "microros_graph_msgs/srv/ListEndpoints",
             lambda r: list_endpoints(self._graph, r, self.version),
+        )
+        self._instance, self._arrivals = random.randrange(1, _VERSIONS), Arrivals()
+        peer.serve(
+            STATUS_SERVICE,
+            "microros_graph_msgs/srv/EndpointStatus",
+            lambda r: endpoint_status(self._graph, r, self._instance, self._arrivals),
         )
         self._changes = peer.publisher(CHANGE_TOPIC, "microros_graph_msgs/msg/Change", CHANGE_QOS)
 

@@ -159,6 +159,7 @@ def test_ros_time_is_one_of_them() -> None:
         "clock_ros",
         "diagnosis",
         "graph",
+        "graph_events",
         "graph_topic",
         "lifecycle",
         "logger_services",

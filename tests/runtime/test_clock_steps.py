@@ -367,6 +367,7 @@ ELSEWHERE = {
     "continuous_serialization": "test_continuous.py: fragments, time-outs and sessions over the wrap",
     "diagnosis": "tests/components/test_diagnosis.py: checks and shares over the wraps of ms and us",
     "executor": "unit_days.c",
+    "graph_events": "test_graph_events.py: a server that is asked again, over the wrap",
     "lifecycle": "test_lifecycle.py: parts and timers over the wrap",
     "node_modes": "test_modes.py: services over the wrap; times of events have 64 bits",
     "parameter_client": "test_parameter_client.py: a call over the wrap",

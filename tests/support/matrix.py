@@ -191,6 +191,8 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "profiles: [managed_service]\ncomponents: [+node_modes]\nerrors: code\n",
         "graph": _BUSY
         + "profiles: [pure_sender]\ncomponents: [+graph]\nmemory: {arena: 4096}\nerrors: code\n",
+        "graph-events": _BUSY
+        + "profiles: [pure_sender]\ncomponents: [+graph_events]\nmemory: {arena: 4096}\nerrors: code\n",
         "graph-topic": _BUSY
         + "profiles: [pure_sender]\ncomponents: [+graph_topic]\nmemory: {arena: 4096}\nerrors: code\n",
         "parameter-storage": _BUSY

@@ -367,7 +367,7 @@ def _subscribe(node: Any, command: dict[str, Any], arrived: list[tuple[str, Any]
 
 
 def _forget(node: Any, arrived: list[tuple[str, Any]]) -> bool:
-    """Destroy the subscriptions and the samples that they have received."""
+    """Destroy the subscriptions and their samples."""
     for subscription in list(node.subscriptions):
         node.destroy_subscription(subscription)
     arrived.clear()

@@ -10,6 +10,7 @@ from typing import Any
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.documents.named import Named
 from microros_gen.graph_server.answers import list_endpoints, list_names
+from microros_gen.graph_server.status import Arrivals, endpoint_status
 from microros_gen.interfaces.closure import resolve_interfaces
 from microros_gen.interfaces.find import InterfaceFinder, shipped_folder
 from microros_gen.ros.codec import ENCAPSULATION_BYTES, Codec
@@ -17,8 +18,8 @@ from microros_gen.ros.graph import GraphEndpoint, Names
 from tests.support.runtime.serving_agent import ServingAgent
 
 LITTLE = b"\0\1\0\0"
-LISTS = {0: ("ListNames", list_names), 1: ("ListEndpoints", list_endpoints)}
-"""Clients of the first node, in the order of component.yaml."""
+SERVICES = ("ListNames", "ListEndpoints", "EndpointStatus")
+"""Clients of the first node, in the order of both component.yaml."""
 
 
 @dataclass
@@ -79,7 +80,8 @@ class GraphAgent(ServingAgent):
 
     `first_client` is the index of the first client of the graph on the wire, `reader` that of the subscription of
     changes. `change` gets each response before it is encoded, and `damage` its bytes. Requests are appended to
-    `held`, if it is a list, and get their responses by `release`.
+    `held`, if it is a list, and get their responses by `release`. A server that starts again has another `instance` and
+    other `arrivals`.
     """
 
     graph: MadeGraph = field(default_factory=MadeGraph)
@@ -87,6 +89,8 @@ class GraphAgent(ServingAgent):
     first_client: int = 0
     reader: int = 0
     server: bool = True
+    instance: int = 77
+    arrivals: Arrivals = field(default_factory=Arrivals)
     held: list[bytes] | None = None
     requests: list[tuple[str, dict[str, Any]]] = field(default_factory=list)
     change: Callable[[dict[str, Any]], dict[str, Any]] = lambda response: response
@@ -114,15 +118,22 @@ class GraphAgent(ServingAgent):
             self._respond(payload)
         return [datagram for payload in held for datagram in self._kept(self._flow(payload[2:4]))]
 
+    def _answer(self, name: str, request: dict[str, Any]) -> dict[str, Any]:
+        graph: Any = self.graph
+        if name == "EndpointStatus":
+            return endpoint_status(graph, request, self.instance, self.arrivals)
+        answer = list_names if name == "ListNames" else list_endpoints
+        return answer(graph, request, lambda _question, _answer: self.version)
+
     def _respond(self, payload: bytes) -> None:
         place = (int.from_bytes(payload[2:4], "big") >> 4) - self.first_client
-        if place not in LISTS:
+        if not 0 <= place < len(SERVICES):
             return
-        name, answer = LISTS[place]
+        name = SERVICES[place]
         kind = f"microros_graph_msgs/srv/{name}"
         request = self.codec.decode(f"{kind}_Request", LITTLE + payload[4:])
         self.requests.append((name, request))
-        response = self.change(answer(self.graph, request, lambda _question, _answer: self.version))  # type: ignore[arg-type]
+        response = self.change(self._answer(name, request))
         body = self.codec.encode(f"{kind}_Response", response)[ENCAPSULATION_BYTES:]
         self.history.setdefault(payload[2:4], []).append(payload[:2] + payload[2:4] + self.damage(body))
 
@@ -148,8 +159,8 @@ def endpoint(node: str, number: int = 1, **changed: Any) -> GraphEndpoint:
 
 
 def graph_codec() -> Codec:
-    """Return a codec of both services of the graph server."""
-    names = tuple(Named(f"microros_graph_msgs/srv/{name}", None) for name, _ in LISTS.values())
+    """Return a codec of the services of the graph server."""
+    names = tuple(Named(f"microros_graph_msgs/srv/{name}", None) for name in SERVICES)
     return Codec(
         resolve_interfaces(names, InterfaceFinder.from_environment((shipped_folder(),)), Diagnostics())
     )

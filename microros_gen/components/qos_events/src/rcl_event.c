@@ -2,6 +2,7 @@
 #include "rcl/event.h"
 
 #include "microros/error.h"
+#include "microros/rcl_graph_event.h"
 #include "microros/rmw_deadlines.h"
 
 #include <stddef.h>
@@ -41,6 +42,9 @@ rcl_ret_t rcl_take_event(const rcl_event_t * event, void * event_info)
   }
   if (event_info == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "event_info");
+  }
+  if (rcl_graph_event_take(event->impl, event_info)) {
+    return RCL_RET_OK;
   }
   total = rmw_deadline_take(event->impl, &change) & (uint32_t)INT32_MAX; /* the type has no more */
   change &= (uint32_t)INT32_MAX;

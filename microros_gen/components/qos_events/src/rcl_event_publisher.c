@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rcl_event.h"
+#include "microros/rcl_graph_event.h"
 
 #include <stddef.h>
 
@@ -8,13 +9,11 @@ static const char * publisher_event_refusal(rcl_publisher_event_type_t event_typ
 {
   switch (event_type) {
     case RCL_PUBLISHER_OFFERED_DEADLINE_MISSED:
+    case RCL_PUBLISHER_OFFERED_INCOMPATIBLE_QOS:
+    case RCL_PUBLISHER_MATCHED:
       return NULL;
     case RCL_PUBLISHER_LIVELINESS_LOST:
       return MICROROS_ERROR_WORDS("liveliness: XRCE carries none");
-    case RCL_PUBLISHER_MATCHED:
-      return MICROROS_ERROR_WORDS("matched endpoints: XRCE reports none: count them with component graph");
-    case RCL_PUBLISHER_OFFERED_INCOMPATIBLE_QOS:
-      return MICROROS_ERROR_WORDS("incompatible QoS: XRCE reports none");
     case RCL_PUBLISHER_INCOMPATIBLE_TYPE:
     default:
       return MICROROS_ERROR_WORDS("incompatible type: XRCE reports none");
@@ -35,5 +34,8 @@ rcl_ret_t rcl_publisher_event_init(
   if (refusal != NULL) {
     return microros_error_named(RCL_RET_UNSUPPORTED, microros_error_event, refusal);
   }
-  return rcl_event_open(event, publisher->impl->data);
+  if (event_type == RCL_PUBLISHER_OFFERED_DEADLINE_MISSED) {
+    return rcl_event_open(event, publisher->impl->data);
+  }
+  return rcl_graph_event_open(event, publisher->impl->data, event_type != RCL_PUBLISHER_MATCHED);
 }

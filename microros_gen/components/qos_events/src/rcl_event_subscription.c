@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rcl_event.h"
+#include "microros/rcl_graph_event.h"
 
 #include <stddef.h>
 
@@ -8,13 +9,11 @@ static const char * subscription_event_refusal(rcl_subscription_event_type_t eve
 {
   switch (event_type) {
     case RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED:
+    case RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS:
+    case RCL_SUBSCRIPTION_MATCHED:
       return NULL;
     case RCL_SUBSCRIPTION_LIVELINESS_CHANGED:
       return MICROROS_ERROR_WORDS("liveliness: XRCE carries none");
-    case RCL_SUBSCRIPTION_MATCHED:
-      return MICROROS_ERROR_WORDS("matched endpoints: XRCE reports none: count them with component graph");
-    case RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS:
-      return MICROROS_ERROR_WORDS("incompatible QoS: XRCE reports none");
     case RCL_SUBSCRIPTION_MESSAGE_LOST:
       return MICROROS_ERROR_WORDS("lost messages: XRCE reports none");
     case RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE:
@@ -38,5 +37,8 @@ rcl_ret_t rcl_subscription_event_init(
   if (refusal != NULL) {
     return microros_error_named(RCL_RET_UNSUPPORTED, microros_error_event, refusal);
   }
-  return rcl_event_open(event, subscription->impl->data);
+  if (event_type == RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED) {
+    return rcl_event_open(event, subscription->impl->data);
+  }
+  return rcl_graph_event_open(event, subscription->impl->data, event_type != RCL_SUBSCRIPTION_MATCHED);
 }

@@ -87,6 +87,7 @@ static rcl_ret_t static_tf_check(
   const geometry_msgs__msg__TransformStamped * transforms, size_t count)
 {
   size_t size = kept->size;
+  size_t last = 0;
 
   for (size_t i = 0; i < count; ++i) {
     if (!static_tf_fits(&kept->data[0], &transforms[i])) {
@@ -99,12 +100,15 @@ static rcl_ret_t static_tf_check(
       static_tf_find(kept->data, kept->size, &transforms[i]) == kept->size &&
       static_tf_find(transforms, i, &transforms[i]) == i) {
       ++size;
+      last = i;
     }
   }
   if (size <= kept->capacity) {
     return RCL_RET_OK;
   }
-  microros_error_set(microros_error_tf_full, NULL, NULL, (uint32_t)kept->capacity, (uint32_t)size);
+  microros_error_set(
+    microros_error_tf, transforms[last].child_frame_id.data,
+    MICROROS_ERROR_WORDS("no room: raise limits of tf2_msgs/msg/TFMessage"), 0, 0);
   return RCL_RET_BAD_ALLOC;
 }
 
@@ -180,7 +184,7 @@ void rclc_static_tf_renew(const xrce_client_t * client)
 void rclc_static_tf_step(const xrce_client_t * client)
 {
   const xrce_endpoint_t * const writer = static_tf_writer(client);
-  cdr_fault_t fault; /* none: what was kept is within the limits */
+  cdr_fault_t fault; /* none: kept transforms are within the limits */
   uint8_t * room;
   size_t size;
 

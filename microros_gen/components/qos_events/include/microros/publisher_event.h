@@ -11,11 +11,11 @@ extern "C" {
 #endif
 
 /*
- * Begins to observe the deadline in the QoS of the publisher; without a deadline nothing is ever missed.
- * Finalize the event before the publisher. RCL_RET_EVENT_INVALID for NULL; RCL_RET_INVALID_ARGUMENT for an
- * invalid publisher; RCL_RET_ALREADY_INIT, also if the publisher has an event; RCL_RET_UNSUPPORTED, with a
- * text, for other types: XRCE carries no liveliness and reports neither matched nor incompatible endpoints.
- * rcl_publisher_get_subscription_count of component graph counts matched ones.
+ * Begins to observe the publisher: the deadline in its QoS, without which nothing is ever missed; and with the
+ * component `graph_events` endpoints that match, or do not because of their QoS. Finalize the event before the
+ * publisher. RCL_RET_EVENT_INVALID for NULL; RCL_RET_INVALID_ARGUMENT for an invalid publisher;
+ * RCL_RET_ALREADY_INIT, also if the publisher has an event of the type; RCL_RET_UNSUPPORTED, with a text, for
+ * other types: XRCE carries no liveliness.
  */
 rcl_ret_t rcl_publisher_event_init(
   rcl_event_t * event, const rcl_publisher_t * publisher, const rcl_publisher_event_type_t event_type);

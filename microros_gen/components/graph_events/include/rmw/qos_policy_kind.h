@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Policies of a QoS. */
+#ifndef MICROROS_RMW_QOS_POLICY_KIND_H
+#define MICROROS_RMW_QOS_POLICY_KIND_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum rmw_qos_policy_kind_e {
+  RMW_QOS_POLICY_INVALID = 1,
+  RMW_QOS_POLICY_DURABILITY = 2,
+  RMW_QOS_POLICY_DEADLINE = 4,
+  RMW_QOS_POLICY_LIVELINESS = 8,
+  RMW_QOS_POLICY_RELIABILITY = 16,
+  RMW_QOS_POLICY_HISTORY = 32,
+  RMW_QOS_POLICY_LIFESPAN = 64,
+  RMW_QOS_POLICY_DEPTH = 128,
+  RMW_QOS_POLICY_LIVELINESS_LEASE_DURATION = 256,
+  RMW_QOS_POLICY_AVOID_ROS_NAMESPACE_CONVENTIONS = 512
+} rmw_qos_policy_kind_t;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RMW_QOS_POLICY_KIND_H */

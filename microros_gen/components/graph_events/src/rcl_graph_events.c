@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* One request at a time, each for one event: when it was opened, and when the graph has changed. Whichever task receives
+ * makes them. */
+#include "microros/rcl_graph_events.h"
+
+#include "microros/lock.h"
+#include "microros/port.h"
+#include "microros/rcl_client_open.h"
+#include "microros/rcl_graph.h"
+#include "microros/rcl_graph_events_hooks.h"
+#include "microros/rmw_node.h"
+#include "microros/rmw_service.h"
+#include "microros/xrce_wire.h"
+#include "rcl/error_handling.h"
+#include "rmw/qos_profiles.h"
+
+/* Time until a request is sent once more: no server has answered, or it does not know the endpoint yet. */
+enum { EVENTS_AGAIN_MS = 1000 };
+
+static const rmw_node_t * events_node; /* the owner of the client */
+static rcl_client_t events_client;
+static int64_t events_sequence_number;
+static uint32_t events_graph;   /* the change of the graph that was asked about */
+static uint32_t events_due_ms;  /* while `events_pause`: no request before */
+static uint16_t events_current; /* the event of the request */
+static bool events_pause;
+static bool events_wait; /* for a response, at most until `events_due_ms` */
+static bool events_busy; /* a task makes requests */
+
+rcl_ret_t rcl_graph_events_open(const rcl_node_t * node)
+{
+  if (rmw_node_index(node->impl) != 0u) {
+    return RCL_RET_OK;
+  }
+  events_node = node->impl;
+  events_wait = false;
+  events_pause = false;
+  events_client = rcl_get_zero_initialized_client();
+  return rcl_client_open(
+    &events_client, node, ROSIDL_GET_SRV_TYPE_SUPPORT(microros_graph_msgs, srv, EndpointStatus),
+    "/microros_graph/endpoint_status", &rmw_qos_profile_services_default);
+}
+
+void rcl_graph_events_close(rcl_node_t * node)
+{
+  if (events_node == node->impl) {
+    (void)rcl_client_fini(&events_client, node); /* cannot fail: the node is open */
+    events_node = NULL;
+  }
+}
+
+static bool events_begin(void)
+{
+  bool is_free;
+
+  microros_lock();
+  is_free = !events_busy;
+  events_busy = true;
+  microros_unlock();
+  return is_free;
+}
+
+static void events_end(void)
+{
+  microros_lock();
+  events_busy = false;
+  microros_unlock();
+}
+
+static void events_rest(uint32_t now)
+{
+  events_due_ms = now + (uint32_t)EVENTS_AGAIN_MS;
+  events_pause = true;
+}
+
+static void events_answer(
+  rcl_graph_event_t * event, const microros_graph_msgs__srv__EndpointStatus_Response * response, uint32_t now)
+{
+  events_wait = false;
+  events_pause = false;
+  if (response->status == (uint8_t)microros_graph_msgs__srv__EndpointStatus_Response__UNKNOWN_NODE) {
+    events_rest(now); /* not discovered yet */
+  } else if (event->is_requested) {
+    event->is_due = false;
+    event->graph = events_graph;
+    if (
+      response->status == (uint8_t)microros_graph_msgs__srv__EndpointStatus_Response__OK &&
+      rcl_graph_event_is_open(event)) {
+      rcl_graph_event_answer(event, response);
+    }
+  } else {
+    /* asked for again */
+  }
+}
+
+static void events_take(uint32_t now)
+{
+  microros_graph_msgs__srv__EndpointStatus_Response response;
+  rmw_request_id_t header;
+
+  if (rcl_take_response(&events_client, &header, &response) != RCL_RET_OK) {
+    rcl_reset_error(); /* counted; it is asked for once more */
+    return;
+  }
+  microros_lock();
+  if (events_wait && header.sequence_number == events_sequence_number) {
+    events_answer(rcl_graph_event_at(events_current), &response, now);
+  }
+  microros_unlock();
+}
+
+/* Returns the next event that is due; false: none is. */
+static bool events_next(uint32_t graph)
+{
+  for (uint16_t i = 0; i < (uint16_t)RCL_GRAPH_EVENTS; ++i) {
+    const rcl_graph_event_t * event;
+
+    events_current = (uint16_t)((events_current + 1u) % (uint16_t)RCL_GRAPH_EVENTS);
+    event = rcl_graph_event_at(events_current);
+    if (rcl_graph_event_is_open(event) && (event->is_due || event->graph != graph)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+static void events_ask(uint32_t graph, uint32_t now)
+{
+  microros_graph_msgs__srv__EndpointStatus_Request request;
+  bool is_due;
+  bool fits = false;
+
+  microros_lock();
+  is_due = events_next(graph);
+  if (is_due) {
+    rcl_graph_event_t * const event = rcl_graph_event_at(events_current);
+
+    fits = rcl_graph_event_request(event, &request);
+    event->is_requested = fits;
+    event->is_due = fits; /* a name that cannot be asked for is not tried again before a change */
+    event->graph = graph;
+  }
+  microros_unlock();
+  if (!fits) {
+    return;
+  }
+  events_graph = graph;
+  events_wait = rcl_send_request(&events_client, &request, &events_sequence_number) == RCL_RET_OK;
+  if (!events_wait) {
+    rcl_reset_error(); /* no session, or no room: later */
+  }
+  events_rest(now);
+}
+
+void rcl_graph_events_follow(void)
+{
+  uint32_t now;
+
+  if (!rcl_client_is_valid(&events_client) || !events_begin()) {
+    return;
+  }
+  now = port_time_ms();
+  if (rmw_requester_is_ready(events_client.impl)) {
+    events_take(now);
+  }
+  if (!events_pause || xrce_is_due(now, events_due_ms)) {
+    events_wait = false;
+    events_pause = false;
+    events_ask(rcl_graph_changes(), now);
+  }
+  events_end();
+}
+
+uint32_t rcl_graph_events_left(const xrce_client_t * client, uint32_t left, uint32_t now)
+{
+  (void)client;
+  return events_pause ? xrce_sooner(left, events_due_ms, now) : left;
+}
