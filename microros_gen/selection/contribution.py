@@ -85,9 +85,9 @@ HOOK_POINTS: Mapping[str, HookPoint] = MappingProxyType(
 """Where components hook in; docs/architecture.md says when each is called."""
 
 STATE_SECTIONS = ("first", "streams", "input_streams", "parts", "tables", "queues", "services", "input")
-HANDLE_SECTIONS = ("handle", "handle_callbacks", "handle_data", "goal_handle")
+HANDLE_SECTIONS = ("handle", "handle_callbacks", "handle_data", "goal_handle", "wait_set")
 TRANSPORT_SECTIONS = ("transport", "line")
-"""Sections of members of the client, of a handle of the executor or of a goal, and of the transport."""
+"""Sections of members of the client, of a handle of the executor or of a goal, of a wait set, and of the transport."""
 RETAINED_SECTIONS = ("retained",)
 """Section of objects outside of the client that have to outlast a sleep as it does."""
 CONFIG_SECTIONS = ("errors", "transport", "session", "streams", "places", "memory")

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Missed deadlines, counted as rclpy's are: not before the first message, once a period, from the last message on. */
+#include "microros/rcl_event_places.h"
 #include "port_agent.h"
 #include "types.h"
 #include "unit.h"
@@ -179,6 +180,41 @@ static void test_callback(void)
   CHECK(told == 7u);
 }
 
+/* A wait set has events until they are taken, and returns when a deadline is missed. */
+static void test_wait_set(void)
+{
+  rcl_wait_set_t wait_set = rcl_get_zero_initialized_wait_set();
+  rmw_offered_deadline_missed_status_t status;
+  size_t index = 9;
+
+  CHECK(rcl_wait_set_add_event(NULL, &offered, NULL) == RCL_RET_INVALID_ARGUMENT);
+  CHECK(rcl_wait_set_add_event(&wait_set, &offered, NULL) == RCL_RET_WAIT_SET_INVALID);
+  CHECK(
+    rcl_wait_set_init(&wait_set, 0, 0, 0, 0, 0, RCL_WAIT_EVENTS_MAX + 1, &support.context, allocator) ==
+    RCL_RET_BAD_ALLOC);
+  CHECK(rcl_wait_set_init(&wait_set, 0, 0, 0, 0, 0, 2, &support.context, allocator) == RCL_RET_OK);
+  CHECK(wait_set.size_of_events == 2u && wait_set.events[0] == NULL && wait_set.events[1] == NULL);
+  CHECK(rcl_wait_set_add_event(&wait_set, NULL, NULL) == RCL_RET_INVALID_ARGUMENT);
+  publish(&publisher);
+  CHECK(rcl_take_event(&offered, &status) == RCL_RET_OK && rcl_take_event(&requested, &status) == RCL_RET_OK);
+  offer(); /* its deadline begins later */
+  CHECK(rcl_wait_set_add_event(&wait_set, &requested, NULL) == RCL_RET_OK);
+  CHECK(rcl_wait_set_add_event(&wait_set, &offered, &index) == RCL_RET_OK && index == 1u);
+  CHECK(rcl_wait_set_add_event(&wait_set, &offered, NULL) == RCL_RET_WAIT_SET_FULL);
+  CHECK(rcl_wait(&wait_set, 50 * ms) == RCL_RET_TIMEOUT);
+  CHECK(wait_set.events[0] == NULL && wait_set.events[1] == NULL);
+  for (int i = 0; i < 2; ++i) { /* not taken meanwhile */
+    CHECK(rcl_wait_set_clear(&wait_set) == RCL_RET_OK);
+    CHECK(rcl_wait_set_add_event(&wait_set, &offered, &index) == RCL_RET_OK && index == 0u);
+    CHECK(rcl_wait(&wait_set, 1000 * ms) == RCL_RET_OK && wait_set.events[0] == &offered);
+  }
+  CHECK(rcl_take_event(&offered, &status) == RCL_RET_OK && status.total_count_change == 1);
+  CHECK(rcl_wait(&wait_set, 0) == RCL_RET_TIMEOUT && wait_set.events[0] == NULL);
+  CHECK(rcl_wait_set_resize(&wait_set, 0, 0, 0, 0, 0, 0) == RCL_RET_OK && wait_set.events == NULL);
+  CHECK(rcl_wait(&wait_set, 0) == RCL_RET_WAIT_SET_EMPTY && rcl_wait_set_fini(&wait_set) == RCL_RET_OK);
+  (void)rcl_take_event(&requested, &status);
+}
+
 /* What the session loses was published all the same; what does not arrive is missed. */
 static void test_a_lost_session(void)
 {
@@ -243,6 +279,7 @@ int main(void)
   test_counts();
   test_a_late_message();
   test_callback();
+  test_wait_set();
   test_a_lost_session();
   test_ends();
   return 0;

@@ -71,19 +71,24 @@ static rcl_graph_event_t * event_of(const xrce_deadline_t * base)
 static void event_write_incompatible(
   const rcl_graph_event_t * event, rmw_qos_incompatible_event_status_t * status)
 {
-  status->total_count = (int32_t)(event->total & (uint32_t)INT32_MAX); /* the type has no more */
-  status->total_count_change = (int32_t)((event->total - event->total_taken) & (uint32_t)INT32_MAX);
+  const uint32_t total = event->total & (uint32_t)INT32_MAX; /* the type has no more */
+  const uint32_t change = (event->total - event->total_taken) & (uint32_t)INT32_MAX;
+
+  status->total_count = (int32_t)total;
+  status->total_count_change = (int32_t)change;
   status->last_policy_kind = (rmw_qos_policy_kind_t)event->policy;
 }
 
 static void event_write_matched(const rcl_graph_event_t * event, rmw_matched_status_t * status)
 {
+  const bool has_grown = event->current >= event->current_taken;
+  const uint32_t change =
+    has_grown ? event->current - event->current_taken : event->current_taken - event->current;
+
   status->total_count = event->total;
   status->total_count_change = event->total - event->total_taken;
   status->current_count = event->current;
-  status->current_count_change = event->current >= event->current_taken
-                                   ? (int32_t)(event->current - event->current_taken)
-                                   : -(int32_t)(event->current_taken - event->current);
+  status->current_count_change = has_grown ? (int32_t)change : -(int32_t)change;
 }
 
 bool rcl_graph_event_take(const xrce_deadline_t * event, void * event_info)
