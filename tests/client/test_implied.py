@@ -10,6 +10,8 @@ import pytest
 
 from microros_gen import compiler
 from microros_gen.compiler import pipeline
+from microros_gen.components.action_client.plan import ActionClientPlan
+from microros_gen.components.action_server.plan import ActionServerPlan
 from microros_gen.diagnostics import Diagnostics, Source, UserError
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.selection.component_file import parse_component
@@ -109,8 +111,10 @@ limits: {{"*": {{sequence: 4}}}}
     for places in kinds:
         found = [getattr(plan, "topic", getattr(plan, "name", "")) for plan in places.declared]
         names += [*found, *[""] * (places.max - len(found))]
-    (server,) = runtime.features.of("action_server").servers
-    (client,) = runtime.features.of("action_client").clients
+    server_part, client_part = (runtime.features.of(f"action_{side}") for side in ("server", "client"))
+    assert isinstance(server_part, ActionServerPlan)
+    assert isinstance(client_part, ActionClientPlan)
+    (server,), (client,) = server_part.servers, client_part.clients
     services = ("send_goal", "cancel_goal", "get_result")
     assert [names[at] for at in server.places] == [
         f"/walk/_action/{part}" for part in (*services, "feedback", "status")

@@ -40,8 +40,10 @@ TWINS = (
     ("/arm/fast", "publisher", False),
     ("/arm/order", "subscription", True),
 )
-COMPARED = ("/arm/count matched", "/arm/order matched")
-COMPARED += ("/arm/count incompatible", "/arm/fast incompatible", "/arm/order incompatible")
+COMPARED = (
+    *("/arm/count matched", "/arm/order matched"),
+    *("/arm/count incompatible", "/arm/fast incompatible", "/arm/order incompatible"),
+)
 
 
 class Board:

@@ -38,9 +38,10 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> ActionsPlan:
     del diagnostics
     nodes = context.application.nodes
     declared = [action for node in nodes for action in node.actions]
-    every = [*declared, *(action for node in nodes for action in node.action_clients)]
+    every = {type_name(action.type) for action in declared}
+    every |= {type_name(action.type) for node in nodes for action in node.action_clients}
     return ActionsPlan(
-        types=tuple(_type(name) for name in sorted({type_name(action.type) for action in every})),
+        types=tuple(_type(name) for name in sorted(every)),
         result_requests=max((action.waiting for action in declared), default=1),
     )
 
