@@ -95,7 +95,7 @@ def camera(program: Path, *arguments: str) -> Iterator[Camera]:
         ready = device.line()
         assert ready == "ready", process.communicate()
         yield device
-        _, errors = process.communicate("", timeout=20)
+        _, errors = process.communicate("", timeout=seconds(20))
         assert (process.returncode, errors) == (0, "")
 
 
