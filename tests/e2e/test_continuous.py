@@ -16,6 +16,7 @@ from tests.support.agent.process import AgentProcess, running_agent
 from tests.support.e2e.images import C_FILES, Images, started
 from tests.support.e2e.line_relay import LineRelay
 from tests.support.e2e.relay import Relay, lossy
+from tests.support.patience import seconds
 
 pytestmark = pytest.mark.ros
 

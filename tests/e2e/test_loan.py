@@ -15,7 +15,7 @@ from tests.support.agent.observer import Observer
 from tests.support.agent.process import AgentProcess
 from tests.support.e2e.images import C_FILES, Image, Images, started
 from tests.support.e2e.relay import Relay
-from tests.support.patience import deadline
+from tests.support.patience import deadline, seconds
 
 pytestmark = pytest.mark.ros
 
@@ -92,7 +92,7 @@ def screen(program: Path, relay: Relay, observer: Observer) -> Iterator[Screen]:
             assert time.monotonic() < end, "the device has not come"
             time.sleep(0.05)
         yield Screen(process)
-        _, errors = process.communicate("", timeout=20)
+        _, errors = process.communicate("", timeout=seconds(20))
         assert (process.returncode, errors) == (0, "")
 
 

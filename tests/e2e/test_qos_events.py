@@ -47,18 +47,18 @@ COMPARED = (
 
 
 class Board:
-    """The program: what its events say now, and the sums of all changes that they told."""
+    """The program: what its events say now, and the sums of all changes that they reported."""
 
     def __init__(self, program: CommandedProgram) -> None:
         self._program = program
         self.changes: Counter[str] = Counter()
-        self.told = 0
+        self.reported = 0
 
     def statuses(self) -> dict[str, list[int]]:
         """Return what rclpy's events have as well: total and current, or total and policy."""
         code, error, lines = self._program.call("take")
         assert (code, error) == (0, "")
-        self.told += int(lines.pop().partition(" ")[2])
+        self.reported += int(lines.pop().partition(" ")[2])
         found = {}
         for line in lines:
             topic, event, *numbers = line.split()
@@ -118,16 +118,16 @@ def test_counts_are_those_of_rclpy(domain: int, image_port: Relay, peer: LinePro
         peer.ask(do="add", topic="/arm/order", kind="publisher", lasting=True)
         peer.ask(do="add", topic="/arm/order", kind="publisher", reliable=False)
         alike(board, peer, order_matched=[1, 1], order_incompatible=[1, RELIABILITY])
-        told = board.told
+        before = board.reported
         peer.ask(do="remove", number=first)
         alike(board, peer, count_matched=[2, 1])
-        assert board.told == told + 1, "one that leaves is an event as well"
+        assert board.reported == before + 1, "one that leaves is an event as well"
         peer.ask(do="add", topic="/arm/count", kind="subscription")
         alike(board, peer, count_matched=[3, 2])
         before = dict(board.changes)
         assert before["/arm/count matched"] == 3
         assert before["/arm/count matched now"] == 2
-        assert board.told == sum(board.changes[name] for name in COMPARED) + 1
+        assert board.reported == sum(board.changes[name] for name in COMPARED) + 1
     image_port.connect(0)
     peer.ask(do="add", topic="/arm/count", kind="subscription")
     with running_agent(domain, "--domain", str(domain), "--graph-server") as agent:
