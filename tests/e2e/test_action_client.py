@@ -113,7 +113,7 @@ def test_a_goal_with_feedback_and_result(device: Device) -> None:
     order, identifier, state = device.peer.goals()[-1]
     assert [order, state] == [5, SUCCEEDED]
     assert device.ok(f"id {number}") == [identifier]
-    # The goal has ended: its handle is nobody's.
+    # The goal has ended, and its handle is not valid any more.
     code, error, _ = device.program.call(f"cancel {number}")
     assert (code, "goal_handle" in error) == (INVALID_ARGUMENT, True)
 

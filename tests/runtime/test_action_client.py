@@ -124,7 +124,7 @@ def test_callbacks_come_in_the_order_of_rclc(device: Device) -> None:
 
 @pytest.mark.parametrize("start_ms", [0, NEARLY_WRAPPED], ids=["zero", "wraps"])
 def test_a_goal_without_an_answer_is_not_accepted(device: Device, start_ms: int) -> None:
-    """A late acceptance is nobody's, and the place is free before."""
+    """A late acceptance is dropped, and the place is free before."""
     device.client.wait(start_ms)
     device.start()
     for order in (1, 2):

@@ -94,9 +94,9 @@ static void on_result(rclc_action_goal_handle_t * goal, void * ros_result_respon
     message->result.sequence.size);
 }
 
-static void on_cancel(rclc_action_goal_handle_t * goal, bool cancelled, void * context)
+static void on_cancel(rclc_action_goal_handle_t * goal, bool canceled, void * context)
 {
-  keep_numbers("cancel", number_of(goal, context), cancelled ? 1 : 0, NULL, 0);
+  keep_numbers("cancel", number_of(goal, context), canceled ? 1 : 0, NULL, 0);
 }
 
 static void begin(void)
@@ -108,8 +108,8 @@ static void begin(void)
   check(rclc_executor_init(&executor, &support.context, 1, &allocator), "executor");
   check(
     rclc_executor_add_action_client(
-      &executor, &client, GOALS, &result_message, &feedback_message, on_goal, on_feedback, on_result, on_cancel,
-      &client),
+      &executor, &client, GOALS, &result_message, &feedback_message, on_goal, on_feedback, on_result,
+      on_cancel, &client),
     "add");
 }
 

@@ -68,10 +68,10 @@ static rcl_ret_t make(const rcl_allocator_t * allocator)
   if (made == RCL_RET_OK) {
     made = rclc_executor_init(&executor, &support.context, 1, allocator);
   }
-  return made == RCL_RET_OK ? rclc_executor_add_action_client(
-                                &executor, &client, GOALS, &result, &feedback, on_goal, on_feedback, on_result,
-                                NULL, NULL)
-                            : made;
+  return made == RCL_RET_OK
+           ? rclc_executor_add_action_client(
+               &executor, &client, GOALS, &result, &feedback, on_goal, on_feedback, on_result, NULL, NULL)
+           : made;
 }
 
 /* Sends the goal that is to be sent next, if none is under way. */
@@ -91,7 +91,8 @@ int main(void)
 
   if (
     rclc_support_init(&support, 0, NULL, &allocator) != RCL_RET_OK ||
-    rclc_node_init_default(&node, "device", "arm", &support) != RCL_RET_OK || make(&allocator) != RCL_RET_OK) {
+    rclc_node_init_default(&node, "device", "arm", &support) != RCL_RET_OK ||
+    make(&allocator) != RCL_RET_OK) {
     return 1;
   }
   for (;;) {

@@ -73,10 +73,10 @@ static void on_result(rclc_action_goal_handle_t * goal, void * ros_result_respon
   report("result", goal, message->status, message->result.sequence.data, message->result.sequence.size);
 }
 
-static void on_cancel(rclc_action_goal_handle_t * goal, bool cancelled, void * context)
+static void on_cancel(rclc_action_goal_handle_t * goal, bool canceled, void * context)
 {
   (void)context;
-  report("cancel", goal, cancelled ? 1 : 0, NULL, 0);
+  report("cancel", goal, canceled ? 1 : 0, NULL, 0);
 }
 
 static rcl_ret_t init(void)

@@ -70,8 +70,9 @@ static rcl_ret_t client_close(rclc_action_client_t * client, rcl_node_t * node)
 {
   rcl_action_client_t * opened = &client->rcl_handle;
   const rcl_ret_t results[] = {
-    rcl_subscription_fini(&opened->feedback_subscription, node), rcl_client_fini(&opened->result_client, node),
-    rcl_client_fini(&opened->cancel_client, node), rcl_client_fini(&opened->goal_client, node)};
+    rcl_subscription_fini(&opened->feedback_subscription, node),
+    rcl_client_fini(&opened->result_client, node), rcl_client_fini(&opened->cancel_client, node),
+    rcl_client_fini(&opened->goal_client, node)};
   rcl_ret_t first = RCL_RET_OK;
 
   for (size_t i = 0; i < sizeof(results) / sizeof(results[0]); ++i) {

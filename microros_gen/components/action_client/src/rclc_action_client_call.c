@@ -148,7 +148,8 @@ static void call_expired(rclc_action_client_t * client, rclc_action_goal_handle_
     call_goal(client, goal);
   } else if (call_has_no_result(goal, result_ms)) {
     call_report(client, microros_error_action_client_result, result_ms);
-    (void)memcpy(client->ros_result_response, &unknown, sizeof(unknown)); /* the first member of every response */
+    (void)memcpy(
+      client->ros_result_response, &unknown, sizeof(unknown)); /* the first member of every response */
     call_result(client, goal);
   } else if (call_is_cancel_silent(goal, response_ms)) {
     call_report(client, microros_error_action_client_silent, response_ms);
@@ -156,28 +157,37 @@ static void call_expired(rclc_action_client_t * client, rclc_action_goal_handle_
     rmw_action_client_give_up(client->rcl_handle.cancel_client.impl, goal->cancel_request_sequence_number);
     goal->goal_cancelled = false;
     call_cancel(client, goal);
+  } else {
+    /* it has time left */
   }
+}
+
+/* The status is `accepted` only when the response came: then the time of the result runs. */
+static uint32_t call_goal_left(
+  const rclc_action_goal_handle_t * goal, uint32_t response_ms, uint32_t result_ms)
+{
+  if (goal->awaits_goal_response) {
+    return call_left(goal->since_ms, response_ms);
+  }
+  return goal->status == GOAL_STATE_ACCEPTED && result_ms != 0u ? call_left(goal->since_ms, result_ms)
+                                                                : UINT32_MAX;
 }
 
 uint32_t rclc_action_client_left(const rclc_action_client_t * client)
 {
   const uint32_t response_ms = client->declared->response_timeout_ms;
-  const uint32_t result_ms = client->declared->result_timeout_ms;
   uint32_t left = UINT32_MAX;
 
   for (size_t i = 0; i < client->goal_handles_memory_size; ++i) {
     const rclc_action_goal_handle_t * goal = &client->declared->goals[i];
-    uint32_t due = UINT32_MAX;
 
-    if (goal->is_used && goal->awaits_goal_response) {
-      due = call_left(goal->since_ms, response_ms);
-    } else if (goal->is_used && goal->status == GOAL_STATE_ACCEPTED && result_ms != 0u) {
-      due = call_left(goal->since_ms, result_ms);
-    }
-    left = due < left ? due : left;
-    if (goal->is_used && goal->awaits_cancel_response) {
-      due = call_left(goal->cancel_ms, response_ms);
+    if (goal->is_used) {
+      const uint32_t due = call_goal_left(goal, response_ms, client->declared->result_timeout_ms);
+      const uint32_t cancel =
+        goal->awaits_cancel_response ? call_left(goal->cancel_ms, response_ms) : UINT32_MAX;
+
       left = due < left ? due : left;
+      left = cancel < left ? cancel : left;
     }
   }
   return left;

@@ -12,9 +12,8 @@ static rcl_ret_t action_client_check(const rclc_executor_handle_t * handle)
 {
   const rclc_action_client_t * client = handle->callback_context;
 
-  return client->declared != NULL
-           ? RCL_RET_OK
-           : microros_error_refuse(RCL_RET_ACTION_CLIENT_INVALID, "action_client");
+  return client->declared != NULL ? RCL_RET_OK
+                                  : microros_error_refuse(RCL_RET_ACTION_CLIENT_INVALID, "action_client");
 }
 
 static rcl_ret_t action_client_look(
@@ -41,7 +40,7 @@ static rcl_ret_t action_client_look(
   return RCL_RET_OK;
 }
 
-/* A fault is reported with the callbacks of what was taken beside it. */
+/* A fault is reported with the callbacks of what else was taken. */
 static rcl_ret_t action_client_take(rclc_executor_handle_t * handle)
 {
   const rcl_ret_t result = action_client_check(handle);
@@ -88,8 +87,8 @@ rcl_ret_t rclc_executor_add_action_client(
   rclc_executor_t * executor, rclc_action_client_t * action_client, size_t handles_number,
   void * ros_result_response, void * ros_feedback, rclc_action_client_goal_callback_t goal_callback,
   rclc_action_client_feedback_callback_t feedback_callback,
-  rclc_action_client_result_callback_t result_callback,
-  rclc_action_client_cancel_callback_t cancel_callback, void * context)
+  rclc_action_client_result_callback_t result_callback, rclc_action_client_cancel_callback_t cancel_callback,
+  void * context)
 {
   static const rclc_handle_kind_t kind = {action_client_look, action_client_take, action_client_call};
   rclc_executor_handle_t * handle;
@@ -99,8 +98,7 @@ rcl_ret_t rclc_executor_add_action_client(
     executor == NULL || action_client == NULL || action_client->declared == NULL || handles_number == 0u ||
     ros_result_response == NULL || goal_callback == NULL || result_callback == NULL ||
     (feedback_callback != NULL && ros_feedback == NULL)) {
-    return microros_error_refuse(
-      RCL_RET_INVALID_ARGUMENT, "executor, action_client, messages or callbacks");
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "executor, action_client, messages or callbacks");
   }
   result = action_client_fits(action_client, handles_number);
   if (result != RCL_RET_OK) {

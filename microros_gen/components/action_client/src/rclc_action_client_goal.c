@@ -27,19 +27,19 @@ static void goal_put_4(uint8_t * to, uint32_t number)
 }
 
 /*
- * Device, time of day, time since the start, and number of the goal with the client's position. A server refuses an id
- * that it still knows: a board without the time of day would have to send a goal in the same millisecond after its start.
+ * Device, time of day, time since the start, and number of the goal. A server refuses an id that it still knows: a board
+ * without the time of day would have to send a goal in the same millisecond after its start.
  */
-static void goal_identify(rclc_action_client_t * client, uint8_t * uuid)
+static void goal_identify(const rclc_action_client_t * client, uint8_t * uuid)
 {
+  static uint32_t goals_sent; /* of all clients */
   const uint64_t epoch_ns = (uint64_t)port_time_epoch_ns();
-  const size_t at = (size_t)(client->declared - rclc_action_client_declared);
 
-  ++client->goals_sent;
+  ++goals_sent;
   goal_put_4(&uuid[0], rmw_action_client_key(client->rcl_handle.goal_client.impl));
   goal_put_4(&uuid[4], (uint32_t)(epoch_ns >> 16 & UINT32_MAX));
   goal_put_4(&uuid[8], port_time_ms());
-  goal_put_4(&uuid[12], client->goals_sent << 8 | (uint32_t)(at & UINT8_MAX));
+  goal_put_4(&uuid[12], goals_sent);
 }
 
 rclc_action_goal_handle_t * rclc_action_client_take_place(rclc_action_client_t * client)

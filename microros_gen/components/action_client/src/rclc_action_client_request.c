@@ -27,8 +27,8 @@ static rcl_ret_t request_goal(
   goal->ros_goal_request = ros_request;
   goal->since_ms = port_time_ms();
   (void)memcpy(ros_request, goal->goal_id.uuid, UUID_SIZE); /* the first member of every request */
-  result = rmw_requester_send(
-    client->rcl_handle.goal_client.impl, ros_request, &goal->goal_request_sequence_number);
+  result =
+    rmw_requester_send(client->rcl_handle.goal_client.impl, ros_request, &goal->goal_request_sequence_number);
   goal->awaits_goal_response = result == RCL_RET_OK;
   goal->is_used = goal->awaits_goal_response;
   if (goal->is_used && goal_handle != NULL) {

@@ -70,8 +70,7 @@ static void take_feedback(rclc_action_client_t * client)
     bool taken = false;
 
     if (!has_id || (goal != NULL && client->feedback_callback != NULL)) {
-      rclc_action_client_note(
-        client, rmw_subscription_take(subscription, client->ros_feedback, &taken));
+      rclc_action_client_note(client, rmw_subscription_take(subscription, client->ros_feedback, &taken));
       if (taken && goal != NULL) {
         goal->available_feedback = true;
       }

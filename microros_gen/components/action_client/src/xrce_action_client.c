@@ -9,8 +9,7 @@
 void xrce_action_client_give_up(const xrce_endpoint_t * endpoint, int64_t sequence_number)
 {
   const xrce_queue_t * first = &xrce_queues[XRCE_REQUESTERS_AT - XRCE_READERS_AT];
-  const xrce_queue_t * queue =
-    &xrce_queues[MICROROS_NODES_MAX + (uint32_t)endpoint->index - XRCE_READERS_AT];
+  const xrce_queue_t * queue = &xrce_queues[MICROROS_NODES_MAX + (uint32_t)endpoint->index - XRCE_READERS_AT];
   xrce_request_t * entries = &endpoint->client->requests[queue->first - first->first];
   xrce_requester_t * requester = xrce_requests_of(endpoint);
   const uint32_t sequence = (uint32_t)((uint64_t)sequence_number & UINT32_MAX);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Requests that are given up. Internal. */
+/* Requests whose replies nothing waits for any more. Internal. */
 #ifndef MICROROS_XRCE_ACTION_CLIENT_H
 #define MICROROS_XRCE_ACTION_CLIENT_H
 

@@ -43,11 +43,11 @@ typedef void (*rclc_action_client_result_callback_t)(
   rclc_action_goal_handle_t * goal_handle, void * ros_result_response, void * context);
 
 /*
- * Called once for the last cancel request of a goal, unless its result comes before. `cancelled`: the server will end the
+ * Called once for the last cancel request of a goal, unless its result comes before. `canceled`: the server will end the
  * goal, whose result follows; otherwise the goal goes on, is unknown, or there was no response within `response_timeout`.
  */
 typedef void (*rclc_action_client_cancel_callback_t)(
-  rclc_action_goal_handle_t * goal_handle, bool cancelled, void * context);
+  rclc_action_goal_handle_t * goal_handle, bool canceled, void * context);
 
 struct rclc_action_client_declared_t; /* microros/rclc_action_client.h */
 
@@ -66,7 +66,6 @@ typedef struct rclc_action_client_t {
   microros_service_type_t result_type;
   size_t goal_handles_memory_size; /* goals at once; 0: no executor runs it */
   rcl_ret_t fault;                 /* first one of the round */
-  uint32_t goals_sent;
   uint8_t session;
 } rclc_action_client_t;
 
@@ -114,8 +113,8 @@ rcl_ret_t rclc_executor_add_action_client(
   rclc_executor_t * executor, rclc_action_client_t * action_client, size_t handles_number,
   void * ros_result_response, void * ros_feedback, rclc_action_client_goal_callback_t goal_callback,
   rclc_action_client_feedback_callback_t feedback_callback,
-  rclc_action_client_result_callback_t result_callback,
-  rclc_action_client_cancel_callback_t cancel_callback, void * context);
+  rclc_action_client_result_callback_t result_callback, rclc_action_client_cancel_callback_t cancel_callback,
+  void * context);
 
 /* Removes it; its goals stay, and responses wait until it is added again. */
 rcl_ret_t rclc_executor_remove_action_client(
