@@ -210,7 +210,9 @@ void rclc_action_client_call(rclc_action_client_t * client)
 {
   call_marked(client);
   for (size_t i = 0; i < client->goal_handles_memory_size; ++i) {
-    call_expired(client, &client->declared->goals[i]);
+    rclc_action_goal_handle_t * goal = &client->declared->goals[i];
+
+    call_expired(client, goal);
   }
   call_send(client);
 }

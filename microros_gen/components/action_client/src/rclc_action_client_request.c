@@ -24,7 +24,7 @@ static rcl_ret_t request_goal(
       microros_error_action_client_goals, rclc_action_client_name(client), NULL, goals, goals + 1u);
     return RCL_RET_ERROR;
   }
-  goal->ros_goal_request = ros_request;
+  goal->ros_goal_request = (void *)ros_request;
   goal->since_ms = port_time_ms();
   (void)memcpy(ros_request, goal->goal_id.uuid, UUID_SIZE); /* the first member of every request */
   result =
