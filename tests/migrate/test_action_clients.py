@@ -21,7 +21,7 @@ def test_a_client_has_its_type_and_goals() -> None:
     assert "p/action/Walk" not in draft.interfaces
 
 
-def test_a_client_that_is_opened_again_is_there_once_and_beside_a_server() -> None:
+def test_a_client_that_is_opened_again_is_there_once_and_next_to_a_server() -> None:
     actions = adopted(program(f"{OPENS} {OPENS} {SERVES}")).draft.nodes[0].actions
     assert [action.is_client for action in actions] == [True, False]
 

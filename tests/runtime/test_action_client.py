@@ -106,7 +106,7 @@ def device(program: Path, tree: Tree) -> Iterator[Device]:
         yield Device(client, agent)
 
 
-def test_callbacks_come_in_the_order_of_rclc(device: Device) -> None:
+def test_callbacks_run_in_the_order_of_rclc(device: Device) -> None:
     """Everything arrives before one round: goal, feedback, cancel, result, one message of each."""
     device.start()
     first = device.active()
@@ -142,7 +142,7 @@ def test_a_goal_without_an_answer_is_not_accepted(device: Device, start_ms: int)
 
 
 @pytest.mark.parametrize("start_ms", [0, NEARLY_WRAPPED], ids=["zero", "wraps"])
-def test_a_result_that_does_not_come_is_unknown(device: Device, start_ms: int) -> None:
+def test_a_result_that_does_not_arrive_is_unknown(device: Device, start_ms: int) -> None:
     """The other goal keeps its request, although it is older."""
     device.client.wait(start_ms)
     device.start()
