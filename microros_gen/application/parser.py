@@ -266,7 +266,7 @@ def parse_agents(
         found.append(address)
     if len(found) > MOST_AGENTS:
         message = f"the list has {len(found)} agents; it may have {MOST_AGENTS}"
-        diagnostics.error(message, span, f"Keep the {MOST_AGENTS} nearest", id="MG-3183")
+        diagnostics.error(message, span, f"Keep {MOST_AGENTS} of them", id="MG-3183")
     if len({":" in host for host, _ in found}) > 1:
         message = "the agents have IPv4 and IPv6 addresses"
         diagnostics.error(message, span, "Give all of them addresses of one kind", id="MG-3184")

@@ -403,7 +403,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "more agents than connect_timeout is for": (
         "transport: {agents: [" + ", ".join(f'"10.0.0.{i}:1"' for i in range(1, 10)) + "]}\n",
-        "f:1:21: error: the list has 9 agents; it may have 8. Keep the 8 nearest",
+        "f:1:21: error: the list has 9 agents; it may have 8. Keep 8 of them",
     ),
     "agents with addresses of two kinds": (
         'transport: {agents: ["10.0.0.1:1", "[fd00::1]:1"]}\n',

@@ -186,6 +186,7 @@ nodes: [{name: device, namespace: /arm}]
 """
 
 
+@pytest.mark.system
 def test_parameters_go_on(images: Images, domain: int, tmp_path: Path) -> None:
     """The services of a node are there again at the next agent, with what was set before."""
     ports = free_ports(2)
@@ -218,6 +219,7 @@ limits: {"*": {string: 8, sequence: 4}}
 """
 
 
+@pytest.mark.system
 def test_a_pending_request_has_its_result(
     images: Images, observer: Observer, domain: int, tmp_path: Path
 ) -> None:
