@@ -42,8 +42,8 @@ from microros_gen.typesupport.plan.types import TypePlan
 
 ERROR_TEXT_SIZE = 160
 
-LOANED_MESSAGES = "loaned_messages"
-"""The component whose samples are used where they wait."""
+LOANS = "microros/xrce_loan.h"
+"""A component that replaces this header lets the application use samples where they wait."""
 
 
 @dataclass(frozen=True)
@@ -111,6 +111,10 @@ class Project:
         return f"examples/{self.name}/main.c"
 
 
+def _uses_samples_in_place(selection: Selection) -> bool:
+    return any(r.header == LOANS for c in selection.components for r in c.component.contributes.replaces)
+
+
 def plan_project(
     application: Application,
     selection: Selection,
@@ -151,7 +155,7 @@ def plan_project(
         # Memory that survives a sleep ends before the input buffer; a sample that is in use must not be overwritten.
         lends_input=bool(nodes)
         and not session.has_sleep
-        and not selection.has(LOANED_MESSAGES)
+        and not _uses_samples_in_place(selection)
         and all(queue.requested_bytes is None for queue in queues),
         keeps_output=own_driver,
         reliable_output=selection.has(STREAM_RELIABLE),

@@ -19,8 +19,11 @@ static size_t count_characters(const char * from, uint32_t length)
   return size;
 }
 
-static void get_text(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bound, const char * field)
+void cdr_get_string(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bound, const char * field)
 {
+  if (cdr_loan_string(in, text, bound, field)) {
+    return;
+  }
   const size_t capacity = (text->data == NULL) ? 0U : text->capacity;
   const uint32_t limit = cdr_in_limit((capacity == 0U) ? 0U : (capacity - 1U), bound);
   const uint32_t length = cdr_in_length(in, 1U, field);
@@ -44,13 +47,6 @@ static void get_text(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bo
       '\0'; /* do not write the NUL that all empty strings share (rosidl_runtime_c__String__init) */
   }
   text->size = size;
-}
-
-void cdr_get_string(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bound, const char * field)
-{
-  if (!cdr_loan_string(in, text, bound, field)) {
-    get_text(in, text, bound, field);
-  }
 }
 
 void cdr_get_strings(

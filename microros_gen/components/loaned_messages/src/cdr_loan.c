@@ -77,7 +77,7 @@ bool cdr_loan_string(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bo
 static void loan_swap(uint8_t * numbers, uint32_t count, uint32_t width)
 {
   for (uint32_t i = 0; i < count; ++i) {
-    uint8_t * number = &numbers[i * width];
+    uint8_t * number = &numbers[(size_t)i * width];
 
     for (uint32_t first = 0; first < width / 2u; ++first) {
       const uint8_t byte = number[first];
@@ -112,7 +112,9 @@ bool cdr_loan_sequence(cdr_in_t * in, void * sequence, uint32_t bound, uint32_t 
   }
   count = cdr_in_length(in, width, field);
   if (count > bound) {
-    cdr_in_refuse_above(in, field, count, bound, bound);
+    const uint32_t limit = bound;
+
+    cdr_in_refuse_above(in, field, count, limit, bound);
     count = 0;
   }
   padding = (0U - in->position) & (width - 1U);

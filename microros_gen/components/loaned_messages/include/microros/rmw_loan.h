@@ -24,8 +24,8 @@ extern const rmw_loan_t rmw_loans[];
 /* Returns false also for a closed subscription; `subscription` may be NULL. */
 bool rmw_loan_is_possible(const rmw_subscription_t * subscription);
 
-/* Takes the oldest sample; *message then belongs to the application until rmw_loan_return. NULL, with RMW_RET_OK,
- * if no sample waits or one is out already. */
+/* Takes the oldest sample; *message then belongs to the application until rmw_loan_return. It stays NULL, with
+ * RMW_RET_OK, without a sample or while one is out. */
 rmw_ret_t rmw_loan_take(const rmw_subscription_t * subscription, void ** message);
 
 /* Returns false if the message is not out. */
