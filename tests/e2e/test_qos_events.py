@@ -41,8 +41,11 @@ TWINS = (
     ("/arm/order", "subscription", True),
 )
 COMPARED = (
-    *("/arm/count matched", "/arm/order matched"),
-    *("/arm/count incompatible", "/arm/fast incompatible", "/arm/order incompatible"),
+    "/arm/count matched",
+    "/arm/order matched",
+    "/arm/count incompatible",
+    "/arm/fast incompatible",
+    "/arm/order incompatible",
 )
 
 

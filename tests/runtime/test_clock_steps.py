@@ -374,6 +374,7 @@ ELSEWHERE = {
     "parameters_held": "test_parameters_held.py: notices over the wrap; ages have 64 bits",
     "port_bare": "tests/firmware/c/unit_bare.c, unit_bare_timers.c and unit_console.c",
     "qos_events": "unit_qos_events.c: deadlines over the wrap",
+    "stamp": "unit_stamp.c: the end of the seconds of a stamp; the time has 64 bits",
     "service_call": "unit_service_call.c: a call over the wrap",
     "timers": "unit_days.c",
 }

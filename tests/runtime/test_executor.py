@@ -37,6 +37,7 @@ CHANGES = changed(
 THREE = AgentsPlan(declared=tuple(AgentPlan("127.0.0.1", 8888 + i) for i in range(3)), try_ms=300)
 UNITS = {
     "unit_clock.c": EXECUTOR,
+    "unit_stamp.c": EXECUTOR,
     "unit_timer.c": EXECUTOR,
     "unit_executor.c": EXECUTOR,
     "unit_executor_changes.c": CHANGES,
@@ -61,6 +62,7 @@ SELECTED = {
     "unit_new_data.c": ("new_data_callbacks",),
     "unit_qos_events.c": ("qos_events",),
     "unit_agents.c": ("agents",),
+    "unit_stamp.c": ("stamp",),
 }
 """Components that a unit has besides those of its plan."""
 
