@@ -15,6 +15,7 @@ static rcl_ret_t request_goal(
   rclc_action_client_t * client, void * ros_request, rclc_action_goal_handle_t ** goal_handle)
 {
   rclc_action_goal_handle_t * goal = rclc_action_client_take_place(client);
+  uint8_t * request = ros_request;
   rcl_ret_t result;
 
   if (goal == NULL) {
@@ -24,9 +25,9 @@ static rcl_ret_t request_goal(
       microros_error_action_client_goals, rclc_action_client_name(client), NULL, goals, goals + 1u);
     return RCL_RET_ERROR;
   }
-  goal->ros_goal_request = (void *)ros_request;
+  goal->ros_goal_request = (void *)&request[0];
   goal->since_ms = port_time_ms();
-  (void)memcpy(ros_request, goal->goal_id.uuid, UUID_SIZE); /* the first member of every request */
+  (void)memcpy(request, goal->goal_id.uuid, UUID_SIZE); /* the first member of every request */
   result =
     rmw_requester_send(client->rcl_handle.goal_client.impl, ros_request, &goal->goal_request_sequence_number);
   goal->awaits_goal_response = result == RCL_RET_OK;
