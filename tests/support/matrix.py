@@ -127,8 +127,8 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         "both-reference-tcp": _BUSY
         + _SERVES
         + _ASKS
-        + "profiles: [pure_sender]\ncomponents: [-publish, +services, +executor]\nentities: reference\n"
-        + "transport: {type: tcp}\n",
+        + "profiles: [pure_sender]\ncomponents: [-publish, +services, +executor, +time_sync]\nentities: reference\n"
+        + "transport: {type: tcp, agents: ['10.0.0.1:8888', '10.0.0.2:8888']}\n",
         "lent-serial": _LENT + "transport: {type: serial}\n",
         "lent-tcp": _LENT + "transport: {type: tcp}\n",
         "serial-sleep": _POOL + "components: [+sleep_cycles]\ntransport: {type: serial}\n",
