@@ -19,7 +19,7 @@ components: [+publish, +services, +executor, +timers, +multithread, +session_sta
   +parameters, +parameter_storage, +parameter_client, +lifecycle, +node_modes, +action_server, +action_client,
   +graph, +logger_services, +logging_float, +logging_wide, +name_substitutions, +publish_statistics,
   +ping, +session_close, +clock_ros, +service_call, +executor_nodes, +new_data_callbacks, +qos_events, +tf_broadcaster,
-  +graph_events, +stamp, +continuous_serialization, +loaned_messages, {choice}]
+  +graph_events, +clock_stamp, +continuous_serialization, +loaned_messages, {choice}]
 logging: [rosout, {{to: ring, level: debug}}, console, callback]
 nodes:
   - name: all

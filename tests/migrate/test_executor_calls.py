@@ -34,14 +34,14 @@ CALLS = {
     "rcl_subscription_set_on_new_message_callback(&subscription, on_new, NULL);": "new_data_callbacks",
     "rcl_client_set_on_new_response_callback(&client, on_new, NULL);": "new_data_callbacks",
     "rcl_subscription_event_init(&event, &subscription, RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED);": "qos_events",
-    "rclc_stamp(&clock, &stamp.sec, &stamp.nanosec);": "stamp",
+    "rclc_stamp(&clock, &stamp.sec, &stamp.nanosec);": "clock_stamp",
     "rmw_uros_epoch_stamp(&stamp.sec, &stamp.nanosec);": "time_sync",
 }
 HEADERS = {
     "service_call": "#include <rclc/service_call.h>",
     "executor_nodes": "#include <rclc/executor_nodes.h>",
     "qos_events": "#include <rcl/event.h>",
-    "stamp": "#include <rclc/stamp.h>",
+    "clock_stamp": "#include <rclc/stamp.h>",
     "time_sync": "#include <rmw_microros/rmw_microros.h>",
 }
 

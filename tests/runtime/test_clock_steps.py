@@ -364,6 +364,7 @@ ELSEWHERE = {
     "action_server": "test_action_server.py: results and goals over the wrap",
     "agents": "unit_agents.c: searches over the wrap and days apart",
     "clock": "unit_days.c",
+    "clock_stamp": "unit_stamp.c: the end of the seconds of a stamp; the time has 64 bits",
     "continuous_serialization": "test_continuous.py: fragments, time-outs and sessions over the wrap",
     "diagnosis": "tests/components/test_diagnosis.py: checks and shares over the wraps of ms and us",
     "executor": "unit_days.c",
@@ -374,7 +375,6 @@ ELSEWHERE = {
     "parameters_held": "test_parameters_held.py: notices over the wrap; ages have 64 bits",
     "port_bare": "tests/firmware/c/unit_bare.c, unit_bare_timers.c and unit_console.c",
     "qos_events": "unit_qos_events.c: deadlines over the wrap",
-    "stamp": "unit_stamp.c: the end of the seconds of a stamp; the time has 64 bits",
     "service_call": "unit_service_call.c: a call over the wrap",
     "timers": "unit_days.c",
 }

@@ -62,7 +62,7 @@ SELECTED = {
     "unit_new_data.c": ("new_data_callbacks",),
     "unit_qos_events.c": ("qos_events",),
     "unit_agents.c": ("agents",),
-    "unit_stamp.c": ("stamp",),
+    "unit_stamp.c": ("clock_stamp",),
 }
 """Components that a unit has besides those of its plan."""
 

@@ -242,7 +242,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "    subscriptions: [{topic: in, type: std_msgs/msg/Int32, qos: {deadline: 200 ms}}]\n",
         "transforms": _NODES.replace("    publishers:\n", "")
         + "components: [+tf_broadcaster, +multithread]\n",
-        "executor_events": _BOTH + "components: [+qos_events, +stamp]\n",
+        "executor_events": _BOTH + "components: [+qos_events, +clock_stamp]\n",
         "lifecycle": _NODES + _SURE + "components: [+lifecycle, +multithread]\n",
         "lifecycle_managed": _NODES
         + "      - {topic: sure, type: std_msgs/msg/UInt8, managed: true}\n"
