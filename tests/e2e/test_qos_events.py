@@ -121,10 +121,10 @@ def test_counts_are_those_of_rclpy(domain: int, image_port: Relay, peer: LinePro
         peer.ask(do="add", topic="/arm/order", kind="publisher", lasting=True)
         peer.ask(do="add", topic="/arm/order", kind="publisher", reliable=False)
         alike(board, peer, order_matched=[1, 1], order_incompatible=[1, RELIABILITY])
-        before = board.reported
+        reported = board.reported
         peer.ask(do="remove", number=first)
         alike(board, peer, count_matched=[2, 1])
-        assert board.reported == before + 1, "one that leaves is an event as well"
+        assert board.reported == reported + 1, "one that leaves is an event as well"
         peer.ask(do="add", topic="/arm/count", kind="subscription")
         alike(board, peer, count_matched=[3, 2])
         before = dict(board.changes)
