@@ -92,7 +92,6 @@ MENTIONS = {
     "lifecycle": 1,
     "liveliness_acknack": 2,
     "liveliness_hard": 2,
-    "loaned_messages": 1,
     "micro_ros_utilities": 1,
     "multithread": 3,
     "node": 1,
