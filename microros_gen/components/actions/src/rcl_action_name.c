@@ -5,11 +5,9 @@
 
 #include <stddef.h>
 
-/* What ROS 2 appends to the name of an action for its goal service. */
-static const char action_goal_part[] = "/_action/send_goal";
-
 bool rcl_action_is_named(const char * full, const rmw_name_t * name)
 {
+  static const char goal_part[] = "/_action/send_goal"; /* what ROS 2 appends for the goal service */
   size_t at = 0;
 
   for (size_t i = 0; i < sizeof(name->part) / sizeof(name->part[0]); ++i) {
@@ -20,5 +18,5 @@ bool rcl_action_is_named(const char * full, const rmw_name_t * name)
       ++at;
     }
   }
-  return microros_text_equals(&full[at], action_goal_part);
+  return microros_text_equals(&full[at], goal_part);
 }
