@@ -154,7 +154,7 @@ static void call_expired(rclc_action_client_t * client, rclc_action_goal_handle_
   } else if (call_is_cancel_silent(goal, response_ms)) {
     call_report(client, microros_error_action_client_silent, response_ms);
     goal->awaits_cancel_response = false;
-    rmw_action_client_give_up(client->rcl_handle.cancel_client.impl, goal->cancel_request_sequence_number);
+    rmw_action_client_abandon(client->rcl_handle.cancel_client.impl, goal->cancel_request_sequence_number);
     goal->goal_cancelled = false;
     call_cancel(client, goal);
   } else {

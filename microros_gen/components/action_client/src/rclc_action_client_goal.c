@@ -64,13 +64,13 @@ void rclc_action_client_free_place(rclc_action_goal_handle_t * goal)
 
   goal->is_used = false;
   if (goal->awaits_goal_response) {
-    rmw_action_client_give_up(opened->goal_client.impl, goal->goal_request_sequence_number);
+    rmw_action_client_abandon(opened->goal_client.impl, goal->goal_request_sequence_number);
   }
   if (goal->awaits_result_response) {
-    rmw_action_client_give_up(opened->result_client.impl, goal->result_request_sequence_number);
+    rmw_action_client_abandon(opened->result_client.impl, goal->result_request_sequence_number);
   }
   if (goal->awaits_cancel_response) {
-    rmw_action_client_give_up(opened->cancel_client.impl, goal->cancel_request_sequence_number);
+    rmw_action_client_abandon(opened->cancel_client.impl, goal->cancel_request_sequence_number);
   }
 }
 

@@ -61,7 +61,7 @@ static rcl_ret_t request_result(rclc_action_goal_handle_t * goal)
   rcl_ret_t result;
 
   if (goal->awaits_result_response) {
-    rmw_action_client_give_up(client, goal->result_request_sequence_number);
+    rmw_action_client_abandon(client, goal->result_request_sequence_number);
     goal->awaits_result_response = false;
   }
   result = rmw_requester_send(client, goal->goal_id.uuid, &goal->result_request_sequence_number);
@@ -96,7 +96,7 @@ static rcl_ret_t request_cancel(rclc_action_goal_handle_t * goal)
   (void)memset(&request, 0, sizeof(request)); /* without a time: this goal alone */
   request.goal_info.goal_id = goal->goal_id;
   if (goal->awaits_cancel_response && rmw_action_client_may_send(client)) {
-    rmw_action_client_give_up(client, goal->cancel_request_sequence_number);
+    rmw_action_client_abandon(client, goal->cancel_request_sequence_number);
   }
   result = rmw_requester_send(client, &request, &sequence_number);
   if (result != RCL_RET_OK) {

@@ -30,7 +30,7 @@ static void take_session(rclc_action_client_t * client)
     rclc_action_goal_handle_t * goal = &client->declared->goals[i];
 
     if (goal->is_used && goal->awaits_result_response) {
-      rmw_action_client_give_up(results, goal->result_request_sequence_number);
+      rmw_action_client_abandon(results, goal->result_request_sequence_number);
       goal->awaits_result_response = false;
       goal->result_due = true;
     }

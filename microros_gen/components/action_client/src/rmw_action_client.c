@@ -42,10 +42,10 @@ uint32_t rmw_action_client_key(const rmw_client_t * client)
   return result;
 }
 
-void rmw_action_client_give_up(const rmw_client_t * client, int64_t sequence_number)
+void rmw_action_client_abandon(const rmw_client_t * client, int64_t sequence_number)
 {
   microros_lock();
-  xrce_action_client_give_up(client->data, sequence_number);
+  xrce_action_client_abandon(client->data, sequence_number);
   microros_unlock();
 }
 

@@ -6,7 +6,7 @@
 #include "microros/xrce_services.h"
 #include "microros/xrce_wire.h"
 
-void xrce_action_client_give_up(const xrce_endpoint_t * endpoint, int64_t sequence_number)
+void xrce_action_client_abandon(const xrce_endpoint_t * endpoint, int64_t sequence_number)
 {
   const xrce_queue_t * first = &xrce_queues[XRCE_REQUESTERS_AT - XRCE_READERS_AT];
   const xrce_queue_t * queue = &xrce_queues[MICROROS_NODES_MAX + (uint32_t)endpoint->index - XRCE_READERS_AT];

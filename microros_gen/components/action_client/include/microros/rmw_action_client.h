@@ -24,7 +24,7 @@ uint8_t rmw_action_client_session(const rmw_client_t * client);
 uint32_t rmw_action_client_key(const rmw_client_t * client);
 
 /* Discards the reply to an outstanding request. */
-void rmw_action_client_give_up(const rmw_client_t * client, int64_t sequence_number);
+void rmw_action_client_abandon(const rmw_client_t * client, int64_t sequence_number);
 
 /* Copies the first `size` bytes of the oldest sample; false without one, or if it is shorter. */
 bool rmw_action_client_peek(const rmw_subscription_t * subscription, uint8_t * beginning, uint16_t size);

@@ -13,7 +13,7 @@ extern "C" {
 
 /* Frees the place of an outstanding request, whose reply is discarded from now on; nothing if it is not outstanding. It
  * is not reported as lost with a session either. */
-void xrce_action_client_give_up(const xrce_endpoint_t * endpoint, int64_t sequence_number);
+void xrce_action_client_abandon(const xrce_endpoint_t * endpoint, int64_t sequence_number);
 
 #ifdef __cplusplus
 }
