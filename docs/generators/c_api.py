@@ -85,6 +85,8 @@ def headers() -> tuple[Header, ...]:
     found = dict(PORT_HEADERS)
     for component in _ready():
         found |= dict.fromkeys(component.headers, component.name)
+    for component in _ready():  # one that replaces an empty header says what is in it
+        found |= {r.header: component.name for r in component.contributes.replaces if r.header in found}
     found.pop(CONFIG)
     everything = frozenset(found)
     return tuple(Header(n, found[n], tuple(_sections(found[n], n, everything))) for n in sorted(found))

@@ -55,6 +55,7 @@ PREFIXES = (
     "rmw_",
     "rosidl_",
     "xrce_",
+    "ucdr_",
     "uxr_",
     "cdr_",
     "port_",
