@@ -52,6 +52,9 @@ enum {
   microros_error_blocks_taken = 65,
 };
 
+/* The largest number of an error of the selected components. */
+#define MICROROS_ERROR_LARGEST 65u
+
 /* Sets the last error; returns `result`. */
 int32_t microros_error_code(int32_t result, microros_error_t error);
 

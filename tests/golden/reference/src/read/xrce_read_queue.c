@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The queues: rings of slots of one size each. */
 #include "microros/xrce_client.h"
+#include "microros/xrce_loan.h"
 #include "microros/xrce_read.h"
 
 #include <string.h>
@@ -22,6 +23,21 @@ static void queue_drop_oldest(xrce_receiver_t * receiver, const xrce_queue_t * q
 {
   receiver->head = queue_slot(receiver, queue, 1);
   --receiver->count;
+}
+
+/* Frees a slot of a full queue: that of the oldest sample or, while that is in use, of the newest other one. */
+static bool queue_make_room(
+  const xrce_client_t * client, xrce_receiver_t * receiver, const xrce_queue_t * queue)
+{
+  if (!xrce_loan_is_out(client, receiver)) {
+    queue_drop_oldest(receiver, queue);
+    return true;
+  }
+  if (receiver->count == 1u) {
+    return false;
+  }
+  --receiver->count;
+  return true;
 }
 
 static uint8_t * queue_bytes(xrce_client_t * client, const xrce_queue_t * queue, uint8_t slot)
@@ -54,10 +70,9 @@ void xrce_read_keep(
 
   if (receiver->count == queue->slots) {
     xrce_read_drop(client, receiver);
-    if (reliable) {
+    if (reliable || !queue_make_room(client, receiver, queue)) {
       return;
     }
-    queue_drop_oldest(receiver, queue);
   }
   (void)memcpy(xrce_read_free_slot(client, receiver), sample->data, sample->size);
   xrce_read_fill(client, receiver, sample);
@@ -70,7 +85,7 @@ bool xrce_read_peek(const xrce_endpoint_t * endpoint, xrce_sample_t * sample)
   const xrce_queue_t * queue = xrce_read_queue(client, receiver);
   const xrce_slot_t * slot = &client->slots[queue->first + receiver->head];
 
-  if (receiver->count == 0u) {
+  if (receiver->count == 0u || xrce_loan_is_out(client, receiver)) {
     return false;
   }
   sample->data = queue_bytes(client, queue, receiver->head);

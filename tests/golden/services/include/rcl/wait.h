@@ -33,7 +33,7 @@ typedef struct rcl_timer_s {
   void * impl;
 } rcl_timer_t;
 
-typedef struct rcl_event_s rcl_event_t; /* XRCE has no events */
+typedef struct rcl_event_s rcl_event_t; /* rcl/event.h, with the component qos_events */
 
 typedef struct rcl_wait_set_impl_s rcl_wait_set_impl_t;
 

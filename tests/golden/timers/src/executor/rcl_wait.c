@@ -2,6 +2,7 @@
 #include "microros/error.h"
 #include "microros/rcl_guard_condition.h"
 #include "microros/rcl_timer.h"
+#include "microros/rcl_wait_events.h"
 #include "microros/rcl_wait_set.h"
 #include "microros/rcl_waiting.h"
 
@@ -57,6 +58,7 @@ static rcl_ret_t wait_look(const rcl_wait_set_t * wait_set, wait_look_t * look)
   look->any = false;
   look->look_again_ns = INT64_MAX;
   look_at_guard_conditions(wait_set, look);
+  look->any = rcl_wait_events_look(wait_set, look->settle) || look->any;
   result = look_at_timers(wait_set, look);
   return result;
 }
@@ -75,7 +77,7 @@ rcl_ret_t rcl_wait(rcl_wait_set_t * wait_set, int64_t timeout)
   }
   if (
     wait_set->size_of_subscriptions + wait_set->size_of_guard_conditions + wait_set->size_of_timers +
-      wait_set->size_of_clients + wait_set->size_of_services ==
+      wait_set->size_of_clients + wait_set->size_of_services + rcl_wait_events_size(wait_set) ==
     0u) {
     return microros_error_named(RCL_RET_WAIT_SET_EMPTY, microros_error_executor, "the wait set is empty");
   }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
+#include "microros/rcl_wait_events.h"
 #include "microros/rcl_wait_set.h"
 
 #include <string.h>
@@ -61,6 +62,7 @@ rcl_ret_t rcl_wait_set_clear(rcl_wait_set_t * wait_set)
   }
   (void)memset(wait_set->impl->timers, 0, sizeof(wait_set->impl->timers));
   wait_set->impl->timer_count = 0;
+  rcl_wait_events_clear(wait_set);
   return RCL_RET_OK;
 }
 
@@ -79,11 +81,12 @@ rcl_ret_t rcl_wait_set_resize(
     !set_fits("timers", timers_size, MICROROS_TIMERS_MAX) ||
     !set_fits("clients", clients_size, 0) ||
     !set_fits("services", services_size, 0) ||
-    !set_fits("events", events_size, 0)) {
+    !set_fits("events", events_size, RCL_WAIT_EVENTS_MAX)) {
     return RCL_RET_BAD_ALLOC;
   }
   wait_set->timers = timers_size != 0u ? wait_set->impl->timers : NULL;
   wait_set->size_of_timers = timers_size;
+  rcl_wait_events_resize(wait_set, events_size);
   return RCL_RET_OK;
 }
 
