@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Events about matched endpoints and incompatible QoS: a device has the counts of rclpy's events of twin endpoints."""
+"""Events about matched endpoints and incompatible QoS: a device has the counts of rclpy's events of like endpoints."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ nodes:
 """
 STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror")
 DURABILITY, RELIABILITY = 2, 16
-TWINS = (
+OBSERVED = (
     ("/arm/count", "publisher", True),
     ("/arm/fast", "publisher", False),
     ("/arm/order", "subscription", True),
@@ -50,18 +50,18 @@ COMPARED = (
 
 
 class Board:
-    """The program: what its events say now, and the sums of all changes that they reported."""
+    """The program: what its events say now, and the sums of all changes that they told."""
 
     def __init__(self, program: CommandedProgram) -> None:
         self._program = program
         self.changes: Counter[str] = Counter()
-        self.reported = 0
+        self.callbacks = 0
 
     def statuses(self) -> dict[str, list[int]]:
         """Return what rclpy's events have as well: total and current, or total and policy."""
         code, error, lines = self._program.call("take")
         assert (code, error) == (0, "")
-        self.reported += int(lines.pop().partition(" ")[2])
+        self.callbacks += int(lines.pop().partition(" ")[2])
         found = {}
         for line in lines:
             topic, event, *numbers = line.split()
@@ -74,12 +74,12 @@ class Board:
 
 
 def alike(board: Board, peer: LineProcess | None, **wanted: list[int]) -> None:
-    """Wait until both say the same, and of some events what is wanted; None: the twins have other totals."""
+    """Wait until both say the same, and of some events what is wanted; None: those of rclpy have other totals."""
     expected = {f"/arm/{name.replace('_', ' ')}": status for name, status in wanted.items()}
     end = deadline(15)
     while True:
-        twins = peer.ask(do="statuses") if peer is not None else {}
-        found, other = board.statuses(), {name: twins[name] for name in COMPARED if twins}
+        reference = peer.ask(do="statuses") if peer is not None else {}
+        found, other = board.statuses(), {name: reference[name] for name in COMPARED if reference}
         if {**found, **other, **expected} == found:
             return
         assert time.monotonic() < end, (found, other, wanted)
@@ -95,8 +95,8 @@ def program(images: Images, image_port: Relay, tmp_path_factory: pytest.TempPath
 @pytest.fixture
 def peer(domain: int) -> Iterator[LineProcess]:
     with event_peer(domain) as process:
-        for topic, kind, reliable in TWINS:
-            process.ask(do="twin", topic=topic, kind=kind, reliable=reliable)
+        for topic, kind, reliable in OBSERVED:
+            process.ask(do="observe", topic=topic, kind=kind, reliable=reliable)
         yield process
 
 
@@ -121,16 +121,16 @@ def test_counts_are_those_of_rclpy(domain: int, image_port: Relay, peer: LinePro
         peer.ask(do="add", topic="/arm/order", kind="publisher", lasting=True)
         peer.ask(do="add", topic="/arm/order", kind="publisher", reliable=False)
         alike(board, peer, order_matched=[1, 1], order_incompatible=[1, RELIABILITY])
-        reported = board.reported
+        before = board.callbacks
         peer.ask(do="remove", number=first)
         alike(board, peer, count_matched=[2, 1])
-        assert board.reported == reported + 1, "one that leaves is an event as well"
+        assert board.callbacks == before + 1, "one that leaves is an event as well"
         peer.ask(do="add", topic="/arm/count", kind="subscription")
         alike(board, peer, count_matched=[3, 2])
-        before = dict(board.changes)
-        assert before["/arm/count matched"] == 3
-        assert before["/arm/count matched now"] == 2
-        assert board.reported == sum(board.changes[name] for name in COMPARED) + 1
+        changes = dict(board.changes)
+        assert changes["/arm/count matched"] == 3
+        assert changes["/arm/count matched now"] == 2
+        assert board.callbacks == sum(board.changes[name] for name in COMPARED) + 1
     image_port.connect(0)
     peer.ask(do="add", topic="/arm/count", kind="subscription")
     with running_agent(domain, "--domain", str(domain), "--graph-server") as agent:

@@ -96,7 +96,7 @@ def test_changes_of_the_graph(device: Device) -> None:
     assert len(device.agent.requests) == count, "nothing is asked without a change"
 
 
-def test_another_server_begins_at_zero(device: Device) -> None:
+def test_another_server_counts_again(device: Device) -> None:
     device.change(1, 2)
     device.client.ok("open")
     device.spin()

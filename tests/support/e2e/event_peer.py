@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An rclpy process with twins of a device's endpoints, what rclpy's events say of them, and endpoints that they meet.
+"""An rclpy process with endpoints like those of a device, what rclpy's events say of them, and others that they meet.
 
-One JSON object a line: {"do": "twin", "topic": "/a", "kind": "publisher", "reliable": true}, {"do": "statuses"} (lists
-by topic and event: total and current, or total and policy), {"do": "add", "topic": "/a", "kind": "subscription",
+One JSON object a line: {"do": "observe", "topic": "/a", "kind": "publisher", "reliable": true}, {"do": "statuses"}
+(lists by topic and event: total and current, or total and policy), {"do": "add", "topic": "/a", "kind": "subscription",
 "reliable": true, "lasting": false} (answers its number), {"do": "remove", "number": 0}.
 """
 
@@ -30,10 +30,10 @@ class _Peer:
     def __init__(self, node: Any) -> None:
         self._node = node
         self._added: list[Any] = []
-        self._twins: list[Any] = []
+        self._observed: list[Any] = []
         self._statuses: dict[str, list[int]] = {}
 
-    def twin(self, topic: str, kind: str, reliable: bool) -> bool:
+    def observe(self, topic: str, kind: str, reliable: bool) -> bool:
         from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
 
         def matched(status: Any) -> None:
@@ -46,7 +46,7 @@ class _Peer:
         callbacks = events(matched=matched, incompatible_qos=incompatible)
         self._statuses[f"{topic} matched"] = [0, 0]
         self._statuses[f"{topic} incompatible"] = [0, 1]
-        self._twins.append(self._made(topic, kind, reliable, False, event_callbacks=callbacks))
+        self._observed.append(self._made(topic, kind, reliable, False, event_callbacks=callbacks))
         return True
 
     def statuses(self) -> dict[str, list[int]]:
@@ -82,7 +82,7 @@ def main() -> None:
     from rclpy.executors import SingleThreadedExecutor
 
     rclpy.init()
-    node = rclpy.create_node("twin")
+    node = rclpy.create_node("observed")
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     threading.Thread(target=executor.spin, daemon=True).start()
