@@ -211,10 +211,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "[get, set, set_atomically, list, describe, get_types, watch]}\n"
         + "components: [+parameter_client, +subscribe, +multithread]\n",
         "graph": _NODES + _SURE + "components: [+graph, +multithread]\nmemory: {arena: 4096}\n",
-        "graph_events": _BOTH
-        + "    subscriptions:\n"
-        + _HEARD
-        + "components: [+subscribe, +graph_events, +multithread]\nmemory: {arena: 4096}\n",
+        "graph_events": _NODES + _SURE + "components: [+graph_events, +multithread]\nmemory: {arena: 4096}\n",
         "graph_topic": _NODES + _SURE + "components: [+graph_topic, +multithread]\nmemory: {arena: 4096}\n",
         "graph_topic_xml": _NODES
         + _SURE
