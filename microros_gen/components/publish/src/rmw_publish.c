@@ -2,6 +2,7 @@
 #include "microros/error.h"
 #include "microros/lock.h"
 #include "microros/rmw_encode.h"
+#include "microros/rmw_local_publish.h"
 #include "microros/rmw_publish_parts.h"
 #include "microros/rmw_publisher.h"
 #include "microros/xrce_routes.h"
@@ -44,15 +45,17 @@ rmw_ret_t rmw_publisher_write(const rmw_publisher_t * publisher, const void * ro
   cdr_fault_t fault; /* set if the message is refused */
   xrce_endpoint_t * writer = publisher->data;
   rmw_ret_t result = RMW_RET_OK;
-  xrce_write_t outcome;
 
   if (rmw_publish_parts(writer, ros_message, &result)) {
     return result;
   }
   microros_lock();
-  outcome = xrce_write_message(writer, ros_message, &fault);
-  if (outcome != XRCE_WRITTEN) {
-    result = publish_report(writer, outcome, &fault);
+  if (!rmw_local_publish(writer, ros_message, &result)) {
+    const xrce_write_t outcome = xrce_write_message(writer, ros_message, &fault);
+
+    if (outcome != XRCE_WRITTEN) {
+      result = publish_report(writer, outcome, &fault);
+    }
   }
   microros_unlock();
   return result;
@@ -93,10 +96,12 @@ rmw_ret_t rmw_publish_serialized_message(
     microros_error_set(microros_error_serialized, NULL, NULL, (uint32_t)size, (uint32_t)capacity);
     return RMW_RET_ERROR;
   }
+  bytes = &bytes[PUBLISH_ENCAPSULATION_SIZE];
+  size -= PUBLISH_ENCAPSULATION_SIZE;
   microros_lock();
-  result = publish_report(
-    writer, xrce_write_body(writer, &bytes[PUBLISH_ENCAPSULATION_SIZE], size - PUBLISH_ENCAPSULATION_SIZE),
-    &none);
+  if (!rmw_local_publish_body(writer, bytes, size, &result)) {
+    result = publish_report(writer, xrce_write_body(writer, bytes, size), &none);
+  }
   microros_unlock();
   return result;
 }

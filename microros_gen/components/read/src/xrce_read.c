@@ -132,6 +132,9 @@ static bool read_needs_request(xrce_client_t * client, uint16_t index, uint32_t 
   if (receiver->resting || state->stale || state->level != xrce_place_complete(read_place(index))) {
     return false;
   }
+  if (xrce_place_is_local(read_place(index))) {
+    return false; /* complete without objects that could be read from */
+  }
   *samples = read_samples(client, index);
   return *samples != 0u;
 }

@@ -4,6 +4,7 @@
 #include "microros/port.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_decode.h"
+#include "microros/rmw_local_take.h"
 #include "microros/rmw_receiver.h"
 #include "microros/rmw_subscription.h"
 #include "microros/xrce_read.h"
@@ -24,7 +25,7 @@ void rmw_subscription_describe(const rmw_subscription_t * subscription, rmw_mess
   int64_t epoch_ns;
 
   (void)memset(info, 0, sizeof(*info));
-  if (!xrce_read_peek(subscription->data, &sample)) {
+  if (rmw_local_describe(subscription->data, info) || !xrce_read_peek(subscription->data, &sample)) {
     return;
   }
   age_ns = (int64_t)(port_time_ms() - sample.arrived_ms) * TAKE_NS_PER_MS;
@@ -42,6 +43,10 @@ static rmw_ret_t take_message(const rmw_subscription_t * subscription, void * ro
   rmw_ret_t result;
 
   *taken = false;
+  if (rmw_local_take(endpoint, ros_message, &result)) {
+    *taken = result == RMW_RET_OK;
+    return result;
+  }
   if (rmw_receiver_report(endpoint)) {
     return RMW_RET_ERROR;
   }
@@ -59,9 +64,14 @@ static rmw_ret_t take_serialized(
 {
   const xrce_endpoint_t * endpoint = subscription->data;
   xrce_sample_t sample;
+  rmw_ret_t result;
   size_t size;
 
   *taken = false;
+  if (rmw_local_take_serialized(endpoint, serialized_message, &result)) {
+    *taken = result == RMW_RET_OK;
+    return result;
+  }
   if (rmw_receiver_report(endpoint)) {
     return RMW_RET_ERROR;
   }
