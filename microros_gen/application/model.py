@@ -120,6 +120,7 @@ class EndpointDecl:
     same. `usual_limits` are then those of its component, which hold where the application says nothing but `*`.
     `streamed`: its samples are taken piece by piece and never wait; `outside_ros`: `topic` is the name in DDS.
     `managed`: a publisher that drops what is published while its node is not active.
+    `local`: whether its messages are exchanged inside the image without the agent: `never`, `also` or `only`.
     """
 
     kind: str
@@ -141,6 +142,7 @@ class EndpointDecl:
     streamed: bool = False
     outside_ros: bool = False
     managed: bool = False
+    local: str = "never"
 
     @property
     def takes_handle(self) -> bool:

@@ -139,6 +139,7 @@ def _endpoints(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Iter
                 queue_bytes_span=span_of(child(endpoint, "queue_bytes")),
                 stored=text_of(child(endpoint, "storage")) != "none",
                 managed=bool_of(child(endpoint, "managed")) is True,
+                local=text_of(child(endpoint, "local")) or EndpointDecl.local,
             )
 
 

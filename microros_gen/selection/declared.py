@@ -69,6 +69,10 @@ def selecting_demands(application: Application) -> Iterator[Demand]:
     for node in application.nodes:
         for mode in node.modes[:1]:
             yield Demand("node_modes", f"modes: of a node{at(mode.span)}", mode.span)
+        for endpoint in node.endpoints:
+            if endpoint.local != "never":
+                text = f"local: {endpoint.local} of {endpoint.topic}{at(endpoint.span)}"
+                yield Demand("local_delivery", text, endpoint.span)
 
 
 def without_components(nodes: Iterable[NodeDecl], dropped: Container[str]) -> tuple[NodeDecl, ...]:

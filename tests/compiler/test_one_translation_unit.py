@@ -29,8 +29,12 @@ nodes:
       - {{node: /motor, elements: 3, operations: [get, set, set_atomically, list, describe, get_types, watch]}}
     actions: [{{name: find, type: tf2_msgs/action/LookupTransform, goals: 2}}]
     action_clients: [{{name: find, type: tf2_msgs/action/LookupTransform, goals: 2}}]
-    publishers: [{{topic: out, type: std_msgs/msg/String, limits: {{string: 20}}, managed: true}}]
-    subscriptions: [{{topic: in, type: std_msgs/msg/String, limits: {{string: 20}}, queue: 2}}]
+    publishers:
+      - {{topic: out, type: std_msgs/msg/String, limits: {{string: 20}}, managed: true}}
+      - {{topic: near, type: std_msgs/msg/String, limits: {{string: 20}}, local: only}}
+    subscriptions:
+      - {{topic: in, type: std_msgs/msg/String, limits: {{string: 20}}, queue: 2}}
+      - {{topic: near, type: std_msgs/msg/String, limits: {{string: 20}}, local: only}}
     services: [{{name: on, type: std_srvs/srv/SetBool, limits: {{message: 9}}}}]
     clients: [{{name: ask, type: std_srvs/srv/SetBool, limits: {{message: 20}}}}]
     timers: [{{name: tick, period: 50 ms, managed: true}}]

@@ -370,6 +370,7 @@ ELSEWHERE = {
     "executor": "unit_days.c",
     "graph_events": "test_graph_events.py: a server that is asked again, over the wrap",
     "lifecycle": "test_lifecycle.py: parts and timers over the wrap",
+    "local_delivery": "tests/components/test_local_delivery.py: times over the wrap of ms",
     "node_modes": "test_modes.py: services over the wrap; times of events have 64 bits",
     "parameter_client": "test_parameter_client.py: a call over the wrap",
     "parameters_held": "test_parameters_held.py: notices over the wrap; ages have 64 bits",

@@ -90,6 +90,7 @@ MENTIONS = {
     "executor": 2,
     "framing": 1,
     "lifecycle": 1,
+    "local_delivery": 1,
     "liveliness_acknack": 2,
     "liveliness_hard": 2,
     "micro_ros_utilities": 1,

@@ -173,6 +173,10 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "    subscriptions: [{topic: in, type: std_msgs/msg/Int32, qos: {deadline: 200 ms}}]\n"
         + "profiles: [pure_sender, pure_reader]\ncomponents: [+services, +executor, +service_call, "
         + "+executor_nodes, +new_data_callbacks, +qos_events]\nerrors: code\n",
+        "local": _BUSY
+        + "    publishers: [{topic: near, type: std_msgs/msg/String, local: only}]\n"
+        + "    subscriptions: [{topic: near, type: std_msgs/msg/String, local: only, queue: 2}]\n"
+        + "profiles: [pure_sender, pure_reader]\nerrors: code\n",
         "diagnosis": _BUSY
         + "    parameters: [{name: speed, type: double}]\n    modes: {SLOW: {speed: 0.5}}\n"
         + "    timers: [{name: tick, period: 50 ms}]\nprofiles: [managed_service]\n"

@@ -102,6 +102,15 @@ def _endpoint_cases(
             f"'nodes[0].{key}[0].limits' must be a mapping such as {{string: 32, sequence: 8}}",
         ),
     }
+    if kind in ("publisher", "subscription"):
+        cases[f"{path}.local"] = KeyCase(
+            one(f"{entry}, local: also"),
+            lambda a: _endpoint(a).local,
+            "also",
+            one(f"{name_key}: a, type: {type_name}, local: yes"),
+            f"3:{start + 21 + len(name_key) + len(type_name)}",
+            f"'nodes[0].{key}[0].local' must be ",
+        )
     if kind == "publisher":
         cases[f"{path}.managed"] = KeyCase(
             one(f"{entry}, managed: true"),

@@ -83,6 +83,15 @@ _MODES = (
     "    parameters:\n      - {name: speed, type: double}\n      - {name: on, type: bool}\n"
     "    modes: {__DEFAULT__: {on: $(parent on)}, SLOW: {speed: 0.25}, FAST: {speed: 2.0, on: true}}\n"
 )
+_LOCAL = (
+    "version: 1\nprofiles: [pure_sender, pure_reader]\nlimits: {'*': {string: 12, sequence: 3}}\n"
+    "nodes:\n  - name: probe\n    publishers:\n"
+    "      - {topic: tree, type: quality_msgs/msg/Tree, local: only}\n"
+    "      - {topic: count, type: std_msgs/msg/Int32, local: only}\n"
+    "    subscriptions:\n"
+    "      - {topic: tree, type: quality_msgs/msg/Tree, local: only, queue: 2}\n"
+    "      - {topic: count, type: std_msgs/msg/Int32, local: only}\n"
+)
 _SERIAL = "transport: {type: serial, device: /dev/ttyACM0, baud: 115200}\n"
 
 APPLICATIONS: Mapping[str, str] = MappingProxyType(
@@ -241,6 +250,9 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "components: [+tf_broadcaster, +multithread]\n",
         "executor_events": _BOTH + "components: [+qos_events, +clock_stamp]\n",
         "lifecycle": _NODES + _SURE + "components: [+lifecycle, +multithread]\n",
+        "local": _LOCAL,
+        "local_also": _LOCAL.replace("local: only", "local: also", 1)
+        + "components: [+multithread]\nerrors: code\n",
         "lifecycle_managed": _NODES
         + "      - {topic: sure, type: std_msgs/msg/UInt8, managed: true}\n"
         + "    timers: [{name: control, period: 20 ms, managed: true}]\n"

@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Queues of messages that stay in the image: rings of C structures. The strings and sequences of a waiting message are
+ * in the ring's own storage, so a publisher may change its message at once. Internal.
+ */
+#ifndef MICROROS_RMW_LOCAL_H
+#define MICROROS_RMW_LOCAL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "microros/xrce_objects.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* No queue. */
+enum { RMW_LOCAL_NONE = 0xff };
+
+/* The queue of a subscription, from the plan. */
+typedef struct rmw_local_queue_t {
+  void * (*slot)(uint8_t index);              /* the message of a slot */
+  bool (*copy)(const void * from, void * to); /* false: `to` has too little memory */
+  void (*bind)(void);                         /* gives each slot its storage; NULL: the type needs none */
+  uint32_t * published_ms;                    /* one for each slot, port_time_ms() */
+  uint16_t subscription;                      /* its index among the subscriptions */
+  uint8_t slots;
+  bool only; /* no samples of the agent */
+} rmw_local_queue_t;
+
+/* Where the messages of a publisher go, from the plan. */
+typedef struct rmw_local_route_t {
+  const uint8_t * queues;
+  uint8_t count; /* 0: to the agent alone */
+  bool only;     /* not to the agent */
+} rmw_local_route_t;
+
+/* Messages of a queue that wait. Zero-initialized: none. */
+typedef struct rmw_local_state_t {
+  uint8_t head; /* slot of the oldest one */
+  uint8_t count;
+} rmw_local_state_t;
+
+extern const rmw_local_queue_t rmw_local_queues[MICROROS_LOCAL_QUEUES];
+
+/* Outside of the client, whose state is cleared with each session. */
+extern rmw_local_state_t rmw_local_states[MICROROS_LOCAL_QUEUES];
+
+/* Of each publisher. */
+extern const rmw_local_route_t rmw_local_routes[MICROROS_PUBLISHERS_MAX];
+
+/* The queue of each subscription, or RMW_LOCAL_NONE. */
+extern const uint8_t rmw_local_queue_of[MICROROS_SUBSCRIPTIONS_MAX];
+
+/* Called when the application opens an endpoint that receives: what a former owner left is discarded. */
+void rmw_local_open(const xrce_endpoint_t * reader);
+
+/* Removes the oldest message of a queue, which has one. */
+static inline void rmw_local_pop(const rmw_local_queue_t * queue, rmw_local_state_t * state)
+{
+  ++state->head;
+  if (state->head == queue->slots) {
+    state->head = 0;
+  }
+  --state->count;
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_RMW_LOCAL_H */

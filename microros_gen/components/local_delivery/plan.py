@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Topics whose messages are delivered inside the image: their ends agree, queues of C structures, and routes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from microros_gen.application.kinds import KINDS
+from microros_gen.application.model import Application, EndpointDecl, NodeDecl
+from microros_gen.client.plan.declared import declarations, full_name, type_name
+from microros_gen.client.plan.features import PlanContext
+from microros_gen.components.local_delivery.check import MOST_SLOTS, check_topics
+from microros_gen.components.local_delivery.copies import copy_body, copy_lines
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.interfaces.types import TypeName
+from microros_gen.records import dataclass
+from microros_gen.typesupport.plan.names import include_path
+from microros_gen.typesupport.plan.types import TypePlan
+
+_NONE = "RMW_LOCAL_NONE"
+
+
+@dataclass(frozen=True)
+class LocalPlace:
+    """A place of the client, in their order: whether it has no objects at the agent, as C writes it."""
+
+    name: str
+    value: str
+
+
+@dataclass(frozen=True)
+class LocalQueue:
+    """The queue of a subscription: `slots` messages, `only` (as C writes it) those of the image.
+
+    `storage` begins the names of that of its type; empty: it needs none. `copy`: how a message is copied, as C.
+    """
+
+    index: int
+    subscription: int
+    topic: str
+    type: TypeName
+    c_type: str
+    slots: int
+    storage: str
+    copy: tuple[str, ...]
+    only: str
+
+    @property
+    def storage_lines(self) -> tuple[str, ...]:
+        """The memory of strings and sequences, and the function that binds it, as lines of C."""
+        if not self.storage:
+            return ()
+        i = self.index
+        return (
+            f"static {self.storage}__Storage local_storage_{i}[{self.slots}];",
+            "",
+            f"static void local_bind_{i}(void)",
+            "{",
+            f"  for (size_t i = 0; i < {self.slots}u; ++i) {{",
+            f"    {self.storage}__bind(&local_messages_{i}[i], &local_storage_{i}[i]);",
+            "  }",
+            "}",
+        )
+
+    @property
+    def bind(self) -> str:
+        """The C function that gives each slot its storage: NULL without such."""
+        return f"local_bind_{self.index}" if self.storage else "NULL"
+
+
+@dataclass(frozen=True)
+class LocalRoute:
+    """Where the messages of a publisher go: to `queues`, and to the agent unless `only`."""
+
+    index: int
+    queues: tuple[int, ...]
+    only: bool
+
+    @property
+    def queue_lines(self) -> tuple[str, ...]:
+        """The list of queues as lines of C."""
+        if not self.queues:
+            return ()
+        queues = ", ".join(map(str, self.queues))
+        return ("", f"static const uint8_t local_route_{self.index}[] = {{{queues}}};")
+
+    @property
+    def entry(self) -> str:
+        """The entry of the table of routes."""
+        if not self.queues:
+            return "{NULL, 0, false}"
+        return f"{{local_route_{self.index}, {len(self.queues)}, {_c(self.only)}}}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class LocalPlan:
+    """`alone`: 1 where nothing of the image exists at an agent, else 0. `queue_of`: of each subscription, as C.
+
+    `copies` are functions that the queues call, as lines of C; `headers`: of the types and of their storage.
+    """
+
+    places: tuple[LocalPlace, ...]
+    queues: tuple[LocalQueue, ...]
+    queue_of: tuple[str, ...]
+    routes: tuple[LocalRoute, ...]
+    copies: tuple[str, ...]
+    headers: tuple[str, ...]
+    alone: int
+    shown: str
+
+    @property
+    def queue_count(self) -> int:
+        """Return the number of queues."""
+        return len(self.queues)
+
+
+def plan(context: PlanContext, diagnostics: Diagnostics) -> LocalPlan:
+    """Return the queues and routes; ends of a topic that do not agree are reported."""
+    application = context.application
+    check_topics(context, diagnostics)
+    queues = tuple(_queues(application, context.types))
+    alone = bool(application.nodes) and all(
+        endpoint.local == "only" for node in application.nodes for endpoint in node.endpoints
+    )
+    places = context.runtime.entities
+    subscriptions = [_NONE] * places.subscriptions.max
+    for queue in queues:
+        subscriptions[queue.subscription] = str(queue.index)
+    types = [queue.type for queue in queues]
+    messages = {name: known.message for name, known in context.types.items()}
+    return LocalPlan(
+        places=tuple(_places(context, alone)),
+        queues=queues,
+        queue_of=tuple(subscriptions),
+        routes=tuple(_routes(context, queues)),
+        copies=copy_lines(types, messages),
+        headers=tuple(sorted({h for name in types for h in _headers(context.types[name])})),
+        alone=int(alone),
+        shown=_shown(application, alone),
+    )
+
+
+def record(part: LocalPlan) -> object:
+    """Return what the plan id is made of."""
+    return {
+        "places": "".join("1" if place.value == "true" else "0" for place in part.places),
+        "queues": [[q.subscription, q.slots] for q in part.queues],
+        "routes": [[list(r.queues), r.only] for r in part.routes],
+        "alone": part.alone,
+    }
+
+
+def _c(value: bool) -> str:
+    return "true" if value else "false"
+
+
+def slots_of(endpoint: EndpointDecl) -> int:
+    """Return how many messages wait: `queue`, otherwise the depth."""
+    return min(endpoint.queue or max(endpoint.qos.depth, 1), MOST_SLOTS)
+
+
+def _queues(application: Application, types: Mapping[TypeName, TypePlan]) -> Iterable[LocalQueue]:
+    messages = {name: known.message for name, known in types.items()}
+    index = 0
+    for subscription, (_, node, endpoint) in enumerate(declarations(application, "subscription")):
+        if endpoint.local == "never":
+            continue
+        name, topic = type_name(endpoint.type), full_name(node, endpoint)
+        storage = types[name].storage_name(topic) if types[name].storage else ""
+        yield LocalQueue(
+            *(index, subscription, topic, name, types[name].c_name, slots_of(endpoint), storage),
+            copy_body(name, messages),
+            _c(endpoint.local == "only"),
+        )
+        index += 1
+
+
+def _key(node: NodeDecl, endpoint: EndpointDecl) -> tuple[int, str]:
+    return node.domain_id, full_name(node, endpoint)
+
+
+def _routes(context: PlanContext, queues: tuple[LocalQueue, ...]) -> Iterable[LocalRoute]:
+    readers = declarations(context.application, "subscription")
+    by_topic: dict[tuple[int, str], list[int]] = {}
+    for queue in queues:
+        _, node, endpoint = readers[queue.subscription]
+        by_topic.setdefault(_key(node, endpoint), []).append(queue.index)
+    index = 0
+    for index, (_, node, endpoint) in enumerate(declarations(context.application, "publisher"), 1):
+        found = tuple(by_topic.get(_key(node, endpoint), ())) if endpoint.local != "never" else ()
+        yield LocalRoute(index - 1, found, endpoint.local == "only")
+    for other in range(index, context.runtime.entities.publisher_places):
+        yield LocalRoute(other, (), False)
+
+
+def _places(context: PlanContext, alone: bool) -> Iterable[LocalPlace]:
+    """Yield the places in the order of the client: nodes, then publishers, subscriptions and what else there is."""
+    entities = context.runtime.entities
+    nodes = context.application.nodes
+    names = [node.full_name for node in nodes]
+    yield from (LocalPlace(name, _c(alone)) for name in names)
+    yield from (LocalPlace("none", "false") for _ in range(entities.node_places - len(names)))
+    for kind in KINDS:
+        declared = declarations(context.application, kind.name)
+        for _, node, endpoint in declared:
+            yield LocalPlace(f"{kind.name} {full_name(node, endpoint)}", _c(endpoint.local == "only"))
+        count = entities.publisher_places if kind is KINDS[0] else entities.places(kind.name).max
+        yield from (LocalPlace("none", "false") for _ in range(count - len(declared)))
+
+
+def _headers(type_: TypePlan) -> Iterable[str]:
+    yield include_path(type_.files.struct)
+    if type_.storage:
+        yield include_path(type_.files.storage)
+
+
+def _shown(application: Application, alone: bool) -> str:
+    """Return what a report says: the topics, and of each whether its messages leave the image."""
+    words = {
+        full_name(node, endpoint): f"{full_name(node, endpoint)} ({endpoint.local})"
+        for _, node, endpoint in declarations(application, "subscription")
+        if endpoint.local != "never"
+    }
+    return ", ".join(words.values()) + ("; no agent is needed" if alone else "")

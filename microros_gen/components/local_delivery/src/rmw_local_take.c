@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/rmw_local_take.h"
+
+#include "microros/error.h"
+#include "microros/port.h"
+#include "microros/rmw_client.h"
+#include "microros/rmw_encode.h"
+#include "microros/rmw_local.h"
+#include "microros/xrce_client.h"
+#include "microros/xrce_read.h"
+#include "microros/xrce_wire.h"
+#include "rmw/rmw.h"
+
+#include <stddef.h>
+#include <string.h>
+
+/* Bytes 00 01 00 00: XCDR1, little endian, no options (OMG DDS-XTypes 1.3, 7.6.3.1.2). */
+enum { LOCAL_ENCAPSULATION_SIZE = 4, LOCAL_LITTLE_ENDIAN = 1 };
+
+enum { LOCAL_NS_PER_MS = 1000000 };
+
+bool rmw_local_is_ready(const xrce_endpoint_t * reader)
+{
+  const uint8_t queue = rmw_local_queue_of[reader->index - MICROROS_PUBLISHERS_MAX];
+
+  return queue != (uint8_t)RMW_LOCAL_NONE && rmw_local_states[queue].count != 0u;
+}
+
+bool rmw_local_may_wait(const xrce_endpoint_t * reader)
+{
+  return rmw_local_is_ready(reader) && reader->client->session.now_ms == port_time_ms();
+}
+
+/* Returns the queue whose oldest message is the reader's oldest; NULL: nothing waits there, or one of the agent is older. */
+static const rmw_local_queue_t * local_oldest(const xrce_endpoint_t * reader, rmw_local_state_t ** state)
+{
+  const uint8_t index = rmw_local_queue_of[reader->index - MICROROS_PUBLISHERS_MAX];
+  const rmw_local_queue_t * queue;
+  xrce_sample_t sample;
+
+  if (index == (uint8_t)RMW_LOCAL_NONE || rmw_local_states[index].count == 0u) {
+    return NULL;
+  }
+  queue = &rmw_local_queues[index];
+  *state = &rmw_local_states[index];
+  if (
+    !queue->only && xrce_read_peek(reader, &sample) &&
+    !xrce_is_due(sample.arrived_ms, queue->published_ms[(*state)->head])) {
+    return NULL;
+  }
+  return queue;
+}
+
+bool rmw_local_describe(const xrce_endpoint_t * reader, rmw_message_info_t * info)
+{
+  rmw_local_state_t * state;
+  const rmw_local_queue_t * queue = local_oldest(reader, &state);
+  int64_t epoch_ns;
+
+  if (queue == NULL) {
+    return false;
+  }
+  epoch_ns = port_time_epoch_ns();
+  if (epoch_ns != 0) { /* otherwise the time of day has not been set yet */
+    const uint32_t age_ms = port_time_ms() - queue->published_ms[state->head];
+
+    epoch_ns -= (int64_t)age_ms * LOCAL_NS_PER_MS;
+  }
+  info->source_timestamp = epoch_ns;
+  info->received_timestamp = epoch_ns;
+  info->publication_sequence_number = RMW_MESSAGE_INFO_SEQUENCE_NUMBER_UNSUPPORTED;
+  info->reception_sequence_number = RMW_MESSAGE_INFO_SEQUENCE_NUMBER_UNSUPPORTED;
+  info->publisher_gid.implementation_identifier = rmw_implementation_identifier;
+  info->from_intra_process = true;
+  return true;
+}
+
+bool rmw_local_take(const xrce_endpoint_t * reader, void * message, rmw_ret_t * result)
+{
+  rmw_local_state_t * state;
+  const rmw_local_queue_t * queue = local_oldest(reader, &state);
+
+  if (queue == NULL) {
+    return false;
+  }
+  *result = RMW_RET_OK;
+  if (!queue->copy(queue->slot(state->head), message)) {
+    *result = microros_error_named(RMW_RET_ERROR, microros_error_local_capacity, reader->name);
+  }
+  rmw_local_pop(queue, state);
+  return true;
+}
+
+static rmw_ret_t local_serialize(
+  const xrce_endpoint_t * reader, const void * message, rmw_serialized_message_t * serialized_message)
+{
+  cdr_fault_t fault; /* set if the message is refused: the limits of the reader are those of its publishers */
+  const size_t size = LOCAL_ENCAPSULATION_SIZE + (size_t)reader->type->encoded_size(message, &fault);
+
+  if (
+    serialized_message->buffer_capacity < size &&
+    rmw_serialized_message_resize(serialized_message, size) != RCUTILS_RET_OK) {
+    return RMW_RET_BAD_ALLOC;
+  }
+  if (reader->type->encode(message, &serialized_message->buffer[LOCAL_ENCAPSULATION_SIZE], &fault) == 0u) {
+    return rmw_encode_refuse(reader->type, &fault);
+  }
+  (void)memset(serialized_message->buffer, 0, LOCAL_ENCAPSULATION_SIZE);
+  serialized_message->buffer[1] = LOCAL_LITTLE_ENDIAN;
+  serialized_message->buffer_length = size;
+  return RMW_RET_OK;
+}
+
+bool rmw_local_take_serialized(
+  const xrce_endpoint_t * reader, rmw_serialized_message_t * serialized_message, rmw_ret_t * result)
+{
+  rmw_local_state_t * state;
+  const rmw_local_queue_t * queue = local_oldest(reader, &state);
+
+  if (queue == NULL) {
+    return false;
+  }
+  *result = local_serialize(reader, queue->slot(state->head), serialized_message);
+  if (*result != RMW_RET_BAD_ALLOC) {
+    rmw_local_pop(queue, state);
+  }
+  return true;
+}

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/rmw_local_copy.h"
+
+#include <stddef.h>
+#include <string.h>
+
+bool rmw_local_copy_wide(const rosidl_runtime_c__U16String * from, rosidl_runtime_c__U16String * to)
+{
+  const size_t capacity = to->data == NULL ? 0u : to->capacity;
+
+  if (from->size != 0u) {
+    if (from->size >= capacity) {
+      return false;
+    }
+    (void)memcpy(to->data, from->data, from->size * sizeof(*to->data));
+  }
+  if (capacity > 1u || (capacity == 1u && to->data[0] != 0u)) {
+    to->data[from->size] = 0u; /* but not over the terminator that all initialized strings share */
+  }
+  to->size = from->size;
+  return true;
+}

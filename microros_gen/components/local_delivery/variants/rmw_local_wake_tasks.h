@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Several tasks: one that waits for messages may have to take this one. Internal. */
+#ifndef MICROROS_RMW_LOCAL_WAKE_H
+#define MICROROS_RMW_LOCAL_WAKE_H
+
+#include "microros/port.h"
+#include "microros/xrce_client.h"
+
+static inline void rmw_local_wake(const xrce_client_t * client)
+{
+  if (client->waiting != 0u) {
+    port_wake();
+  }
+}
+
+#endif /* MICROROS_RMW_LOCAL_WAKE_H */
