@@ -24,6 +24,7 @@ from tests.bench.generation import Seconds, bench_generate, median, row, timed, 
 from tests.bench.images import bench_images
 from tests.bench.instructions import bench_instructions
 from tests.bench.lifecycle import bench_lifecycle
+from tests.bench.local import bench_local
 from tests.bench.parameters import bench_parameters
 from tests.bench.type_flash import bench_type_flash
 
@@ -33,6 +34,7 @@ PARTS = (
     "instructions",
     "parameters",
     "lifecycle",
+    "local",
     "codec",
     "types",
     "footprint",
@@ -67,6 +69,8 @@ def main() -> int:
             bench_parameters(work / "parameters")
         if "lifecycle" in options.parts:
             bench_lifecycle(work / "lifecycle")
+        if "local" in options.parts:
+            bench_local(work / "local")
         if "codec" in options.parts:
             bench_codec(work / "codec")
         if "types" in options.parts:
