@@ -31,7 +31,6 @@ def component_change(text: str, span: Span | None) -> ComponentChange:
 DISCOVERY_PORT = 7400
 """Where agents are asked for by multicast, unless the application says another port."""
 
-
 LARGEST_UDP_PAYLOAD = 65_507
 """Bytes that fit one UDP datagram over IPv4 (RFC 768, RFC 791)."""
 
