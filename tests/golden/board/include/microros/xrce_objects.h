@@ -11,6 +11,7 @@
 
 #include "microros/message_type.h"
 #include "microros/xrce_forward.h"
+#include "microros/xrce_local.h"
 #include "microros/xrce_object_state.h"
 #include "microros_config.h"
 
@@ -74,6 +75,9 @@ static inline bool xrce_place_is_service(uint16_t place)
 /* Returns how many objects a complete place has at the agent. */
 static inline uint8_t xrce_place_complete(uint16_t place)
 {
+  if (xrce_place_is_local(place)) {
+    return 0;
+  }
   if (xrce_place_is_service(place)) {
     return XRCE_SERVICE_COMPLETE;
   }

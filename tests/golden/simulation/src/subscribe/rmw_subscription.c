@@ -3,6 +3,7 @@
 
 #include "microros/error.h"
 #include "microros/lock.h"
+#include "microros/rmw_local_take.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_node.h"
 #include "microros/rmw_qos.h"
@@ -85,7 +86,7 @@ bool rmw_subscription_is_ready(const rmw_subscription_t * subscription)
   bool ready;
 
   microros_lock();
-  ready = xrce_read_is_ready(subscription->data);
+  ready = rmw_local_is_ready(subscription->data) || xrce_read_is_ready(subscription->data);
   microros_unlock();
   return ready;
 }
@@ -95,6 +96,8 @@ void rmw_subscription_pump(const rmw_subscription_t * subscription)
   const xrce_endpoint_t * endpoint = subscription->data;
 
   microros_lock();
-  xrce_session_pump(endpoint->client);
+  if (!rmw_local_may_wait(endpoint)) {
+    xrce_session_pump(endpoint->client);
+  }
   microros_unlock();
 }
