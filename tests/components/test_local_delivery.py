@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from microros_gen.components.loaned_messages.plan import LoansPlan
 from microros_gen.components.local_delivery.plan import LocalPlan
 from microros_gen.diagnostics import UserError
 from tests.support.components.rendered import SANITIZE, UNITS, planned, rendered, run
@@ -147,6 +148,22 @@ def test_the_component_without_the_key(tmp_path: Path) -> None:
 def test_preconfigured_entities_exist_at_the_agent(tmp_path: Path) -> None:
     with pytest.raises(UserError, match="'entities: preconfigured' creates the publisher of '/count'"):
         planned(tmp_path, f"{HEAD}entities: preconfigured\nsession: {{key: 7}}\n{ALONE}")
+
+
+def test_local_subscriptions_lend_nothing(tmp_path: Path) -> None:
+    """Their messages of the image are no bytes in the queue of the agent's samples."""
+    names = "  - name: device\n    publishers: [{{topic: near, {0}, local: {1}}}]\n"
+    names += "    subscriptions: [{{topic: near, {0}, local: {2}}}, {{topic: far, {0}}}]\n"
+    text = f"{HEAD}components: [+loaned_messages]\nnodes:\n"
+    for ends in (("only", "also"), ("also", "only")):
+        nodes = names.format("type: std_msgs/msg/String", *ends)
+        (tmp_path / ends[0]).mkdir()
+        part = planned(tmp_path / ends[0], text + nodes).project.runtime.features.of("loaned_messages")
+        assert isinstance(part, LoansPlan)
+        assert [(row.topic, bool(row.c_types)) for row in part.subscriptions] == [
+            ("/near", False),
+            ("/far", True),
+        ]
 
 
 def test_its_behavior(tmp_path: Path) -> None:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -62,15 +63,22 @@ class Device:
         self.spin()
 
 
-@pytest.fixture
-def device(program: Path, request: pytest.FixtureRequest) -> Iterator[Device]:
+@contextmanager
+def opened(program: Path, now_ms: int = 0) -> Iterator[Device]:
+    """Run the program from a time of its clock on, with its node and publisher."""
     graph = MadeGraph(publishing={"/arm/count": (endpoint("/arm/device", 9, **OWN),)})
     # The subscription of changes; the clients of the graph after it, and then that of its events.
     agent = GraphAgent(mtu=256, graph=graph, reader=1, first_client=2)
     with Client(program, agent) as client:
-        client.wait(getattr(request, "param", 0))
+        client.wait(now_ms)
         client.ok("init")
         yield Device(client, agent)
+
+
+@pytest.fixture
+def device(program: Path, request: pytest.FixtureRequest) -> Iterator[Device]:
+    with opened(program, getattr(request, "param", 0)) as device:
+        yield device
 
 
 def test_changes_of_the_graph(device: Device) -> None:
@@ -132,6 +140,23 @@ def test_an_endpoint_that_is_not_discovered_yet(device: Device) -> None:
     device.agent.graph.subscribing["/arm/count"] = (endpoint("/a", 1, **OWN),)
     device.spin(3 * AGAIN_MS)
     assert device.status()[:4] == [1, 1, 1, 1]
+
+
+def test_a_lost_session_stops_no_executor(tmp_path: Path) -> None:
+    """A request without a session would wait as a publish call does."""
+    tree = write_application(tmp_path / "tree", f"{APPLICATION}on_full: block 9 s\n")
+    program = build(tree.without_port(), ["port_fake.c", "client_graph_events.c"], "graph_events")
+    with opened(program) as device:
+        device.client.ok("open")
+        device.agent.silent = True
+        device.spin(15 * AGAIN_MS)
+        before = device.client.now_ms
+        device.spin(5 * AGAIN_MS)
+        assert device.client.now_ms - before < 6 * AGAIN_MS
+        device.agent.silent = False
+        device.agent.graph.subscribing["/arm/count"] = (endpoint("/a", 1, **OWN),)
+        device.spin(15 * AGAIN_MS)
+        assert device.status()[:4] == [1, 1, 1, 1]
 
 
 def test_an_event_ends_with_its_entity(device: Device) -> None:

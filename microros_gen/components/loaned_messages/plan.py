@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from microros_gen.client.plan.declared import declarations
 from microros_gen.client.plan.features import PlanContext
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import Primitive, TypeName
@@ -38,12 +39,17 @@ class LoansPlan:
 
 
 def plan(context: PlanContext, diagnostics: Diagnostics) -> LoansPlan:
-    """Return the subscriptions with loans: none where samples move (`queue_bytes`) or memory is lost in a sleep."""
+    """Return the subscriptions with loans: none where samples move (`queue_bytes`) or memory is lost in a sleep.
+
+    A local subscription takes messages of the image as well, which are no bytes in its queue.
+    """
     runtime = context.runtime
     stays = runtime.input.queue_mode == "slots" and not runtime.session.has_sleep
     subscriptions, headers, topics = [], set[str](), []
+    ends = enumerate(end for _, _, end in declarations(context.application, "subscription"))
+    local = {index for index, end in ends if end.local != "never"}
     for row in runtime.entities.subscriptions.declared:
-        loans = stays and bool(row.c_type) and _stays(row.type, context.types)
+        loans = stays and row.index not in local and bool(row.c_type) and _stays(row.type, context.types)
         subscriptions.append(LoanPlan(row.index, row.topic, (row.c_type,) if loans else ()))
         if loans:
             headers.add(include_path(type_files(row.type).struct))

@@ -63,6 +63,7 @@ static rcl_ret_t request_result(rclc_action_goal_handle_t * goal)
   if (goal->awaits_result_response) {
     rmw_action_client_abandon(client, goal->result_request_sequence_number);
     goal->awaits_result_response = false;
+    goal->result_due = true; /* the executor asks again if this request cannot be sent */
   }
   result = rmw_requester_send(client, goal->goal_id.uuid, &goal->result_request_sequence_number);
   goal->awaits_result_response = result == RCL_RET_OK;

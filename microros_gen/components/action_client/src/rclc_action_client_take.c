@@ -69,6 +69,10 @@ static void take_feedback(rclc_action_client_t * client)
     rclc_action_goal_handle_t * goal = has_id ? rclc_action_client_find(client, uuid) : NULL;
     bool taken = false;
 
+    if (!has_id && client->ros_feedback == NULL) { /* too short, and nothing to decode it into */
+      rmw_action_client_drop(subscription);
+      continue;
+    }
     if (!has_id || (goal != NULL && client->feedback_callback != NULL)) {
       rclc_action_client_note(client, rmw_subscription_take(subscription, client->ros_feedback, &taken));
       if (taken && goal != NULL) {

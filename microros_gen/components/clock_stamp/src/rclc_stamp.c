@@ -24,6 +24,7 @@ static bool stamp_is_known(rcl_clock_t * clock)
 rcl_ret_t rclc_stamp(rcl_clock_t * clock, int32_t * sec, uint32_t * nanosec)
 {
   rcl_time_point_value_t now = 0;
+  bool is_known;
   rcl_ret_t result;
   int64_t whole_s;
   int64_t rest_ns;
@@ -31,13 +32,19 @@ rcl_ret_t rclc_stamp(rcl_clock_t * clock, int32_t * sec, uint32_t * nanosec)
   if (sec == NULL || nanosec == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "sec or nanosec");
   }
+  result = rcl_clock_get_now(clock, &now); /* checks the clock */
+  if (result != RCL_RET_OK) {
+    return result;
+  }
+  is_known =
+    stamp_is_known(clock); /* before the time that is written: another task may set the epoch in between */
   result = rcl_clock_get_now(clock, &now);
   if (result != RCL_RET_OK) {
     return result;
   }
   whole_s = now / STAMP_NS_PER_S;
   rest_ns = now % STAMP_NS_PER_S;
-  if (now <= 0 || !stamp_is_known(clock)) {
+  if (now <= 0 || !is_known) {
     return rcl_clock_refuse(RCL_RET_ERROR, MICROROS_ERROR_WORDS("it has no time for a stamp yet"));
   }
   if (whole_s > INT32_MAX) {

@@ -2,6 +2,7 @@
 #include "microros/error.h"
 #include "microros/lock.h"
 #include "microros/rmw_encode.h"
+#include "microros/rmw_local_publish.h"
 #include "microros/rmw_publish_parts.h"
 #include "microros/rmw_publisher.h"
 #include "microros/xrce_client.h"
@@ -15,8 +16,9 @@
 /* A message while it is written. */
 typedef struct continuous_message_t {
   const xrce_endpoint_t * writer;
-  uint32_t size; /* of the whole body */
-  uint32_t done; /* bytes of the body in fragments that the agent has */
+  uint32_t size;  /* of the whole body */
+  uint32_t start; /* bytes before those of the callback */
+  uint32_t done;  /* bytes of the body in fragments that the agent has */
   xrce_continuous_outcome_t outcome;
 } continuous_message_t;
 
@@ -123,9 +125,13 @@ static rmw_ret_t continuous_write(
     head, XRCE_WRITE_DATA, XRCE_FLAG_LITTLE_ENDIAN, (uint16_t)(XRCE_OBJECT_PREFIX + message->size));
   xrce_put_be16(&head[4], XRCE_REQUEST_NONE);
   xrce_put_be16(&head[6], xrce_object_id(writer->index, XRCE_KIND_DATAWRITER));
+  found = writer->type->encoded_size(ros_message, &fault);
+  if (found != message->start) { /* a callback or another task has changed it */
+    return continuous_refuse(writer, microros_error_continuous_written, found, message->start);
+  }
   found = writer->type->encode(ros_message, body, &fault);
   if (found == 0u) {
-    return rmw_encode_refuse(writer->type, &fault); /* changed since its size was computed */
+    return rmw_encode_refuse(writer->type, &fault);
   }
   ucdr_advance_buffer(&ucdr, found);
   if (callbacks->serialize != NULL) {
@@ -162,6 +168,9 @@ static rmw_ret_t continuous_begin(const xrce_endpoint_t * writer)
 /* Returns the error that prevents a message, which has `size` bytes before the callback adds its own to *whole. */
 static rmw_ret_t continuous_check(const xrce_endpoint_t * writer, uint32_t size, uint32_t whole)
 {
+  if (rmw_local_has_route(writer)) {
+    return continuous_refuse(writer, microros_error_continuous_local, 0, 0);
+  }
   if ((writer->qos & XRCE_QOS_RELIABLE) == 0u) {
     return continuous_refuse(writer, microros_error_continuous_reliability, 0, 0);
   }
@@ -190,6 +199,7 @@ static rmw_ret_t continuous_publish(
     return rmw_encode_refuse(writer->type, &fault);
   }
   message.size = size;
+  message.start = size;
   if (callbacks->size != NULL) {
     callbacks->size(&message.size);
   }

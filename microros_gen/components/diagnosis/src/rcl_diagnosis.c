@@ -32,6 +32,7 @@ static const rosidl_message_type_support_t diagnosis_type = {
 static rmw_publisher_t * diagnosis_publisher;
 static const rmw_node_t * diagnosis_node;                /* the owner */
 static uint32_t diagnosis_waiting;                       /* a bit for each status that is to be sent */
+static uint32_t diagnosis_sent[MICROROS_DIAGNOSIS_ROWS]; /* as last reported */
 static uint32_t diagnosis_seen[MICROROS_DIAGNOSIS_ROWS]; /* as reported often enough */
 static uint8_t
   diagnosis_reported[MICROROS_DIAGNOSIS_STATUSES]; /* messages that have reported the same change */
@@ -52,6 +53,7 @@ rcl_ret_t rcl_diagnosis_open(const rcl_node_t * node)
     microros_lock();
     for (uint8_t row = 0; row < (uint8_t)MICROROS_DIAGNOSIS_ROWS; ++row) {
       diagnosis_seen[row] = rcl_diagnosis_count(client, row);
+      diagnosis_sent[row] = diagnosis_seen[row];
     }
     (void)memset(diagnosis_reported, 0, sizeof(diagnosis_reported));
     rcl_diagnosis_times_begin();
@@ -91,11 +93,29 @@ const rcl_diagnosis_row_t * rcl_diagnosis_changed(const xrce_client_t * client, 
   return NULL;
 }
 
-/* Counters are compared with what was sent, not with the period before: a loss is told even if it lasts. */
+/* Notes what a message reports. Returns whether a counter whose change is a warning differs from the message before. */
+static bool diagnosis_note(const xrce_client_t * client, const rcl_diagnosis_status_t * about)
+{
+  bool has_changed = false;
+
+  for (uint8_t i = 0; i < about->row_count; ++i) {
+    const uint8_t row = (uint8_t)(about->first_row + i);
+    const uint32_t count = rcl_diagnosis_count(client, row);
+
+    has_changed = has_changed || (rcl_diagnosis_rows[row].warns && count != diagnosis_sent[row]);
+    diagnosis_sent[row] = count;
+  }
+  return has_changed;
+}
+
+/* Counters are compared with what was sent, not with the period before: a loss is reported even if it lasts. */
 static void diagnosis_see(const xrce_client_t * client, uint8_t status)
 {
   const rcl_diagnosis_status_t * about = &rcl_diagnosis_statuses[status];
 
+  if (diagnosis_note(client, about)) {
+    diagnosis_reported[status] = 0u;
+  }
   if (rcl_diagnosis_changed(client, status) != NULL) {
     diagnosis_reported[status] = (uint8_t)(diagnosis_reported[status] + 1u);
     if (diagnosis_reported[status] < (uint8_t)DIAGNOSIS_REPORTS) {
@@ -106,7 +126,7 @@ static void diagnosis_see(const xrce_client_t * client, uint8_t status)
   for (uint8_t i = 0; i < about->row_count; ++i) {
     const uint8_t row = (uint8_t)(about->first_row + i);
 
-    diagnosis_seen[row] = rcl_diagnosis_count(client, row);
+    diagnosis_seen[row] = diagnosis_sent[row];
   }
 }
 

@@ -4,6 +4,7 @@
 #include "microros/error.h"
 #include "microros/lock.h"
 #include "microros/rcl_graph_events.h"
+#include "microros/xrce_local.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -47,6 +48,10 @@ rcl_ret_t rcl_graph_event_open(rcl_event_t * event, const xrce_endpoint_t * endp
 
   if (event->impl != NULL) {
     return microros_error_named(RCL_RET_ALREADY_INIT, microros_error_event, "it is initialized already");
+  }
+  if (xrce_place_is_local((uint16_t)(MICROROS_NODES_MAX + endpoint->index))) {
+    return microros_error_named(
+      RCL_RET_UNSUPPORTED, microros_error_event, "its entity is local: ROS does not know it");
   }
   microros_lock();
   place = event_take_place(endpoint, is_incompatible);

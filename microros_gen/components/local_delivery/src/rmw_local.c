@@ -84,6 +84,11 @@ static void local_put(
   }
 }
 
+bool rmw_local_has_route(const xrce_endpoint_t * writer)
+{
+  return rmw_local_routes[writer->index].count != 0u;
+}
+
 bool rmw_local_publish(const xrce_endpoint_t * writer, const void * message, rmw_ret_t * result)
 {
   const rmw_local_route_t * route = &rmw_local_routes[writer->index];

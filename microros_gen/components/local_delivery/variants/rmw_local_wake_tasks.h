@@ -8,9 +8,8 @@
 
 static inline void rmw_local_wake(const xrce_client_t * client)
 {
-  if (client->waiting != 0u) {
-    port_wake();
-  }
+  (void)client;
+  port_wake(); /* also while a task is between looking for messages and waiting */
 }
 
 #endif /* MICROROS_RMW_LOCAL_WAKE_H */

@@ -21,7 +21,10 @@ extern "C" {
  */
 bool rmw_local_publish(const xrce_endpoint_t * writer, const void * message, rmw_ret_t * result);
 
-/* Same for a CDR body of `size` bytes, little endian. */
+/* Returns whether subscriptions of the image get messages of this publisher. Needs no lock: a table of the plan. */
+bool rmw_local_has_route(const xrce_endpoint_t * writer);
+
+/* Same as rmw_local_publish for a CDR body of `size` bytes, little endian. */
 bool rmw_local_publish_body(
   const xrce_endpoint_t * writer, const uint8_t * body, size_t size, rmw_ret_t * result);
 
