@@ -58,8 +58,12 @@ def test_an_exchange_of_several_applications_is_stored_once() -> None:
     assert files(held_exchanges().items()) == stored
 
 
+FEW = {"local", "transforms"}
+"""Of these only the session or the node is opened: messages stay in the image, or belong to no generated example."""
+
+
 def test_applications_say_something() -> None:
     """Both sides speak in each recording, in a session (0x81): a recording of nothing would hold nothing."""
     for name, text in held_exchanges().items():
         assert text.count(" > 8") >= 2, name
-        assert text.count(" < 81") >= 3, name
+        assert text.count(" < 81") >= (2 if name in FEW else 3), name

@@ -40,12 +40,12 @@ nodes:
       BOUND: {limit: 0.25, path: []}
 """
 SERVICES = {
-    "change_mode": ("system_modes_msgs/srv/ChangeMode", 3),
-    "get_available_modes": ("system_modes_msgs/srv/GetAvailableModes", 4),
-    "get_mode": ("system_modes_msgs/srv/GetMode", 5),
-    "change_state": ("lifecycle_msgs/srv/ChangeState", 6),
+    "change_mode": ("system_modes_msgs/srv/ChangeMode", 14),
+    "get_available_modes": ("system_modes_msgs/srv/GetAvailableModes", 15),
+    "get_mode": ("system_modes_msgs/srv/GetMode", 16),
+    "change_state": ("lifecycle_msgs/srv/ChangeState", 3),
 }
-MODE_EVENT, PARAMETER_EVENT = 0, 2
+TRANSITION_EVENT, PARAMETER_EVENT, MODE_EVENT = 0, 1, 2
 STEP_MS, SPINS = 20, 12
 CONFIGURE, CLEANUP, ACTIVATE, DEACTIVATE = 1, 2, 3, 4
 ERROR, INVALID, REJECTED, ON_CALLBACK = 1, 11, 4001, 40004
@@ -313,7 +313,7 @@ def test_reconfiguration(device: Device) -> None:
     device.spin()
     assert device.events() == [("__DEFAULT__", "SLOW")]
     kinds = [target[1] >> 4 for target, _ in device.agent.written]
-    assert kinds[:2] == [1, 1]
+    assert kinds[:2] == [TRANSITION_EVENT] * 2
     assert kinds[-1] == MODE_EVENT
     device.client.ok(f"state {DEACTIVATE}")
     device.client.ok("reconfigure FAST")

@@ -165,7 +165,7 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "profiles: [pure_sender]\ncomponents: [+action_server]\nerrors: code\n",
         "action-client": _BUSY
         + "    action_clients: [{name: walk, type: tf2_msgs/action/LookupTransform, goals: 2}]\n"
-        + "profiles: [pure_sender]\ncomponents: [+action_client]\nerrors: code\n",
+        + "profiles: [pure_sender]\ncomponents: [+action_client, +graph]\nmemory: {arena: 4096}\nerrors: code\n",
         "executor-all": _BUSY
         + _SERVES
         + _ASKS
@@ -202,7 +202,8 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         "parameter-storage": _BUSY
         + "    parameters: [{name: gain, type: double}]\n"
         + "profiles: [pure_sender]\ncomponents: [+parameter_storage]\n",
-        "transforms": _BUSY + "profiles: [pure_sender]\ncomponents: [+tf_broadcaster]\nerrors: code\n",
+        "transforms": _BUSY
+        + "profiles: [pure_sender]\ncomponents: [+tf_broadcaster, +clock_stamp]\nerrors: code\n",
         "logging": _POOL
         + "components: [+logging_float, +logging_wide]\nlogging: [{to: console, level: debug}, callback]\n",
         "rosout": _BUSY + "profiles: [pure_sender]\nlogging: [rosout, console]\n",

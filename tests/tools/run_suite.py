@@ -66,8 +66,8 @@ RUNS: Mapping[str, tuple[Run, ...]] = {
         ),
         Run("not long and not lint", SANITIZED, environment=EVERYTHING),
     ),
-    # What `test` and `system` run, each test once: images and agents that several tests share are made once, too.
-    "check": (Run("not long and not lint", environment=EVERYTHING),),
+    # Each test of `test` and `system` once, compiled as in `test`: with all sanitizers and examples, CI has no hour.
+    "check": (Run("not long and not lint"),),
     "lint": (Run("lint and not long", more_processes=1),),
 }
 
