@@ -12,6 +12,7 @@ from tests.support.firmware.footprint import bounded_stack, image_sections
 from tests.support.firmware.lifecycle import APPLICATION, work
 from tests.support.firmware.running import started
 from tests.support.profile_with_diagnostics import ENTITIES
+from tests.support.slices import beyond
 
 NAME = "qemu-mps2-an386"
 DEVICE = "/arm/device"
@@ -69,7 +70,7 @@ def test_rclpy_drives_it(builds: Builds, domain: int, entities: str) -> None:
 
 
 @pytest.mark.system
-@pytest.mark.parametrize(("name", "limits"), SIZES.items(), ids=SIZES)
+@pytest.mark.parametrize(("name", "limits"), beyond(SIZES, {"qemu-mps2-an505"}))
 def test_its_size(builds: Builds, name: str, limits: tuple[int, int, int]) -> None:
     """Five services, a publisher, executor, over a serial line."""
     need(name)

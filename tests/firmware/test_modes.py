@@ -11,6 +11,7 @@ from microros_gen.cli.size.format import constants
 from microros_gen.image.report import measure
 from tests.support.firmware.board import Builds, generate, need
 from tests.support.firmware.footprint import bounded_stack, image_sections
+from tests.support.slices import beyond
 
 NAME = "qemu-mps2-an386"
 PARAMETERS = """\
@@ -44,7 +45,7 @@ EACH = {"mode arm_device_DEFAULT": 36, "mode arm_device_FAST": 32, "mode arm_dev
 
 
 @pytest.mark.system
-@pytest.mark.parametrize(("name", "limits"), SIZES.items(), ids=SIZES)
+@pytest.mark.parametrize(("name", "limits"), beyond(SIZES, {"qemu-mps2-an505"}))
 def test_its_size(builds: Builds, name: str, limits: tuple[int, int, int]) -> None:
     """Life cycle, parameters and modes, executor, over a serial line."""
     need(name)

@@ -105,7 +105,7 @@ def test_board_and_agent_restart(builds: Builds, domain: int, tmp_path: Path) ->
     [
         ("qemu-microbit", 24_148, 3_584, 1_028),
         (NAME, 22_348, 3_584, 1_172),
-        ("qemu-mps2-an505", 22_396, 3_584, 1_176),
+        pytest.param("qemu-mps2-an505", 22_396, 3_584, 1_176, marks=pytest.mark.long),
     ],
     ids=["m0", "m4", "m33"],
 )

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping
 
 import pytest
 from _pytest.mark import ParameterSet
@@ -31,3 +31,9 @@ def only(chosen: Collection[str], names: Iterable[str]) -> list[str | ParameterS
 
 def _later(*values: object) -> ParameterSet:
     return pytest.param(*values, marks=pytest.mark.system)
+
+
+def beyond(values: Mapping[str, object] | Collection[str], long: Collection[str]) -> list[ParameterSet]:
+    """Return names, or rows of name and value: those of `long` for long runs, as what differs little from others."""
+    rows = values.items() if isinstance(values, Mapping) else [(name,) for name in values]
+    return [pytest.param(*row, marks=[pytest.mark.long] if row[0] in long else [], id=row[0]) for row in rows]
