@@ -18,8 +18,8 @@
 
 enum { DIAGNOSIS_BODY = XRCE_SUBMESSAGE_HEADER + XRCE_OBJECT_PREFIX, DIAGNOSIS_DEPTH = 100 };
 
-/* Messages that report a change: those that a new agent sends first reach no data reader yet. */
-enum { DIAGNOSIS_REPORTS = 5 };
+/* How long a change is reported, and how often at least: what a new agent sends first reaches no data reader yet. */
+enum { DIAGNOSIS_REPORTS = 2, DIAGNOSIS_REPORTS_MS = 5000 };
 
 /* Statuses are encoded when they are sent. */
 static const microros_message_type_t diagnosis_message = {
@@ -34,8 +34,9 @@ static const rmw_node_t * diagnosis_node;                /* the owner */
 static uint32_t diagnosis_waiting;                       /* a bit for each status that is to be sent */
 static uint32_t diagnosis_sent[MICROROS_DIAGNOSIS_ROWS]; /* as last reported */
 static uint32_t diagnosis_seen[MICROROS_DIAGNOSIS_ROWS]; /* as reported often enough */
-static uint8_t
-  diagnosis_reported[MICROROS_DIAGNOSIS_STATUSES]; /* messages that have reported the same change */
+/* Since the last change: when the warning about it ends, and how many messages have had it. */
+static uint32_t diagnosis_until_ms[MICROROS_DIAGNOSIS_STATUSES];
+static uint8_t diagnosis_reported[MICROROS_DIAGNOSIS_STATUSES];
 
 rcl_ret_t rcl_diagnosis_open(const rcl_node_t * node)
 {
@@ -113,12 +114,19 @@ static void diagnosis_see(const xrce_client_t * client, uint8_t status)
 {
   const rcl_diagnosis_status_t * about = &rcl_diagnosis_statuses[status];
 
+  const uint32_t now = port_time_ms();
+
   if (diagnosis_note(client, about)) {
     diagnosis_reported[status] = 0u;
+    diagnosis_until_ms[status] = now + (uint32_t)DIAGNOSIS_REPORTS_MS;
   }
   if (rcl_diagnosis_changed(client, status) != NULL) {
-    diagnosis_reported[status] = (uint8_t)(diagnosis_reported[status] + 1u);
     if (diagnosis_reported[status] < (uint8_t)DIAGNOSIS_REPORTS) {
+      diagnosis_reported[status] = (uint8_t)(diagnosis_reported[status] + 1u);
+    }
+    if (
+      diagnosis_reported[status] < (uint8_t)DIAGNOSIS_REPORTS ||
+      !xrce_is_due(now, diagnosis_until_ms[status])) {
       return;
     }
   }
