@@ -5,7 +5,6 @@
  * callbacks got is kept as lines.
  */
 #define _POSIX_C_SOURCE 200809L
-#include <poll.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -19,6 +18,8 @@
 #include <rclc/rclc.h>
 
 #include <test_msgs/action/fibonacci.h>
+
+#include "commanded.h"
 
 enum { GOALS = 2, KEPT = 64, EVENT_SIZE = 200 };
 
@@ -34,16 +35,6 @@ static rclc_action_goal_handle_t * handles[KEPT];
 static int count;
 static char events[KEPT][EVENT_SIZE];
 static int event_count;
-static int faults;
-static char last_error[512];
-
-static void check(rcl_ret_t result, const char * what)
-{
-  if (result != RCL_RET_OK) {
-    (void)fprintf(stderr, "%s: %s\n", what, rcl_get_error_string().str);
-    exit(1);
-  }
-}
 
 /* Goals are known by the address of their requests, as rclc's examples do it. */
 static int number_of(const rclc_action_goal_handle_t * goal, const void * context)
@@ -138,7 +129,7 @@ static rcl_ret_t run(char ** word)
       (void)printf("%s\n", events[i]);
     }
   } else if (strcmp(what, "faults") == 0) {
-    (void)printf("%d %s\n", faults, last_error);
+    (void)printf("%u %s\n", faults, last_error);
   } else if (strcmp(what, "available") == 0) {
     bool available = false;
     const rcl_ret_t result = rcl_action_server_is_available(&node, &client.rcl_handle, &available);
@@ -151,46 +142,13 @@ static rcl_ret_t run(char ** word)
   return RCL_RET_OK;
 }
 
-static bool answer(void)
-{
-  static char line[256];
-  char * words[2] = {NULL};
-  size_t found = 0;
-  rcl_ret_t result;
-
-  if (fgets(line, sizeof(line), stdin) == NULL || strcmp(line, "end\n") == 0) {
-    return false;
-  }
-  for (char * word = strtok(line, " \n"); word != NULL && found < 2u; word = strtok(NULL, " \n")) {
-    words[found++] = word;
-  }
-  result = run(words);
-  (void)printf("ret %d %s\n", (int)result, result == RCL_RET_OK ? "" : rcl_get_error_string().str);
-  (void)fflush(stdout);
-  rcl_reset_error();
-  return true;
-}
-
 int main(void)
 {
-  struct pollfd input = {0, POLLIN, 0};
-  bool goes_on = true;
-
-  (void)setvbuf(stdin, NULL, _IONBF, 0);
   allocator = rcl_get_default_allocator();
   check(rclc_support_init(&support, 0, NULL, &allocator), "init");
   check(rclc_node_init_default(&node, "device", "arm", &support), "node");
   begin();
-  while (goes_on) {
-    if (rclc_executor_spin_some(&executor, RCL_MS_TO_NS(2)) != RCL_RET_OK) {
-      ++faults;
-      (void)snprintf(last_error, sizeof(last_error), "%s", rcl_get_error_string().str);
-      rcl_reset_error();
-    }
-    if (poll(&input, 1, 0) > 0) {
-      goes_on = answer();
-    }
-  }
+  obey(&executor, 2, run);
   check(rclc_executor_fini(&executor), "executor fini");
   check(rclc_action_client_fini(&client, &node), "action client fini");
   check(rcl_node_fini(&node), "node fini");

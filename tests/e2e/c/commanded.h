@@ -46,7 +46,8 @@ static bool answer(command_t run)
   return true;
 }
 
-/* Of the executor, as of a request above the limits. */
+/* How often a call of the executor failed, as with a request above the limits, and why the last time. */
+static unsigned int faults;
 static char last_error[512];
 
 /* Returns after "end". */
@@ -58,6 +59,7 @@ static void obey(rclc_executor_t * executor, int64_t spin_ms, command_t run)
   (void)setvbuf(stdin, NULL, _IONBF, 0);
   while (goes_on) {
     if (rclc_executor_spin_some(executor, RCL_MS_TO_NS(spin_ms)) != RCL_RET_OK) {
+      ++faults;
       (void)snprintf(last_error, sizeof(last_error), "%s", rcl_get_error_string().str);
       rcl_reset_error();
     }

@@ -5,7 +5,6 @@
  * with how often callbacks were called since the line before.
  */
 #define _POSIX_C_SOURCE 200809L
-#include <poll.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,6 +16,8 @@
 #include <rclc/executor.h>
 #include <rclc/rclc.h>
 #include <std_msgs/msg/int32.h>
+
+#include "commanded.h"
 
 static rclc_support_t support;
 static rcl_node_t node;
@@ -31,14 +32,6 @@ static size_t told;
 static const char * const names[] = {"count", "order", "count", "fast", "order"};
 
 enum { MATCHED = 2 };
-
-static void check(rcl_ret_t result, const char * what)
-{
-  if (result != RCL_RET_OK) {
-    (void)fprintf(stderr, "%s: %s\n", what, rcl_get_error_string().str);
-    exit(1);
-  }
-}
 
 static void on_message(const void * received)
 {
@@ -95,30 +88,23 @@ static void take(size_t index)
   }
 }
 
-static bool answer(void)
+/* take */
+static rcl_ret_t run(char ** words)
 {
-  static char line[16];
-
-  if (fgets(line, sizeof(line), stdin) == NULL || strcmp(line, "end\n") == 0) {
-    return false;
-  }
+  (void)words;
   for (size_t i = 0; i < sizeof(events) / sizeof(events[0]); ++i) {
     take(i);
   }
-  (void)printf("told %zu\nret 0 %s\n", told, rcl_error_is_set() ? rcl_get_error_string().str : "");
-  (void)fflush(stdout);
+  (void)printf("told %zu\n", told);
   told = 0;
-  return true;
+  return rcl_error_is_set() ? RCL_RET_ERROR : RCL_RET_OK;
 }
 
 int main(void)
 {
   const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
   rcl_allocator_t allocator = rcl_get_default_allocator();
-  struct pollfd input = {0, POLLIN, 0};
-  bool goes_on = true;
 
-  (void)setvbuf(stdin, NULL, _IONBF, 0);
   check(rclc_support_init(&support, 0, NULL, &allocator), "init");
   check(rclc_node_init_default(&node, "device", "arm", &support), "node");
   check(rclc_publisher_init_default(&count, &node, type, "count"), "count");
@@ -127,12 +113,8 @@ int main(void)
   check(rclc_executor_init(&executor, &support.context, 1, &allocator), "executor");
   check(rclc_executor_add_subscription(&executor, &order, &message, on_message, ON_NEW_DATA), "subscription");
   open_events();
-  while (goes_on) {
-    check(rclc_executor_spin_some(&executor, RCL_MS_TO_NS(5)), "spin");
-    if (poll(&input, 1, 0) > 0) {
-      goes_on = answer();
-    }
-  }
+  obey(&executor, 5, run);
+  check(faults == 0u ? RCL_RET_OK : RCL_RET_ERROR, last_error);
   for (size_t i = 0; i < sizeof(events) / sizeof(events[0]); ++i) {
     check(rcl_event_fini(&events[i]), "event fini");
   }

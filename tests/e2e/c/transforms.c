@@ -6,7 +6,6 @@
  * answered with what was returned. `-` is an empty name.
  */
 #define _POSIX_C_SOURCE 200809L
-#include <poll.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,6 +17,8 @@
 #include <rclc/rclc.h>
 #include <rclc_tf/rclc_tf.h>
 
+#include "commanded.h"
+
 enum { MOST = 4, NAME = 64 };
 
 static rclc_support_t support;
@@ -27,14 +28,6 @@ static rclc_tf_broadcaster_t moving;
 static rclc_static_tf_broadcaster_t fixed;
 static char names[MOST][NAME];
 static geometry_msgs__msg__TransformStamped transforms[MOST];
-
-static void check(rcl_ret_t result, const char * what)
-{
-  if (result != RCL_RET_OK) {
-    (void)fprintf(stderr, "%s: %s\n", what, rcl_get_error_string().str);
-    exit(1);
-  }
-}
 
 static void fill(size_t index, char * parent, const char * child, double x)
 {
@@ -68,11 +61,10 @@ static rcl_ret_t refuse(const char * word)
   return rclc_static_tf_broadcaster_init(&fixed, &node);
 }
 
-static rcl_ret_t obey(char * line)
+static rcl_ret_t run(char ** word)
 {
   static char odom[] = "odom";
   static char base[] = "base";
-  char * word[3] = {strtok(line, " \n"), strtok(NULL, " \n"), strtok(NULL, " \n")};
 
   if (strcmp(word[0], "move") == 0) {
     fill(0, odom, word[1], atof(word[2]));
@@ -101,39 +93,17 @@ static rcl_ret_t obey(char * line)
   return refuse(word[0]);
 }
 
-static bool answer(void)
-{
-  static char line[160];
-  rcl_ret_t result;
-
-  if (fgets(line, sizeof(line), stdin) == NULL || strcmp(line, "end\n") == 0) {
-    return false;
-  }
-  result = obey(line);
-  (void)printf("ret %d %s\n", (int)result, result == RCL_RET_OK ? "" : rcl_get_error_string().str);
-  (void)fflush(stdout);
-  rcl_reset_error();
-  return true;
-}
-
 int main(void)
 {
   rcl_allocator_t allocator = rcl_get_default_allocator();
-  struct pollfd input = {0, POLLIN, 0};
-  bool goes_on = true;
 
-  (void)setvbuf(stdin, NULL, _IONBF, 0);
   check(rclc_support_init(&support, 0, NULL, &allocator), "init");
   check(rclc_node_init_default(&node, "robot", "", &support), "node");
   check(rclc_tf_broadcaster_init(&moving, &node), "broadcaster");
   check(rclc_static_tf_broadcaster_init(&fixed, &node), "static broadcaster");
   check(rclc_executor_init(&executor, &support.context, 1, &allocator), "executor");
-  while (goes_on) {
-    check(rclc_executor_spin_some(&executor, RCL_MS_TO_NS(5)), "spin");
-    if (poll(&input, 1, 0) > 0) {
-      goes_on = answer();
-    }
-  }
+  obey(&executor, 5, run);
+  check(faults == 0u ? RCL_RET_OK : RCL_RET_ERROR, last_error);
   check(rclc_executor_fini(&executor), "executor fini");
   check(rclc_static_tf_broadcaster_fini(&fixed, &node), "static fini");
   check(rclc_tf_broadcaster_fini(&moving, &node), "fini");
