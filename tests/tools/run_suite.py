@@ -66,7 +66,7 @@ RUNS: Mapping[str, tuple[Run, ...]] = {
         ),
         Run("not long and not lint", SANITIZED, environment=EVERYTHING),
     ),
-    # Each test of `test` and `system` once, compiled as in `test`: with all sanitizers and examples, CI has no hour.
+    # Each test of `test` and `system` once, compiled as in `test`. All sanitizers and examples take too long for CI.
     "check": (Run("not long and not lint"),),
     "lint": (Run("lint and not long", more_processes=1),),
 }

@@ -5,19 +5,14 @@
 #include "microros/xrce_action_client.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_read.h"
-#include "microros/xrce_write.h"
+#include "microros/xrce_write_room.h"
 
 #include <stddef.h>
 #include <string.h>
 
 bool rmw_action_client_may_send(const rmw_client_t * client)
 {
-  bool result;
-
-  microros_lock();
-  result = xrce_write_reserve(client->data) != NULL;
-  microros_unlock();
-  return result;
+  return xrce_write_has_room(client->data);
 }
 
 uint8_t rmw_action_client_session(const rmw_client_t * client)

@@ -4,28 +4,18 @@
 #include "microros/lock.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_parameters.h"
-#include "microros/xrce_write.h"
+#include "microros/xrce_write_room.h"
 
 #include <stddef.h>
 
-static bool action_server_has_room(const xrce_endpoint_t * endpoint)
-{
-  bool result;
-
-  microros_lock();
-  result = xrce_write_reserve(endpoint) != NULL;
-  microros_unlock();
-  return result;
-}
-
 bool rmw_action_server_may_reply(const rmw_service_t * service)
 {
-  return action_server_has_room(service->data);
+  return xrce_write_has_room(service->data);
 }
 
 bool rmw_action_server_may_publish(const rmw_publisher_t * publisher)
 {
-  return action_server_has_room(publisher->data);
+  return xrce_write_has_room(publisher->data);
 }
 
 uint8_t rmw_action_server_session(const rmw_service_t * service)

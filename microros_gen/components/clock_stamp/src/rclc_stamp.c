@@ -32,12 +32,7 @@ rcl_ret_t rclc_stamp(rcl_clock_t * clock, int32_t * sec, uint32_t * nanosec)
   if (sec == NULL || nanosec == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "sec or nanosec");
   }
-  result = rcl_clock_get_now(clock, &now); /* checks the clock */
-  if (result != RCL_RET_OK) {
-    return result;
-  }
-  is_known =
-    stamp_is_known(clock); /* before the time that is written: another task may set the epoch in between */
+  is_known = clock != NULL && stamp_is_known(clock); /* first: another task may set the epoch in between */
   result = rcl_clock_get_now(clock, &now);
   if (result != RCL_RET_OK) {
     return result;

@@ -11,7 +11,7 @@
 #include "microros/rmw_node.h"
 #include "microros/rmw_service.h"
 #include "microros/xrce_wire.h"
-#include "microros/xrce_write.h"
+#include "microros/xrce_write_room.h"
 #include "rcl/error_handling.h"
 #include "rmw/qos_profiles.h"
 
@@ -125,17 +125,6 @@ static bool events_next(uint32_t graph)
   return false;
 }
 
-/* Without a session or room in its stream a request would wait as a publish call does, or displace a stored message. */
-static bool events_may_send(void)
-{
-  bool result;
-
-  microros_lock();
-  result = xrce_write_reserve(events_client.impl->data) != NULL;
-  microros_unlock();
-  return result;
-}
-
 static void events_ask(uint32_t graph, uint32_t now)
 {
   microros_graph_msgs__srv__EndpointStatus_Request request;
@@ -178,7 +167,7 @@ void rcl_graph_events_follow(void)
   if (!events_pause || xrce_is_due(now, events_due_ms)) {
     events_wait = false;
     events_pause = false;
-    if (events_may_send()) {
+    if (xrce_write_has_room(events_client.impl->data)) {
       events_ask(rcl_graph_changes(), now);
     } else {
       events_rest(now);

@@ -5,7 +5,7 @@
 #include "microros/rmw_node.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_parameters.h"
-#include "microros/xrce_write.h"
+#include "microros/xrce_write_room.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -47,15 +47,7 @@ bool rmw_lifecycle_is_replying(const rmw_node_t * node)
 
 bool rmw_lifecycle_has_room(const rmw_publisher_t * publisher)
 {
-  bool result;
-
-  if (publisher == NULL) {
-    return false;
-  }
-  microros_lock();
-  result = xrce_write_reserve(publisher->data) != NULL;
-  microros_unlock();
-  return result;
+  return publisher != NULL && xrce_write_has_room(publisher->data);
 }
 
 void rmw_lifecycle_answer_large(const rmw_service_t * service, bool answers)

@@ -110,7 +110,7 @@ bool rmw_local_publish(const xrce_endpoint_t * writer, const void * message, rmw
       local_put(writer->client, queue, &rmw_local_states[*at], message, now);
     }
   }
-  rmw_local_wake(writer->client);
+  rmw_local_wake();
   return route->only;
 }
 
@@ -141,6 +141,6 @@ bool rmw_local_publish_body(
       ++state->count;
     }
   }
-  rmw_local_wake(client);
+  rmw_local_wake();
   return route->only;
 }

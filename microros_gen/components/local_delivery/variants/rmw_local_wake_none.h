@@ -3,11 +3,8 @@
 #ifndef MICROROS_RMW_LOCAL_WAKE_H
 #define MICROROS_RMW_LOCAL_WAKE_H
 
-#include "microros/xrce_forward.h"
-
-static inline void rmw_local_wake(const xrce_client_t * client)
+static inline void rmw_local_wake(void)
 {
-  (void)client;
 }
 
 #endif /* MICROROS_RMW_LOCAL_WAKE_H */

@@ -4,11 +4,9 @@
 #define MICROROS_RMW_LOCAL_WAKE_H
 
 #include "microros/port.h"
-#include "microros/xrce_client.h"
 
-static inline void rmw_local_wake(const xrce_client_t * client)
+static inline void rmw_local_wake(void)
 {
-  (void)client;
   port_wake(); /* also while a task is between looking for messages and waiting */
 }
 

@@ -3,21 +3,13 @@
 
 #include "microros/lock.h"
 #include "microros/xrce_parameters.h"
-#include "microros/xrce_write.h"
+#include "microros/xrce_write_room.h"
 
 #include <stddef.h>
 
 bool rmw_parameters_have_room(const rmw_publisher_t * publisher)
 {
-  bool result;
-
-  if (publisher == NULL) {
-    return false;
-  }
-  microros_lock();
-  result = xrce_write_reserve(publisher->data) != NULL;
-  microros_unlock();
-  return result;
+  return publisher != NULL && xrce_write_has_room(publisher->data);
 }
 
 void rmw_parameters_answer_large(const rmw_service_t * service, uint8_t beginning)

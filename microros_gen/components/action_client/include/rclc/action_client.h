@@ -82,7 +82,8 @@ rcl_ret_t rclc_action_client_init_default(
  * Sends a goal. `ros_request` is a <pkg>__action__<Type>_SendGoal_Request, whose `goal_id` is set here; the library keeps
  * only its address, as `ros_goal_request` of the handle. `goal_handle` may be NULL. Does not wait for the server; may be
  * called in callbacks, and by any task with `multithread`. RCL_RET_INVALID_ARGUMENT for NULL; RCL_RET_ERROR, with a text,
- * if all goals are in use, no executor runs the client, a field is above its limit, or there is no room or no session.
+ * if all goals are in use, no executor runs the client, a field is above its limit, the stream is full, or the session
+ * is not open.
  */
 rcl_ret_t rclc_action_send_goal_request(
   rclc_action_client_t * action_client, void * ros_request, rclc_action_goal_handle_t ** goal_handle);
