@@ -108,14 +108,24 @@ class _Peer:
             if goal.is_cancel_requested:
                 goal.canceled()
                 return result
+        self._wait_for_readers()
         for count in range(1, order + 1 if order < REJECTED else 1):
             feedback = self._type.Feedback()
             feedback.sequence = fibonacci(count)
             goal.publish_feedback(feedback)
             time.sleep(0.02)
+        time.sleep(
+            0.3
+        )  # result and feedback are of different topics: a result that overtakes feedback ends the goal
         goal.succeed()
         result.sequence = fibonacci(order if order < REJECTED else 0)
         return result
+
+    def _wait_for_readers(self) -> None:
+        """Wait until ROS knows who reads feedback: its own client and the device, whose goal can come earlier."""
+        end = deadline(10)
+        while self._node.count_subscribers(f"{ACTION}/_action/feedback") < 2 and time.monotonic() < end:
+            time.sleep(0.01)
 
     def goals(self) -> list[Any]:
         return [[g.request.order, bytes(g.goal_id.uuid).hex(), int(g.status)] for g in self._accepted]
