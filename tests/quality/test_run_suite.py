@@ -13,7 +13,7 @@ from _pytest.mark.expression import Expression
 from tests.support.examples import EXAMPLES, LEAST, examples, some
 from tests.support.paths import TESTS
 from tests.support.runtime.harness import EVERYWHERE
-from tests.tools.run_suite import RUNS, SANITIZED, Run, command, compile_tests
+from tests.tools.run_suite import RUNS, SANITIZED, Run, carry_out, command, compile_tests
 
 FOLDERS = sorted(path.parent.name for path in TESTS.glob("*/__init__.py"))
 MARKERS = ("ros", "builds", "lint", "system", "hypothesis", "examples")
@@ -40,6 +40,33 @@ def test_every_test_that_is_not_long_runs_in_ci(folder: str) -> None:
     targets = [{"check", "lint"}, {"test", "system", "lint"}]  # of .ci/run, and of a developer
     for names in targets:
         assert [markers for markers in SETS if not any(runs(name, folder, markers) for name in names)] == []
+
+
+@pytest.mark.builds
+@pytest.mark.parametrize(
+    ("again", "body", "status", "runs_of_it"),
+    [
+        (1, "assert runs == 2", 0, 2),  # a test that passes alone
+        (1, "raise AssertionError", 1, 2),
+        (0, "assert runs == 2", 1, 1),
+        (1, "pass", 0, 1),
+    ],
+)
+def test_what_failed_beside_others_runs_alone(
+    tmp_path: Path, again: int, body: str, status: int, runs_of_it: int
+) -> None:
+    count = tmp_path / "count"
+    count.touch()
+    (tmp_path / "test_x.py").write_text(
+        "from pathlib import Path\ndef test_x():\n"
+        f"    count = Path({str(count)!r})\n    count.write_text(count.read_text() + 'x')\n"
+        f"    runs = len(count.read_text())\n    {body}\n"
+    )
+    assert (
+        carry_out(Run("not long", again=again), ["-n", "1", str(tmp_path), "--rootdir", str(tmp_path)])
+        == status
+    )
+    assert len(count.read_text()) == runs_of_it
 
 
 @pytest.mark.parametrize("folder", FOLDERS)

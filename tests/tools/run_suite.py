@@ -6,9 +6,11 @@ python -m tests.tools.run_suite [test | quick | system | check | lint] [options 
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
+import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -49,11 +51,15 @@ class Run:
     environment: Mapping[str, str] = field(default_factory=dict)
     without: tuple[str, ...] = ()
     """Folders below tests/ that this run leaves out: another has them."""
+    again: int = 0
+    """Up to so many failed tests run once more, alone; what fails alone has failed."""
 
 
 DEFAULT = "not long and not lint and not system"
 SANITIZED = ("runtime", "components", "e2e")
 """Folders whose programs `make test` compiles without sanitizers."""
+TESTS_FAILED = 1
+"""pytest's exit status: all tests ran, some failed."""
 EVERYTHING = {EXAMPLES: "all", EVERYWHERE: "all"}
 RUNS: Mapping[str, tuple[Run, ...]] = {
     "test": (Run(DEFAULT),),
@@ -67,7 +73,8 @@ RUNS: Mapping[str, tuple[Run, ...]] = {
         Run("not long and not lint", SANITIZED, environment=EVERYTHING),
     ),
     # Each test of `test` and `system` once, compiled as in `test`. All sanitizers and examples take too long for CI.
-    "check": (Run("not long and not lint"),),
+    # Beside emulators, DDS and agents of other tests, on a slow machine, a test can fail that is right.
+    "check": (Run("not long and not lint", again=5),),
     "lint": (Run("lint and not long", more_processes=1),),
 }
 
@@ -110,18 +117,40 @@ def _bytes_of_tests(folder: Path) -> int:
     return sum(path.stat().st_size for path in folder.glob("test_*.py"))
 
 
+def failed_tests(cache: Path) -> tuple[str, ...]:
+    """Return the tests of pytest's cache that have failed, sorted."""
+    path = cache / "v" / "cache" / "lastfailed"
+    return tuple(sorted(json.loads(path.read_text("utf-8")))) if path.is_file() else ()
+
+
+def carry_out(run: Run, options: Sequence[str]) -> int:
+    """Run pytest, and once more for a few tests that failed; return its status and say which tests passed alone."""
+    environment = {**os.environ, **run.environment}
+
+    def status_of(call: Sequence[str]) -> int:
+        return subprocess.run(call, cwd=ROOT, env=environment, check=False).returncode
+
+    with tempfile.TemporaryDirectory() as folder:
+        call = [*command(run, options), "-o", f"cache_dir={folder}"]
+        status = status_of(call)
+        failed = failed_tests(Path(folder))
+        if status != TESTS_FAILED or not 0 < len(failed) <= run.again:
+            return status
+        print(f"{len(failed)} tests failed beside others. Alone:", flush=True)
+        status = status_of([*call, "-n", "0", "--last-failed", "--last-failed-no-failures", "none"])
+        again = failed_tests(Path(folder))
+    for name in failed:
+        print(f"{'failed' if name in again else 'passed'} alone: {name}", flush=True)
+    return status
+
+
 def main(arguments: Sequence[str]) -> int:
     """Run pytest once or more; the first status that is no success is ours."""
     name, options = ("test", arguments)
     if arguments and arguments[0] in RUNS:
         name, options = arguments[0], arguments[1:]
     compile_tests()
-    statuses = []
-    for run in RUNS[name]:
-        environment = {**os.environ, **run.environment}
-        statuses.append(
-            subprocess.run(command(run, options), cwd=ROOT, env=environment, check=False).returncode
-        )
+    statuses = [carry_out(run, options) for run in RUNS[name]]
     return next((status for status in statuses if status), 0)
 
 
