@@ -52,7 +52,7 @@ def test_every_test_that_is_not_long_runs_in_ci(folder: str) -> None:
         (1, "pass", 0, 1),
     ],
 )
-def test_what_failed_beside_others_runs_alone(
+def test_what_failed_with_others_runs_alone(
     tmp_path: Path, again: int, body: str, status: int, runs_of_it: int
 ) -> None:
     count = tmp_path / "count"
