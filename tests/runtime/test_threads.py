@@ -13,7 +13,7 @@ import pytest
 from microros_gen.client.plan.runtime_entities import QueuePlan
 from tests.support.patience import seconds
 from tests.support.plans import EXECUTOR, changed
-from tests.support.runtime.harness import SANITIZER, build, components, render
+from tests.support.runtime.harness import SANITIZER, Tree, build, components, render
 from tests.support.runtime.reading_agent import ReadingAgent
 from tests.support.slices import first
 
@@ -74,4 +74,26 @@ def test_two_tasks_that_search_for_agents_do_not_share_answers(tmp_path: Path) -
     tree = render(tmp_path, plan, components(plan))
     program = build(tree, ["unit_inquiry.c"], "unit", SANITIZER, THREAD_SANITIZER)
     done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_what_is_ready_for_several_tasks_wakes_each_of_them(tmp_path: Path) -> None:
+    """On a system whose wake-up ends one wait, such as that with a semaphore in docs/howto/port.md."""
+    agent = ReadingAgent()
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as served:
+        served.bind(("127.0.0.1", 0))
+        threading.Thread(target=serve, args=(agent, served), daemon=True).start()
+        port = served.getsockname()[1]
+        plan = changed(PLAN, transport__agent_port=port, executor__guard_conditions_max=3)
+        plan = changed(plan, executor__wait_sets_max=3)
+        tree = render(tmp_path, plan, components(plan))
+        alone = Tree(tree.folder, tuple(s for s in tree.sources if s.name != "port_posix_wait.c"))
+        program = build(
+            alone,
+            ["port_one_wake.c", "types_read.c", "waking_threads.c"],
+            "waking",
+            SANITIZER,
+            THREAD_SANITIZER,
+        )
+        done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(120), check=False)
     assert (done.returncode, done.stderr) == (0, "")

@@ -8,6 +8,7 @@
 #include "microros/rmw_action_server.h"
 #include "microros/rmw_encode.h"
 #include "microros/rmw_service.h"
+#include "microros/wake.h"
 
 #include <string.h>
 
@@ -88,7 +89,7 @@ rcl_ret_t rclc_action_send_result(
                              : action_result_end(goal_handle, place, status, ros_response);
   microros_unlock();
   if (result == RCL_RET_OK) {
-    port_wake(); /* the executor sends it */
+    microros_wake(); /* the executor sends it */
   }
   return result;
 }

@@ -3,6 +3,7 @@
 
 #include "microros/error.h"
 #include "microros/executor_handles.h"
+#include "microros/lock.h"
 #include "microros_config.h"
 
 #include <string.h>
@@ -72,7 +73,9 @@ rcl_ret_t rclc_executor_init(
     return microros_error_refuse(
       RCL_RET_INVALID_ARGUMENT, "executor, context, number_of_handles or allocator");
   }
+  microros_lock();
   handles = executor_take(executor);
+  microros_unlock();
   (void)memset(executor, 0, sizeof(*executor));
   if (handles == NULL) {
     return RCL_RET_BAD_ALLOC;
@@ -90,11 +93,13 @@ rcl_ret_t rclc_executor_init(
 /* Found by its handles: `executor` may be a copy. */
 static void executor_release(const rclc_executor_t * executor)
 {
+  microros_lock();
   for (size_t i = 0; i < MICROROS_EXECUTORS_MAX; ++i) {
     if (executor_places[i].handles == executor->handles) {
       executor_places[i].owner = NULL;
     }
   }
+  microros_unlock();
 }
 
 rcl_ret_t rclc_executor_fini(rclc_executor_t * executor)

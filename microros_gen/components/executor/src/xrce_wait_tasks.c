@@ -1,27 +1,60 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Several tasks, port transport. */
-#include "microros/xrce_wait.h"
-
 #include "microros/lock.h"
+#include "microros/wake.h"
+#include "microros/xrce_wait.h"
 #include "microros/xrce_wait_left.h"
 
 /* Another task may take or close an entity and so give the session work without a wake-up; writes do wake
  * (xrce_tasks.h). This limits the delay. */
 enum { WAIT_MOST_MS = 1000 };
 
-void xrce_wait(xrce_client_t * client, uint32_t timeout_ms)
+/* Enters the wait, with the time and the handle for it; false: something may be ready. */
+static bool wait_enter(
+  xrce_client_t * client, uint32_t timeout_ms, const uint32_t * news, uint32_t * left_ms, intptr_t * handle)
 {
-  const uint32_t most = timeout_ms < (uint32_t)WAIT_MOST_MS ? timeout_ms : (uint32_t)WAIT_MOST_MS;
-  uint32_t left;
+  const bool enters = *news == microros_news && !client->wakes;
+
+  *left_ms =
+    xrce_wait_left(client, timeout_ms < (uint32_t)WAIT_MOST_MS ? timeout_ms : (uint32_t)WAIT_MOST_MS);
+  *handle = client->session.transport_open ? xrce_transport_handle(&client->session.transport) : -1;
+  client->waiting = (uint8_t)(client->waiting + (enters ? 1u : 0u));
+  return enters;
+}
+
+/* A wake-up ends one wait. Where it brought news, the others end one after the other. */
+static void wait_leave(xrce_client_t * client, const uint32_t * news)
+{
+  --client->waiting;
+  client->wakes = client->waiting != 0u && (client->wakes || *news != microros_news);
+  if (client->wakes) {
+    port_wake();
+  }
+}
+
+void xrce_wait_news(xrce_client_t * client, uint32_t timeout_ms, uint32_t * news)
+{
+  uint32_t left_ms;
   intptr_t handle;
+  bool enters;
+  bool wakes;
 
   microros_lock();
-  left = xrce_wait_left(client, most);
-  handle = client->session.transport_open ? xrce_transport_handle(&client->session.transport) : -1;
-  ++client->waiting;
+  enters = wait_enter(client, timeout_ms, news, &left_ms, &handle);
+  wakes = client->wakes;
+  if (!enters) {
+    *news = microros_news;
+  }
   microros_unlock();
-  port_wait(handle, left);
-  microros_lock();
-  --client->waiting;
-  microros_unlock();
+  if (enters) {
+    port_wait(handle, left_ms);
+    microros_lock();
+    wait_leave(client, news);
+    *news = microros_news;
+    microros_unlock();
+  } else if (wakes) {
+    port_sleep_ms(1); /* the wake-ups are for the tasks that wait already */
+  } else {
+    /* this task looks again */
+  }
 }

@@ -17,7 +17,7 @@ static rcl_ret_t graph_await(
   const rcl_client_t * client, int64_t first, void * response, rcl_graph_bind_t bind,
   const rcl_waiting_t * limit)
 {
-  const rcl_waiting_t waiting =
+  rcl_waiting_t waiting =
     rcl_graph_waiting((uint32_t)MICROROS_CREATE_TIMEOUT_MS / (uint32_t)GRAPH_ATTEMPTS, limit);
 
   for (;;) {

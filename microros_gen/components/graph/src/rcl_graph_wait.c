@@ -6,7 +6,7 @@
 static const int64_t wait_retry_ns = 100000000; /* after a query that failed */
 
 /* Rests until the graph has changed since `seen`; false: the time is over. */
-static bool wait_for_change(const rcl_waiting_t * waiting, uint32_t seen)
+static bool wait_for_change(rcl_waiting_t * waiting, uint32_t seen)
 {
   while (rcl_graph_changes() == seen) {
     if (rcl_waiting_is_over(waiting)) {
@@ -24,7 +24,7 @@ static bool wait_can_continue(rcl_ret_t result)
   return result == RCL_RET_TIMEOUT || (result == RCL_RET_ERROR && rcl_graph_source_is_open());
 }
 
-static void wait_for_retry(const rcl_waiting_t * waiting)
+static void wait_for_retry(rcl_waiting_t * waiting)
 {
   rcutils_reset_error();
   rcl_waiting_rest(waiting, wait_retry_ns);
@@ -32,7 +32,7 @@ static void wait_for_retry(const rcl_waiting_t * waiting)
 }
 
 static rcl_ret_t wait_until(
-  rcl_graph_kind_t kind, char * topic, size_t count, const rcl_waiting_t * waiting, bool * success)
+  rcl_graph_kind_t kind, char * topic, size_t count, rcl_waiting_t * waiting, bool * success)
 {
   /* A program that waits for 0 ns asks how it is now, which takes the time of a query. */
   const rcl_waiting_t * const limit = waiting->timeout_ms == 0u ? NULL : waiting;
@@ -64,7 +64,7 @@ static rcl_ret_t wait_for_count(
   const rcl_node_t * node, rcl_graph_kind_t kind, const char * topic_name, size_t count, int64_t timeout,
   bool * success)
 {
-  const rcl_waiting_t waiting = rcl_waiting_begin(timeout);
+  rcl_waiting_t waiting = rcl_waiting_begin(timeout);
   const rmw_name_t name = {{topic_name, "", "", ""}};
   char topic[MICROROS_GRAPH_NAME_SIZE];
   rcl_ret_t result;

@@ -3,11 +3,11 @@
 #ifndef MICROROS_RMW_LOCAL_WAKE_H
 #define MICROROS_RMW_LOCAL_WAKE_H
 
-#include "microros/port.h"
+#include "microros/wake.h"
 
 static inline void rmw_local_wake(void)
 {
-  port_wake(); /* also while a task is between looking for messages and waiting */
+  microros_wake(); /* also while a task is between looking for messages and waiting */
 }
 
 #endif /* MICROROS_RMW_LOCAL_WAKE_H */

@@ -81,7 +81,7 @@ static bool call_take(const rmw_client_t * handle, int64_t sequence, void * resp
 static rcl_ret_t call_wait(
   const rcl_client_t * client, int64_t sequence, void * response, uint64_t timeout_ns)
 {
-  const rcl_waiting_t waiting = rcl_waiting_begin((int64_t)timeout_ns);
+  rcl_waiting_t waiting = rcl_waiting_begin((int64_t)timeout_ns);
   rcl_ret_t result = RCL_RET_ERROR;
 
   for (;;) {

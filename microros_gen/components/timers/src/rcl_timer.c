@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
-#include "microros/port.h"
+#include "microros/lock.h"
 #include "microros/rcl_guard_condition.h"
 #include "microros/rcl_timer.h"
 #include "microros/rcl_timer_gate.h"
 #include "microros/time_math.h"
+#include "microros/wake.h"
 
 #include <string.h>
 
@@ -53,6 +54,14 @@ static rcl_ret_t timer_begin(
   return RCL_RET_OK;
 }
 
+static rcl_ret_t timer_refuse(void)
+{
+  microros_error_set(
+    microros_error_of_pool(microros_error_pool_full, MICROROS_TIMERS_MAX), "timers", NULL,
+    MICROROS_TIMERS_MAX, MICROROS_TIMERS_MAX + 1u);
+  return RCL_RET_BAD_ALLOC;
+}
+
 rcl_ret_t rcl_timer_init2(
   rcl_timer_t * timer, rcl_clock_t * clock, rcl_context_t * context, int64_t period,
   const rcl_timer_callback_t callback, rcl_allocator_t allocator, bool autostart)
@@ -70,14 +79,10 @@ rcl_ret_t rcl_timer_init2(
   if (!rcl_context_is_valid(context)) {
     return microros_error_refuse(RCL_RET_NOT_INIT, "context");
   }
+  microros_lock(); /* tasks may initialize timers at the same time */
   place = rcl_timer_source_take(period);
-  if (place == NULL) {
-    microros_error_set(
-      microros_error_of_pool(microros_error_pool_full, MICROROS_TIMERS_MAX), "timers", NULL,
-      MICROROS_TIMERS_MAX, MICROROS_TIMERS_MAX + 1u);
-    return RCL_RET_BAD_ALLOC;
-  }
-  result = timer_begin(place, clock, period, callback, autostart);
+  result = place != NULL ? timer_begin(place, clock, period, callback, autostart) : timer_refuse();
+  microros_unlock();
   if (result == RCL_RET_OK) {
     timer->impl = place;
   }
@@ -121,7 +126,7 @@ void rcl_timer_wake(rcl_timer_impl_t * timer)
   if (timer->guard != NULL) {
     timer->guard->triggered = timer->guard->triggered + 1u;
   }
-  port_wake();
+  microros_wake();
 }
 
 rcl_ret_t rcl_timer_reset(rcl_timer_t * timer)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Timers on a clock whose time jumps; only linked with a ROS clock. */
-#include "microros/port.h"
 #include "microros/rcl_timer.h"
 #include "microros/time_math.h"
+#include "microros/wake.h"
 
 static bool jump_changes_time(const rcl_time_jump_t * jump)
 {
@@ -55,6 +55,6 @@ void rcl_timer_on_jump(
     }
   }
   if (!before_jump) {
-    port_wake(); /* the waiting task must look again */
+    microros_wake(); /* the waiting task must look again */
   }
 }

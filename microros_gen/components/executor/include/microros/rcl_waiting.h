@@ -9,14 +9,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "microros/rcl_waiting_state.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-typedef struct rcl_waiting_t {
-  uint32_t start_ms;
-  uint32_t timeout_ms; /* UINT32_MAX: no time-out */
-} rcl_waiting_t;
 
 /*
  * Negative `timeout_ns`: no time-out. Times are rounded up to milliseconds; 49 days and more mean no
@@ -30,7 +27,7 @@ void rcl_waiting_receive(void);
 bool rcl_waiting_is_over(const rcl_waiting_t * waiting);
 
 /* Rests until the time-out at most, and for at most `look_again_ns`. */
-void rcl_waiting_rest(const rcl_waiting_t * waiting, int64_t look_again_ns);
+void rcl_waiting_rest(rcl_waiting_t * waiting, int64_t look_again_ns);
 
 #ifdef __cplusplus
 }

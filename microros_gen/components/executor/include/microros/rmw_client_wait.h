@@ -15,6 +15,9 @@ void rmw_client_pump(void);
 /* Rests for at most `timeout_ms`, as xrce_wait does. */
 void rmw_client_wait(uint32_t timeout_ms);
 
+/* The same with several tasks, as xrce_wait_news does. */
+void rmw_client_wait_news(uint32_t timeout_ms, uint32_t * news);
+
 #ifdef __cplusplus
 }
 #endif

@@ -18,6 +18,12 @@ extern "C" {
  */
 void xrce_wait(xrce_client_t * client, uint32_t timeout_ms);
 
+/*
+ * The same where several tasks call the library. `*news`: microros_news before this task last looked; returns at once if
+ * it has changed since, and brings it up to date.
+ */
+void xrce_wait_news(xrce_client_t * client, uint32_t timeout_ms, uint32_t * news);
+
 enum { XRCE_WAIT_CUSTOM_MS = 10 };
 
 #ifdef __cplusplus

@@ -6,18 +6,19 @@
 #ifndef MICROROS_XRCE_TASKS_H
 #define MICROROS_XRCE_TASKS_H
 
-#include "microros/port.h"
+#include "microros/wake.h"
 #include "microros/xrce_client.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* Received data may be for a task that waits for the transport. */
+/* Received data may be for a task that waits for the transport, or is about to. */
 static inline void xrce_tasks_wake(xrce_client_t * client)
 {
   if (client->seen != client->session.statistics.received) {
     client->seen = client->session.statistics.received;
+    microros_note();
     if (client->waiting != 0u) {
       port_wake();
     }
