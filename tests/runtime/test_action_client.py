@@ -25,6 +25,7 @@ nodes:
       - {name: find, type: tf2_msgs/action/LookupTransform}
 limits: {"*": {string: 8, sequence: 4}}
 """
+DROPS = APPLICATION.replace("components:", "on_full: drop_oldest\ncomponents:")
 STEP_MS, SPINS = 20, 12
 ACCEPTED, SUCCEEDED, CANCELED = 1, 4, 5
 SIZES = {"goal": 20, "cancel": 24, "result": 16}
@@ -99,6 +100,17 @@ def program(tree: Tree) -> Path:
 
 @pytest.fixture
 def device(program: Path, tree: Tree) -> Iterator[Device]:
+    yield from started(program, tree)
+
+
+@pytest.fixture
+def dropping(tmp_path: Path) -> Iterator[Device]:
+    """The same device with `on_full: drop_oldest`."""
+    tree = write_application(tmp_path / "tree", DROPS)
+    yield from started(build(tree.without_port(), ["port_fake.c", "client_action_client.c"], "drops"), tree)
+
+
+def started(program: Path, tree: Tree) -> Iterator[Device]:
     config = (tree.folder / "include/microros_config.h").read_text(encoding="utf-8")
     (size,) = re.findall(r"MICROROS_INPUT_SIZE (\d+)u", config)
     agent = ServingAgent(mtu=int(size))
@@ -207,6 +219,22 @@ def test_results_are_asked_for_again_in_a_new_session(device: Device) -> None:
     assert len(device.asked("result")) == before + 1
     device.end(device.asked("result")[-1], SUCCEEDED, 4)
     assert device.spin() == [f"result {goal} {SUCCEEDED} 4"]
+
+
+def test_a_request_for_a_result_that_the_stream_dropped_is_sent_again(dropping: Device) -> None:
+    """Other requests took its place while the agent took nothing; without a result_timeout the goal would not end."""
+    dropping.start()
+    dropping.client.ok("send 3")
+    dropping.accept(dropping.asked("goal")[0])
+    dropping.agent.drop = lambda _: True
+    assert dropping.spin(2) == ["goal 0 1"]
+    for _ in range(8):
+        dropping.client.ok("cancel 0")
+    dropping.agent.drop = lambda _: False
+    dropping.spin(40)
+    (number,) = dropping.asked("result")
+    dropping.end(number, SUCCEEDED, 5)
+    assert dropping.spin() == [f"result 0 {SUCCEEDED} 5"]
 
 
 def test_every_third_datagram_is_lost(device: Device) -> None:

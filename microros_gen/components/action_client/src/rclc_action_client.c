@@ -114,6 +114,7 @@ static rcl_ret_t client_open(
     return result;
   }
   client->session = rmw_action_client_session(client->rcl_handle.goal_client.impl);
+  client->drops = rmw_action_client_drops(client->rcl_handle.goal_client.impl);
   return RCL_RET_OK;
 }
 

@@ -16,20 +16,25 @@ void rclc_action_client_note(rclc_action_client_t * client, rcl_ret_t result)
   }
 }
 
-/* The agent's requesters of the last session are gone: what they asked for has to be asked for again. */
+/* The agent's requesters of the last session are gone, and dropped requests were not sent: what they asked for has to be
+ * asked for again. */
 static void take_session(rclc_action_client_t * client)
 {
   const rmw_client_t * results = client->rcl_handle.result_client.impl;
-  const uint8_t session = rmw_action_client_session(results);
+  const bool is_new = rmw_action_client_session(results) != client->session;
+  const uint32_t drops = rmw_action_client_drops(results);
 
-  if (session == client->session) {
+  if (!is_new && drops == client->drops) {
     return;
   }
-  client->session = session;
+  client->session = rmw_action_client_session(results);
+  client->drops = drops;
   for (size_t i = 0; i < client->goal_handles_memory_size; ++i) {
     rclc_action_goal_handle_t * goal = &client->declared->goals[i];
 
-    if (goal->is_used && goal->awaits_result_response) {
+    if (
+      goal->is_used && goal->awaits_result_response &&
+      (is_new || !rmw_action_client_expects(results, goal->result_request_sequence_number))) {
       rmw_action_client_abandon(results, goal->result_request_sequence_number);
       goal->awaits_result_response = false;
       goal->result_due = true;

@@ -3,6 +3,7 @@
 
 #include "microros/lock.h"
 #include "microros/xrce_action_client.h"
+#include "microros/xrce_action_client_drops.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_read.h"
 #include "microros/xrce_write_room.h"
@@ -22,6 +23,27 @@ uint8_t rmw_action_client_session(const rmw_client_t * client)
 
   microros_lock();
   result = endpoint->client->action_client_sessions;
+  microros_unlock();
+  return result;
+}
+
+uint32_t rmw_action_client_drops(const rmw_client_t * client)
+{
+  const xrce_endpoint_t * endpoint = client->data;
+  uint32_t result;
+
+  microros_lock();
+  result = xrce_action_client_drops(endpoint->client);
+  microros_unlock();
+  return result;
+}
+
+bool rmw_action_client_expects(const rmw_client_t * client, int64_t sequence_number)
+{
+  bool result;
+
+  microros_lock();
+  result = xrce_action_client_expects(client->data, sequence_number);
   microros_unlock();
   return result;
 }

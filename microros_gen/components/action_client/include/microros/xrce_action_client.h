@@ -3,6 +3,7 @@
 #ifndef MICROROS_XRCE_ACTION_CLIENT_H
 #define MICROROS_XRCE_ACTION_CLIENT_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "microros/xrce_objects.h"
@@ -14,6 +15,9 @@ extern "C" {
 /* Frees the place of an outstanding request, whose reply is discarded from now on; nothing if it is not outstanding. It
  * is not reported as lost with a session either. */
 void xrce_action_client_abandon(const xrce_endpoint_t * endpoint, int64_t sequence_number);
+
+/* Returns whether a reply to the request may come. */
+bool xrce_action_client_expects(const xrce_endpoint_t * endpoint, int64_t sequence_number);
 
 #ifdef __cplusplus
 }

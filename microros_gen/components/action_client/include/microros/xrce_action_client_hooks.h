@@ -15,6 +15,9 @@ static inline void xrce_action_client_renew(xrce_client_t * client)
   ++client->action_client_sessions;
 }
 
+/* A WRITE_DATA submessage was removed from the stream. The request in it is not outstanding any more. */
+void xrce_action_client_drop(xrce_client_t * client, const uint8_t * dropped);
+
 #ifdef __cplusplus
 }
 #endif

@@ -66,6 +66,7 @@ typedef struct rclc_action_client_t {
   microros_service_type_t result_type;
   size_t goal_handles_memory_size; /* goals at once; 0: no executor runs it */
   rcl_ret_t fault;                 /* first one of the round */
+  uint32_t drops;
   uint8_t session;
 } rclc_action_client_t;
 
