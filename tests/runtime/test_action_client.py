@@ -322,6 +322,21 @@ def test_a_client_is_removed_and_added_while_a_goal_is_active(device: Device) ->
     assert device.spin() == [f"result {goal} {SUCCEEDED} 1"]
 
 
+def test_a_client_is_added_again_with_fewer_goals_than_are_active(device: Device) -> None:
+    """Those that are active end; then there is one place."""
+    device.start()
+    first, second = device.active(), device.active()
+    device.client.ok("remove")
+    device.client.ok("add 1")
+    for number in device.asked("result"):
+        device.end(number, SUCCEEDED, 1)
+    assert sorted(device.spin()) == [f"result {goal} {SUCCEEDED} 1" for goal in (first, second)]
+    device.active()
+    refused = device.client.call("send 3")
+    assert refused.code == 1
+    assert "more than 1 goals at once" in refused.error
+
+
 def test_a_client_leaves_an_executor_with_its_node_and_returns(device: Device) -> None:
     device.start()
     goal = device.active()

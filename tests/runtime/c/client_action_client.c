@@ -185,7 +185,7 @@ static rcl_ret_t call(char * line)
     return rclc_executor_remove_action_client(&executor, &walk);
   }
   if (strcmp(word, "add") == 0) {
-    return add(GOALS);
+    return add(argument != NULL ? (size_t)atoi(argument) : GOALS);
   }
   if (strcmp(word, "leave") == 0) {
     return rclc_executor_remove_node(&executor, &node);

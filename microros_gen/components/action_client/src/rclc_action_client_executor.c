@@ -75,6 +75,22 @@ static rcl_ret_t action_client_fits(const rclc_action_client_t * client, size_t 
   return RCL_RET_ERROR;
 }
 
+/* Goals that are active when a client is added again end as they would have, also beyond its new places. */
+static void action_client_size(rclc_action_client_t * client, size_t goals)
+{
+  const rclc_action_client_declared_t * declared = client->declared;
+
+  microros_lock();
+  client->goals_at_once = (uint16_t)goals;
+  client->goal_handles_memory_size = goals;
+  for (size_t i = goals; i < declared->goals_max; ++i) {
+    if (declared->goals[i].is_used && declared->goals[i].action_client == client) {
+      client->goal_handles_memory_size = i + 1u;
+    }
+  }
+  microros_unlock();
+}
+
 static void action_client_bind(rclc_action_client_t * client)
 {
   rmw_requester_bind(client->rcl_handle.result_client.impl, client->ros_result_response);
@@ -117,7 +133,7 @@ rcl_ret_t rclc_executor_add_action_client(
   action_client->result_callback = result_callback;
   action_client->cancel_callback = cancel_callback;
   action_client->context = context;
-  action_client->goal_handles_memory_size = handles_number;
+  action_client_size(action_client, handles_number);
   action_client_bind(action_client);
   ++executor->info.number_of_action_clients;
   return RCL_RET_OK;

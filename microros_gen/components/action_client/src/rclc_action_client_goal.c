@@ -44,7 +44,7 @@ static void goal_identify(const rclc_action_client_t * client, uint8_t * uuid)
 
 rclc_action_goal_handle_t * rclc_action_client_take_place(rclc_action_client_t * client)
 {
-  for (size_t i = 0; i < client->goal_handles_memory_size; ++i) {
+  for (size_t i = 0; i < client->goals_at_once; ++i) {
     rclc_action_goal_handle_t * goal = &client->declared->goals[i];
 
     if (!goal->is_used) {

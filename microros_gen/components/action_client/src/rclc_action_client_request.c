@@ -19,7 +19,7 @@ static rcl_ret_t request_goal(
   rcl_ret_t result;
 
   if (goal == NULL) {
-    const uint32_t goals = (uint32_t)client->goal_handles_memory_size;
+    const uint32_t goals = client->goals_at_once;
 
     microros_error_set(
       microros_error_action_client_goals, rclc_action_client_name(client), NULL, goals, goals + 1u);

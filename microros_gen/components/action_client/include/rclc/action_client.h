@@ -64,9 +64,10 @@ typedef struct rclc_action_client_t {
   void * ros_result_response;
   microros_service_type_t goal_type;
   microros_service_type_t result_type;
-  size_t goal_handles_memory_size; /* goals at once; 0: no executor runs it */
+  size_t goal_handles_memory_size; /* places of goals that are looked at; 0: no executor runs it */
   rcl_ret_t fault;                 /* first one of the round */
   uint32_t drops;
+  uint16_t goals_at_once; /* places for new goals, the first ones */
   uint8_t session;
 } rclc_action_client_t;
 
@@ -118,7 +119,7 @@ rcl_ret_t rclc_executor_add_action_client(
   rclc_action_client_result_callback_t result_callback, rclc_action_client_cancel_callback_t cancel_callback,
   void * context);
 
-/* Removes it; its goals stay, and responses wait until it is added again. */
+/* Removes it; its goals stay, and responses wait until it is added again, be it with fewer goals at once. */
 rcl_ret_t rclc_executor_remove_action_client(
   rclc_executor_t * executor, rclc_action_client_t * action_client);
 
