@@ -247,6 +247,22 @@ def test_wrong_calls_say_what_to_do(device: Device, call: str, text: str) -> Non
     assert device.send(5)  # the open one is as it was
 
 
+def test_a_server_is_added_again_with_fewer_goals_than_are_active(device: Device) -> None:
+    """Those that are active end; then there is one place."""
+    device.start()
+    assert device.send(3)
+    assert device.send(4)
+    device.client.ok("remove")
+    device.client.ok("add 1")
+    waiting = [device.ask_result(3), device.ask_result(4)]
+    for goal in range(2):
+        device.client.ok(f"end {goal} {SUCCEEDED}")
+    device.spin()
+    assert [device.result(number) for number in waiting] == [(SUCCEEDED, [5])] * 2
+    assert device.send(5)
+    assert not device.send(6)
+
+
 def test_a_callback_closes_its_server(device: Device) -> None:
     device.start()
     device.client.ok("close")

@@ -142,6 +142,10 @@ static rcl_ret_t call(char * line)
   if (strcmp(word, "remove") == 0) {
     return rclc_executor_remove_action_server(&executor, &walk);
   }
+  if (strcmp(word, "add") == 0) {
+    return rclc_executor_add_action_server(
+      &executor, &walk, (size_t)atoi(argument), walks, sizeof(walks[0]), on_goal, on_cancel, NULL);
+  }
   return rclc_executor_spin_some(&executor, 0);
 }
 

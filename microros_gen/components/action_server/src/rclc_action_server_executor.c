@@ -71,11 +71,27 @@ static rcl_ret_t action_server_call(rclc_executor_handle_t * handle)
   return result;
 }
 
+/* Goals that are active when a server is added again end as they would have, also beyond its new places. Called with the
+ * lock. */
+static void action_server_size(rclc_action_server_t * server, size_t goals)
+{
+  const rclc_action_declared_t * declared = server->declared;
+
+  server->goals_at_once = (uint16_t)goals;
+  server->goal_handles_memory_size = goals;
+  for (size_t i = goals; i < declared->goals_max; ++i) {
+    if (declared->goals[i].is_used && declared->goals[i].action_server == server) {
+      server->goal_handles_memory_size = i + 1u;
+    }
+  }
+}
+
 static void action_server_place_goals(rclc_action_server_t * server, size_t goals, void * requests)
 {
   const rclc_action_declared_t * declared = server->declared;
   uint8_t * request = requests;
 
+  microros_lock();
   for (size_t i = 0; i < goals; ++i) {
     if (declared->bind != NULL) {
       declared->bind(requests, i);
@@ -83,7 +99,8 @@ static void action_server_place_goals(rclc_action_server_t * server, size_t goal
     declared->goals[i].action_server = server;
     declared->goals[i].ros_goal_request = (void *)&request[i * declared->request_size];
   }
-  server->goal_handles_memory_size = goals;
+  action_server_size(server, goals);
+  microros_unlock();
 }
 
 /* Returns the code of what is wrong with the memory of the goals. */

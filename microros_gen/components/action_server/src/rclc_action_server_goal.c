@@ -33,7 +33,7 @@ rclc_action_goal_handle_t * rclc_action_take_place(const rclc_action_server_t * 
   const uint32_t now = port_time_ms();
   rclc_action_goal_handle_t * oldest = NULL;
 
-  for (size_t i = 0; i < server->goal_handles_memory_size; ++i) {
+  for (size_t i = 0; i < server->goals_at_once; ++i) {
     rclc_action_goal_handle_t * goal = &server->declared->goals[i];
 
     if (!goal->is_used) {
