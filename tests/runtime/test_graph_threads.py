@@ -17,7 +17,7 @@ from microros_gen.interfaces.find import InterfaceFinder, shipped_folder
 from microros_gen.ros.codec import ENCAPSULATION_BYTES, Codec
 from tests.support.patience import seconds
 from tests.support.runtime.graph_agent import GraphAgent, MadeGraph, endpoint
-from tests.support.runtime.harness import build
+from tests.support.runtime.harness import Tree, build
 from tests.support.runtime.serving_agent import identity
 from tests.support.runtime.surface import write_application
 
@@ -107,3 +107,40 @@ def test_tasks_that_query_while_an_executor_answers(tmp_path: Path) -> None:
     assert len(agent.requests) >= TASKS * QUERIES
     assert len(serving.results()) > TASKS * QUERIES / EVERY / 2
     assert all(all(found) for found in serving.results())
+
+
+EVENTS = """\
+version: 1
+profiles: [pure_sender]
+components: [+graph_events, +multithread]
+memory: {arena: 2500}
+transport: {agent: "127.0.0.1:%d"}
+pools: {guard_conditions: 1}
+session: {create_timeout: 20 s, connect_timeout: 20 s, liveliness_timeout: 20 s}
+nodes: [{name: first}, {name: second}]
+"""
+
+
+def test_the_node_of_the_graph_is_closed_while_another_task_spins(tmp_path: Path) -> None:
+    agent = GraphAgent(mtu=256, graph=MadeGraph(), reader=1, first_client=2)
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as served:
+        served.bind(("127.0.0.1", 0))
+        threading.Thread(target=answer, args=(agent, served), daemon=True).start()
+        tree = write_application(tmp_path / "tree", EVENTS % served.getsockname()[1])
+        alone = Tree(tree.folder, tuple(s for s in tree.sources if s.name != "port_posix_time.c"))
+        program = build(alone, ["closing_threads.c"], "closing", "gcc", ("-g0", "-O0"))
+        done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(120), check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def answer(agent: GraphAgent, served: socket.socket) -> None:
+    """Answer datagrams until the socket is closed, and tell of a change of the graph with each."""
+    while True:
+        try:
+            datagram, peer = served.recvfrom(2048)
+        except OSError:
+            return
+        answers = agent.receive(datagram)
+        notices = agent.notice() if agent.requests else []
+        for response in [*answers, *notices, *agent.tick()]:
+            served.sendto(response, peer)

@@ -28,28 +28,6 @@ static bool events_pause;
 static bool events_wait; /* for a response, at most until `events_due_ms` */
 static bool events_busy; /* a task makes requests */
 
-rcl_ret_t rcl_graph_events_open(const rcl_node_t * node)
-{
-  if (rmw_node_index(node->impl) != 0u) {
-    return RCL_RET_OK;
-  }
-  events_node = node->impl;
-  events_wait = false;
-  events_pause = false;
-  events_client = rcl_get_zero_initialized_client();
-  return rcl_client_open(
-    &events_client, node, ROSIDL_GET_SRV_TYPE_SUPPORT(microros_graph_msgs, srv, EndpointStatus),
-    "/microros_graph/endpoint_status", &rmw_qos_profile_services_default);
-}
-
-void rcl_graph_events_close(rcl_node_t * node)
-{
-  if (events_node == node->impl) {
-    (void)rcl_client_fini(&events_client, node); /* cannot fail: the node is open */
-    events_node = NULL;
-  }
-}
-
 static bool events_begin(void)
 {
   bool is_free;
@@ -68,10 +46,60 @@ static void events_end(void)
   microros_unlock();
 }
 
+/* Whichever task waits reads it (rcl_graph_events_left). */
+static void events_set_pause(bool pauses)
+{
+  microros_lock();
+  events_pause = pauses;
+  microros_unlock();
+}
+
+/* Another task makes a request, which does not take long. */
+static void events_enter(void)
+{
+  while (!events_begin()) {
+    microros_lock();
+    microros_pause();
+    microros_unlock();
+  }
+}
+
+rcl_ret_t rcl_graph_events_open(const rcl_node_t * node)
+{
+  rcl_client_t client = rcl_get_zero_initialized_client();
+  rcl_ret_t result;
+
+  if (rmw_node_index(node->impl) != 0u) {
+    return RCL_RET_OK;
+  }
+  result = rcl_client_open(
+    &client, node, ROSIDL_GET_SRV_TYPE_SUPPORT(microros_graph_msgs, srv, EndpointStatus),
+    "/microros_graph/endpoint_status", &rmw_qos_profile_services_default);
+  events_enter();
+  events_node = node->impl;
+  events_wait = false;
+  events_set_pause(false);
+  events_client = client;
+  events_end();
+  return result;
+}
+
+void rcl_graph_events_close(rcl_node_t * node)
+{
+  events_enter();
+  if (events_node == node->impl) {
+    (void)rcl_client_fini(&events_client, node); /* cannot fail: the node is open */
+    events_node = NULL;
+  }
+  events_end();
+}
+
 static void events_rest(uint32_t now)
 {
+  microros_lock();
   events_due_ms = now + (uint32_t)EVENTS_AGAIN_MS;
   events_pause = true;
+  microros_unlock();
 }
 
 static void events_answer(
@@ -153,25 +181,29 @@ static void events_ask(uint32_t graph, uint32_t now)
   events_rest(now);
 }
 
-void rcl_graph_events_follow(void)
+static void events_follow(uint32_t now)
 {
-  uint32_t now;
-
-  if (!rcl_client_is_valid(&events_client) || !events_begin()) {
-    return;
-  }
-  now = port_time_ms();
   if (rmw_requester_is_ready(events_client.impl)) {
     events_take(now);
   }
   if (!events_pause || xrce_is_due(now, events_due_ms)) {
     events_wait = false;
-    events_pause = false;
+    events_set_pause(false);
     if (xrce_write_has_room(events_client.impl->data)) {
       events_ask(rcl_graph_changes(), now);
     } else {
       events_rest(now);
     }
+  }
+}
+
+void rcl_graph_events_follow(void)
+{
+  if (!events_begin()) {
+    return;
+  }
+  if (rcl_client_is_valid(&events_client)) { /* the node is open, and stays so meanwhile */
+    events_follow(port_time_ms());
   }
   events_end();
 }

@@ -56,7 +56,7 @@ typedef struct rclc_action_server_t {
   void * context;
   size_t goal_handles_memory_size; /* places of goals that are looked at; 0: no executor runs it */
   uint32_t refused_goals;          /* without their callback: no place, an id in use, or above a limit */
-  uint16_t goals_at_once; /* places for new goals, the first ones */
+  uint16_t goals_at_once;          /* places for new goals, the first ones */
   uint8_t session;
   bool status_due;
 } rclc_action_server_t;
