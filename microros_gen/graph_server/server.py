@@ -9,6 +9,7 @@ from collections.abc import Callable
 
 from microros_gen.graph_server.answers import list_endpoints, list_names
 from microros_gen.graph_server.status import Arrivals, endpoint_status
+from microros_gen.ros.endpoints import Respond, Value
 from microros_gen.ros.peer import Peer
 from microros_gen.ros.qos import Qos
 from microros_gen.ros.serving import Serving
@@ -41,25 +42,28 @@ class GraphServer(Serving):
         self._clock = clock
         self._graph = peer.graph()
         # The versions of a server that restarts are not those that its clients have seen.
-        self._version = self._announced = random.randrange(_VERSIONS // 2)
+        self._first = self._version = self._announced = random.randrange(1, _VERSIONS // 2)
         self._answered: dict[object, int] = {}
         self._next_s = clock()
         peer.on_graph_change(self._changed)  # before the requests that are ready at the same time
-        peer.serve(
+        self._serve(
             NAMES_SERVICE,
             "microros_graph_msgs/srv/ListNames",
             lambda r: list_names(self._graph, r, self.version),
+            self._gave,
         )
-        peer.serve(
+        self._serve(
             ENDPOINTS_SERVICE,
             "microros_graph_msgs/srv/ListEndpoints",
             lambda r: list_endpoints(self._graph, r, self.version),
+            self._gave,
         )
         self._instance, self._arrivals = random.randrange(1, _VERSIONS), Arrivals()
-        peer.serve(
+        self._serve(
             STATUS_SERVICE,
             "microros_graph_msgs/srv/EndpointStatus",
             lambda r: endpoint_status(self._graph, r, self._instance, self._arrivals),
+            lambda r: r["any_server"] or r["instance"] in (0, self._instance),
         )
         self._changes = peer.publisher(CHANGE_TOPIC, "microros_graph_msgs/msg/Change", CHANGE_QOS)
 
@@ -87,6 +91,27 @@ class GraphServer(Serving):
             self._answered.pop(next(iter(self._answered)))
         return self._version
 
+    def _serve(
+        self,
+        service: str,
+        kind: str,
+        answer: Callable[[Value], Value],
+        is_meant: Callable[[Value], bool],
+    ) -> None:
+        """Serve requests that are meant for this server, and those for a server that is not there any more."""
+
+        def serve(request: Value, respond: Respond) -> None:
+            if is_meant(request) or self._graph.count_servers(service) < 2:
+                respond(answer(request))
+
+        self._peer.serve_later(service, kind, serve)
+
+    def _gave(self, request: Value) -> bool:
+        """Return whether a list begins, or began with a page of this server."""
+        version: int = request["version"]
+        mine = (version - self._first) % _VERSIONS <= (self._version - self._first) % _VERSIONS
+        return version == 0 or mine
+
     def _changed(self) -> None:
-        self._version = (self._version + 1) % _VERSIONS
+        self._version = (self._version + 1) % _VERSIONS or 1
         self._answered.clear()

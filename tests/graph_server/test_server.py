@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import subprocess
 import sys
@@ -19,6 +20,7 @@ from microros_gen.graph_server.server import (
     CHANGE_TOPIC,
     ENDPOINTS_SERVICE,
     NAMES_SERVICE,
+    STATUS_SERVICE,
     GraphServer,
 )
 from microros_gen.ros.peer import Peer
@@ -287,6 +289,34 @@ def test_a_change_is_announced_and_makes_another_version(peer: Peer) -> None:
     assert peer.spin(settled, seconds(IDLE_S))
     assert versions[-1] > with_it
     assert versions == sorted(set(versions)), "each notice has a new version"
+
+
+def test_of_two_servers_one_answers_those_that_know_it(peer: Peer) -> None:
+    """A request that names another server has an answer when that one has left."""
+    querying = Asked(peer)
+    client = peer.client(STATUS_SERVICE, "microros_graph_msgs/srv/EndpointStatus")
+    nobody = 1
+
+    def instance(asked: int) -> int | None:
+        response = client.call({"topic": "/x", "node": "/y", "instance": asked}, 0.5)
+        return None if response is None else response["instance"]
+
+    with graph_server(int(os.environ["ROS_DOMAIN_ID"])) as other:
+        assert peer.spin(lambda: peer.graph().count_servers(STATUS_SERVICE) == 2, seconds(IDLE_S))
+        assert peer.spin(lambda: instance(nobody) is None, seconds(IDLE_S)), "both know each other"
+        assert peer.spin(lambda: instance(0) is not None, seconds(IDLE_S))
+        first = instance(0)
+        assert first is not None
+        assert {instance(first) for _ in range(10)} <= {first, None}
+        page = querying.names(answers.NODES, names_max=1)
+        rest = querying.names(answers.NODES, first=1, version=page["version"])
+        assert 0 <= rest["version"] - page["version"] < 100, "versions of one server"
+        assert client.call(
+            {"topic": "/x", "node": "/y", "instance": nobody, "any_server": True}, seconds(IDLE_S)
+        )
+        other.send_signal(signal.SIGTERM)
+        other.wait(seconds(IDLE_S))
+        assert peer.spin(lambda: instance(nobody) is not None, seconds(IDLE_S)), "one is left"
 
 
 def test_pages_of_one_version_are_of_one_graph(peer: Peer) -> None:

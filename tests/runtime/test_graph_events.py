@@ -174,3 +174,38 @@ def test_an_event_ends_with_its_entity(device: Device) -> None:
     assert len(device.agent.requests) == count
     assert device.status()[:4] == [1, 0, 1, 0]
     device.client.ok("fini")
+
+
+def test_of_two_servers_the_first_one_is_asked_until_it_is_silent(device: Device) -> None:
+    """Its counts are not added to those of the other one; an event that is opened later stays with it, too."""
+    device.change(1)
+    device.client.ok("open")
+    device.spin()
+    first = device.agent.instance
+    assert [request["instance"] for _, request in device.agent.requests] == [0, first]
+    assert not any(request["any_server"] for _, request in device.agent.requests)
+    device.agent.server = False
+    device.change(1, 2)
+    device.spin(3 * AGAIN_MS)
+    device.agent.server = True
+    device.agent.instance += 1
+    device.agent.arrivals.__init__()  # type: ignore[misc]
+    before = len(device.agent.requests)
+    device.spin(3 * AGAIN_MS)
+    asked = [request for _, request in device.agent.requests[before:]]
+    assert all(request["instance"] == first and request["any_server"] for request in asked)
+    assert len(asked) == 2, "one for each event"
+    device.change(1, 2, 3)
+    last = [request for _, request in device.agent.requests[-2:]]
+    assert [(request["instance"], request["any_server"]) for request in last] == [(first + 1, False)] * 2
+
+
+def test_one_lost_response_does_not_lead_to_another_server(device: Device) -> None:
+    device.client.ok("open")
+    device.spin()
+    device.agent.server = False
+    device.change(1)
+    device.agent.server = True
+    device.spin(2 * AGAIN_MS)
+    assert not any(request["any_server"] for _, request in device.agent.requests)
+    assert device.status() == [1, 1, 1, 1, 0, 0, NONE, 0]

@@ -38,6 +38,7 @@ static rcl_ret_t endpoints_ask(void * list, uint32_t first, rcl_graph_page_t * p
   request.what = (uint8_t)wanted->kind;
   rcl_graph_lend(&request.name, wanted->topic);
   request.first = first;
+  request.version = page->version;
   request.endpoints_max = MICROROS_GRAPH_ENDPOINTS_MAX;
   request.name_size = MICROROS_GRAPH_NAME_SIZE;
   result = rcl_graph_ask(&rcl_graph_endpoints_client, &request, &response, endpoints_bind, NULL);

@@ -43,6 +43,7 @@ rcl_ret_t rcl_graph_ask_names(rcl_graph_names_t * names, uint32_t first, rcl_gra
   request.what = (uint8_t)names->what;
   rcl_graph_lend(&request.node, names->node);
   request.first = first;
+  request.version = page->version;
   request.names_max = MICROROS_GRAPH_NAMES_MAX;
   request.name_size = MICROROS_GRAPH_NAME_SIZE;
   request.types_max = names->types_max;

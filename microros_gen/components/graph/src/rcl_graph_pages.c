@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
 #include "microros/rcl_graph_server.h"
+#include "rcl/error_handling.h"
 
 enum { PAGES_ATTEMPTS = 5 }; /* of a list that changes while it is read */
 
@@ -36,7 +37,7 @@ static rcl_ret_t pages_put(
   return result;
 }
 
-/* Reads the pages after the first one. *changed: the graph has changed since that. */
+/* Reads the pages after the first one. *changed: the graph has changed since that, or its server is silent. */
 static rcl_ret_t pages_continue(
   const rcl_graph_reader_t * reader, void * list, const rcl_graph_page_t * begun, bool * changed)
 {
@@ -44,8 +45,15 @@ static rcl_ret_t pages_continue(
 
   while (first != begun->total) {
     rcl_graph_page_t page;
-    rcl_ret_t result = reader->ask(list, first, &page);
+    rcl_ret_t result;
 
+    page.version = begun->version;
+    result = reader->ask(list, first, &page);
+    if (result == RCL_RET_TIMEOUT) { /* its server may be gone, and another one be there */
+      rcl_reset_error();
+      *changed = true;
+      return RCL_RET_OK;
+    }
     if (result != RCL_RET_OK) {
       return result;
     }
@@ -69,8 +77,10 @@ static rcl_ret_t pages_continue(
 static rcl_ret_t pages_attempt(const rcl_graph_reader_t * reader, void * list, bool * changed)
 {
   rcl_graph_page_t page;
-  rcl_ret_t result = reader->ask(list, 0, &page);
+  rcl_ret_t result;
 
+  page.version = 0;
+  result = reader->ask(list, 0, &page);
   *changed = false;
   if (result == RCL_RET_OK) {
     result = pages_check(&page, 0);

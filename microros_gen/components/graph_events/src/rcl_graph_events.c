@@ -15,12 +15,15 @@
 #include "rcl/error_handling.h"
 #include "rmw/qos_profiles.h"
 
-/* Time until a request is sent once more: no server has answered, or it does not know the endpoint yet. */
-enum { EVENTS_AGAIN_MS = 1000 };
+/* Time until a request is sent once more: no server has answered, or it does not know the endpoint yet. After that many
+ * requests without an answer any server may answer. */
+enum { EVENTS_AGAIN_MS = 1000, EVENTS_SILENCES = 2 };
 
 static const rmw_node_t * events_node; /* the owner of the client */
 static rcl_client_t events_client;
 static int64_t events_sequence_number;
+static uint32_t events_server;  /* the instance that has answered last; 0: none has */
+static uint8_t events_silences; /* requests without an answer */
 static uint32_t events_graph;   /* the change of the graph that was asked about */
 static uint32_t events_due_ms;  /* while `events_pause`: no request before */
 static uint16_t events_current; /* the event of the request */
@@ -107,6 +110,8 @@ static void events_answer(
 {
   events_wait = false;
   events_pause = false;
+  events_silences = 0;
+  events_server = response->instance;
   if (response->status == (uint8_t)microros_graph_msgs__srv__EndpointStatus_Response__UNKNOWN_NODE) {
     events_rest(now); /* not discovered yet */
   } else if (event->is_requested) {
@@ -153,6 +158,16 @@ static bool events_next(uint32_t graph)
   return false;
 }
 
+/* Events stay with one server, whose counts those of another one would double. */
+static void events_address(
+  const rcl_graph_event_t * event, microros_graph_msgs__srv__EndpointStatus_Request * request)
+{
+  const bool has_other = event->instance != 0u && event->instance != events_server;
+
+  request->instance = event->instance != 0u ? event->instance : events_server;
+  request->any_server = has_other || events_silences == (uint8_t)EVENTS_SILENCES;
+}
+
 static void events_ask(uint32_t graph, uint32_t now)
 {
   microros_graph_msgs__srv__EndpointStatus_Request request;
@@ -165,6 +180,7 @@ static void events_ask(uint32_t graph, uint32_t now)
     rcl_graph_event_t * const event = rcl_graph_event_at(events_current);
 
     fits = rcl_graph_event_request(event, &request);
+    events_address(event, &request);
     event->is_requested = fits;
     event->is_due = fits; /* a name that cannot be asked for is not tried again before a change */
     event->graph = graph;
@@ -187,6 +203,9 @@ static void events_follow(uint32_t now)
     events_take(now);
   }
   if (!events_pause || xrce_is_due(now, events_due_ms)) {
+    if (events_wait && events_silences != (uint8_t)EVENTS_SILENCES) {
+      ++events_silences;
+    }
     events_wait = false;
     events_set_pause(false);
     if (xrce_write_has_room(events_client.impl->data)) {

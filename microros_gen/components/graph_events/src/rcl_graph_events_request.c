@@ -30,7 +30,6 @@ bool rcl_graph_event_request(
   request->reliability = (uint8_t)qos.reliability;
   request->durability = (uint8_t)qos.durability;
   request->deadline = (uint64_t)rmw_time_total_nsec(qos.deadline);
-  request->instance = event->instance;
   request->newest = event->newest;
   return true;
 }

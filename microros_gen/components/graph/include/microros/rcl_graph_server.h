@@ -54,8 +54,9 @@ typedef struct rcl_graph_page_t {
 
 /* How a list is read. `list` is the caller's. A function that returns an error has set a text. */
 typedef struct rcl_graph_reader_t {
-  rcl_ret_t (*ask)(void * list, uint32_t first, rcl_graph_page_t * page); /* the page from item `first` on */
-  rcl_ret_t (*make)(void * list, size_t size);                            /* makes room for that many items */
+  /* The page from item `first` on; its version is that of the page before, 0 for the first one. */
+  rcl_ret_t (*ask)(void * list, uint32_t first, rcl_graph_page_t * page);
+  rcl_ret_t (*make)(void * list, size_t size);              /* makes room for that many items */
   rcl_ret_t (*put)(void * list, size_t item, size_t index); /* stores an item of the page as item `index` */
   void (*drop)(void * list);                                /* frees what `make` and `put` allocated */
 } rcl_graph_reader_t;
@@ -73,7 +74,7 @@ typedef struct rcl_graph_names_t {
   microros_graph_msgs__srv__ListNames_Response response;
 } rcl_graph_names_t;
 
-/* Asks for a page of names. */
+/* Asks for a page of names, after one of page->version. */
 rcl_ret_t rcl_graph_ask_names(rcl_graph_names_t * names, uint32_t first, rcl_graph_page_t * page);
 
 /* --- rcl_graph_list_nodes.c --- */
