@@ -269,6 +269,10 @@ def test_settings_of_transport_session_and_domain() -> None:
     [
         ("rcl_get_node_names(&node, a, &b, &c);", "rcl_get_node_names takes memory from `memory.arena`"),
         ("rcl_no_such_call(&node);", "rcl_no_such_call is not in this version"),
+        (
+            "rcl_action_take_goal_request(&server, &header, &request);",
+            "rcl_action_take_goal_request is not in this version",
+        ),
         ("set_microros_serial_transports(Serial);", "set_microros_serial_transports() is of another library"),
         ("std_msgs__msg__Header__Sequence__create(2);", "takes memory from `memory.arena`"),
         (

@@ -247,6 +247,22 @@ def test_wrong_calls_say_what_to_do(device: Device, call: str, text: str) -> Non
     assert device.send(5)  # the open one is as it was
 
 
+def test_the_functions_of_rcl_action_know_servers_and_goals(device: Device) -> None:
+    """A goal exists until its result expires, as in rcl_action; that of another server does not."""
+    device.client.ok("init")
+    assert device.client.ok("valid").lines == ("valid 0 0 0 0",)
+    device.client.ok("make")
+    assert device.client.ok("valid").lines == ("valid 1 0 0 0",)
+    assert device.client.ok("known 3").lines == ("known 0 0",)
+    assert device.send(3)
+    assert device.client.ok("known 3").lines == ("known 1 0",)
+    device.client.ok(f"end 0 {SUCCEEDED}")
+    assert device.result_of(3) == (SUCCEEDED, [5])
+    assert device.client.ok("known 3").lines == ("known 1 0",)
+    device.spin(60)
+    assert device.client.ok("known 3").lines == ("known 0 0",)
+
+
 def test_a_server_is_added_again_with_fewer_goals_than_are_active(device: Device) -> None:
     """Those that are active end; then there is one place."""
     device.start()

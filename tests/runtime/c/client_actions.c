@@ -142,6 +142,28 @@ static rcl_ret_t call(char * line)
   if (strcmp(word, "remove") == 0) {
     return rclc_executor_remove_action_server(&executor, &walk);
   }
+  if (strcmp(word, "known") == 0) {
+    rcl_action_goal_info_t info;
+
+    (void)memset(&info, 0, sizeof(info));
+    for (int i = 0; i < UUID_SIZE; ++i) {
+      info.goal_id.uuid[i] = (uint8_t)(i == 0 ? atoi(argument) : i - 1);
+    }
+    printf(
+      "known %d %d\n", rcl_action_server_goal_exists(&walk.rcl_handle, &info) ? 1 : 0,
+      rcl_action_server_goal_exists(&find.rcl_handle, &info) ? 1 : 0);
+    return RCL_RET_OK;
+  }
+  if (strcmp(word, "valid") == 0) {
+    const rcl_action_server_t none = rcl_action_get_zero_initialized_server();
+
+    printf(
+      "valid %d %d %d %d\n", rcl_action_server_is_valid(&walk.rcl_handle) ? 1 : 0,
+      rcl_action_server_is_valid(&none) ? 1 : 0, rcl_action_server_is_valid(NULL) ? 1 : 0,
+      rcl_action_server_goal_exists(&walk.rcl_handle, NULL) ? 1 : 0);
+    rcl_reset_error();
+    return RCL_RET_OK;
+  }
   if (strcmp(word, "add") == 0) {
     return rclc_executor_add_action_server(
       &executor, &walk, (size_t)atoi(argument), walks, sizeof(walks[0]), on_goal, on_cancel, NULL);

@@ -62,7 +62,7 @@ int main(void)
 {
   pthread_t threads[TASKS];
 
-  (void)alarm(LONGEST_S); /* a task that is not woken waits for ever */
+  (void)alarm(LONGEST_S); /* a task that is not woken waits forever */
   CHECK(sem_init(&woken, 0, 0) == 0);
   allocator = rcl_get_default_allocator();
   CHECK(rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK);

@@ -24,7 +24,7 @@ static const char * action_endpoint(uint16_t at)
 
 const char * rclc_action_name(const rclc_action_server_t * server)
 {
-  return server->goal_service.impl->service_name;
+  return server->rcl_handle.goal_service.impl->service_name;
 }
 
 static const rclc_action_declared_t * action_find(
@@ -48,16 +48,18 @@ static rcl_ret_t action_open_services(rclc_action_server_t * server, const rcl_n
   const rclc_action_declared_t * declared = server->declared;
   const rcl_service_options_t options = rcl_service_get_default_options();
   rcl_ret_t result = rcl_service_init(
-    &server->goal_service, node, &declared->goal_type, action_endpoint(declared->goal_at), &options);
+    &server->rcl_handle.goal_service, node, &declared->goal_type, action_endpoint(declared->goal_at),
+    &options);
 
   if (result == RCL_RET_OK) {
     result = rcl_service_init(
-      &server->cancel_service, node, ROSIDL_GET_SRV_TYPE_SUPPORT(action_msgs, srv, CancelGoal),
+      &server->rcl_handle.cancel_service, node, ROSIDL_GET_SRV_TYPE_SUPPORT(action_msgs, srv, CancelGoal),
       action_endpoint(declared->cancel_at), &options);
   }
   if (result == RCL_RET_OK) {
     result = rcl_service_init(
-      &server->result_service, node, &declared->result_type, action_endpoint(declared->result_at), &options);
+      &server->rcl_handle.result_service, node, &declared->result_type, action_endpoint(declared->result_at),
+      &options);
   }
   return result;
 }
@@ -68,13 +70,15 @@ static rcl_ret_t action_open_publishers(rclc_action_server_t * server, const rcl
   const microros_action_type_t * type = server->type;
   rcl_publisher_options_t options = rcl_publisher_get_default_options();
   rcl_ret_t result = rcl_publisher_init(
-    &server->feedback_publisher, node, type->feedback, action_endpoint(declared->feedback_at), &options);
+    &server->rcl_handle.feedback_publisher, node, type->feedback, action_endpoint(declared->feedback_at),
+    &options);
 
   if (result == RCL_RET_OK) {
     options.qos = rcl_action_qos_profile_status_default;
     result = rcl_publisher_init(
-      &server->status_publisher, node, ROSIDL_GET_MSG_TYPE_SUPPORT(action_msgs, msg, GoalStatusArray),
-      action_endpoint(declared->status_at), &options);
+      &server->rcl_handle.status_publisher, node,
+      ROSIDL_GET_MSG_TYPE_SUPPORT(action_msgs, msg, GoalStatusArray), action_endpoint(declared->status_at),
+      &options);
   }
   return result;
 }
@@ -83,9 +87,11 @@ static rcl_ret_t action_open_publishers(rclc_action_server_t * server, const rcl
 static rcl_ret_t action_close(rclc_action_server_t * server, rcl_node_t * node)
 {
   const rcl_ret_t results[] = {
-    rcl_publisher_fini(&server->status_publisher, node),
-    rcl_publisher_fini(&server->feedback_publisher, node), rcl_service_fini(&server->result_service, node),
-    rcl_service_fini(&server->cancel_service, node), rcl_service_fini(&server->goal_service, node)};
+    rcl_publisher_fini(&server->rcl_handle.status_publisher, node),
+    rcl_publisher_fini(&server->rcl_handle.feedback_publisher, node),
+    rcl_service_fini(&server->rcl_handle.result_service, node),
+    rcl_service_fini(&server->rcl_handle.cancel_service, node),
+    rcl_service_fini(&server->rcl_handle.goal_service, node)};
   rcl_ret_t first = RCL_RET_OK;
 
   for (size_t i = 0; i < sizeof(results) / sizeof(results[0]); ++i) {
@@ -115,8 +121,8 @@ static rcl_ret_t action_open(rclc_action_server_t * server, rcl_node_t * node)
     (void)action_close(server, node); /* the first error is the one to report */
     return result;
   }
-  rmw_action_server_answer_large(server->goal_service.impl);
-  server->session = rmw_action_server_session(server->goal_service.impl);
+  rmw_action_server_answer_large(server->rcl_handle.goal_service.impl);
+  server->session = rmw_action_server_session(server->rcl_handle.goal_service.impl);
   server->status_due = true;
   return RCL_RET_OK;
 }

@@ -119,7 +119,8 @@ rcl_ret_t rclc_action_serve_cancel(rclc_action_server_t * server)
   action_msgs__srv__CancelGoal_Response response;
   rmw_request_id_t request;
   bool taken = false;
-  const rcl_ret_t result = rmw_replier_begin(server->cancel_service.impl, &request, &requested, &taken);
+  const rcl_ret_t result =
+    rmw_replier_begin(server->rcl_handle.cancel_service.impl, &request, &requested, &taken);
 
   if (!taken) {
     return result;
@@ -128,9 +129,9 @@ rcl_ret_t rclc_action_serve_cancel(rclc_action_server_t * server)
   response.goals_canceling.size = 0u;
   response.goals_canceling.capacity = server->declared->goals_max;
   action_cancel_goals(server, &requested.goal_info, &response);
-  if (!rcl_service_is_valid(&server->cancel_service)) {
+  if (!rcl_service_is_valid(&server->rcl_handle.cancel_service)) {
     rmw_replier_abandon();
     return RCL_RET_OK; /* a callback has finalized it */
   }
-  return rmw_replier_end(server->cancel_service.impl, &request, &response);
+  return rmw_replier_end(server->rcl_handle.cancel_service.impl, &request, &response);
 }

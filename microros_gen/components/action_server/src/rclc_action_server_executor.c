@@ -21,9 +21,9 @@ static rcl_ret_t action_server_look(
   microros_lock();
   left_ms = rclc_action_expire(server, false);
   *is_ready = left_ms == 0u || rclc_action_has_status(server) || rclc_action_has_results(server) ||
-              rmw_replier_is_ready(server->goal_service.impl) ||
-              rmw_replier_is_ready(server->cancel_service.impl) ||
-              rmw_replier_is_ready(server->result_service.impl);
+              rmw_replier_is_ready(server->rcl_handle.goal_service.impl) ||
+              rmw_replier_is_ready(server->rcl_handle.cancel_service.impl) ||
+              rmw_replier_is_ready(server->rcl_handle.result_service.impl);
   microros_unlock();
   if (left_ms != UINT32_MAX && (int64_t)left_ms * ACTION_SERVER_NS_PER_MS < *look_again_ns) {
     *look_again_ns = (int64_t)left_ms * ACTION_SERVER_NS_PER_MS;
@@ -53,7 +53,7 @@ static rcl_ret_t action_server_call(rclc_executor_handle_t * handle)
   rclc_action_server_t * server = handle->callback_context;
   rcl_ret_t result = RCL_RET_OK;
 
-  if (!rcl_service_is_valid(&server->goal_service)) {
+  if (!rcl_service_is_valid(&server->rcl_handle.goal_service)) {
     return microros_error_refuse(RCL_RET_SERVICE_INVALID, "action_server");
   }
   action_server_note(&result, rclc_action_serve_result(server));
@@ -62,10 +62,10 @@ static rcl_ret_t action_server_call(rclc_executor_handle_t * handle)
   (void)rclc_action_expire(server, true);
   microros_unlock();
   action_server_note(&result, rclc_action_serve_goal(server));
-  if (rcl_service_is_valid(&server->cancel_service)) {
+  if (rcl_service_is_valid(&server->rcl_handle.cancel_service)) {
     action_server_note(&result, rclc_action_serve_cancel(server));
   }
-  if (rcl_service_is_valid(&server->goal_service)) {
+  if (rcl_service_is_valid(&server->rcl_handle.goal_service)) {
     action_server_send(server, &result);
   }
   return result;
@@ -145,7 +145,7 @@ rcl_ret_t rclc_executor_add_action_server(
   if (handle == NULL) {
     return RCL_RET_ERROR;
   }
-  handle->service = &action_server->goal_service;
+  handle->service = &action_server->rcl_handle.goal_service;
   handle->callback_context = action_server;
   action_server->goal_callback = goal_callback;
   action_server->cancel_callback = cancel_callback;
@@ -162,7 +162,7 @@ rcl_ret_t rclc_executor_remove_action_server(rclc_executor_t * executor, rclc_ac
   if (action_server == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "action_server");
   }
-  result = rclc_executor_remove_handle(executor, &action_server->goal_service);
+  result = rclc_executor_remove_handle(executor, &action_server->rcl_handle.goal_service);
   if (result == RCL_RET_OK) {
     --executor->info.number_of_action_servers;
   }

@@ -141,7 +141,7 @@ rcl_ret_t rclc_action_serve_goal(rclc_action_server_t * server)
   rclc_action_answer_t answer = {.accepted = false};
   rmw_request_id_t request;
   bool taken = false;
-  rcl_ret_t result = rmw_replier_begin(server->goal_service.impl, &request, &incoming, &taken);
+  rcl_ret_t result = rmw_replier_begin(server->rcl_handle.goal_service.impl, &request, &incoming, &taken);
 
   if (!taken) {
     return result;
@@ -150,11 +150,11 @@ rcl_ret_t rclc_action_serve_goal(rclc_action_server_t * server)
     answer.accepted = true;
     answer.stamp = incoming.goal->stamp;
   }
-  if (!rcl_service_is_valid(&server->goal_service)) {
+  if (!rcl_service_is_valid(&server->rcl_handle.goal_service)) {
     rmw_replier_abandon();
     return RCL_RET_OK; /* the callback has finalized it */
   }
-  result = rmw_replier_end(server->goal_service.impl, &request, &answer);
+  result = rmw_replier_end(server->rcl_handle.goal_service.impl, &request, &answer);
   if (answer.accepted) {
     const rcl_ret_t published = action_goal_execute(server, incoming.goal);
 

@@ -110,7 +110,7 @@ rcl_ret_t rclc_action_publish_feedback(rclc_action_goal_handle_t * goal_handle, 
   }
   microros_unlock();
   return place == SIZE_MAX ? microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "goal_handle")
-                           : rcl_publish(&server->feedback_publisher, ros_feedback, NULL);
+                           : rcl_publish(&server->rcl_handle.feedback_publisher, ros_feedback, NULL);
 }
 
 static bool action_result_is_awaited(const rclc_action_goal_handle_t * goal)
@@ -125,7 +125,7 @@ bool rclc_action_has_results(const rclc_action_server_t * server)
   for (size_t i = 0; i < server->goal_handles_memory_size; ++i) {
     awaited = awaited || action_result_is_awaited(&server->declared->goals[i]);
   }
-  return awaited && rmw_action_server_may_reply(server->result_service.impl);
+  return awaited && rmw_action_server_may_reply(server->rcl_handle.result_service.impl);
 }
 
 /* Called with the lock. */
@@ -144,7 +144,7 @@ static rcl_ret_t action_result_send(
   rcl_ret_t result;
 
   microros_lock();
-  result = rmw_replier_respond(server->result_service.impl, &goal->result_requests[0], &outcome);
+  result = rmw_replier_respond(server->rcl_handle.result_service.impl, &goal->result_requests[0], &outcome);
   if (result == RCL_RET_OK) {
     action_result_drop_oldest(goal);
     goal->result_sent = true;
@@ -161,7 +161,7 @@ rcl_ret_t rclc_action_send_results(rclc_action_server_t * server)
     rclc_action_goal_handle_t * goal = &server->declared->goals[i];
 
     while (result == RCL_RET_OK && action_result_is_awaited(goal) &&
-           rmw_action_server_may_reply(server->result_service.impl)) {
+           rmw_action_server_may_reply(server->rcl_handle.result_service.impl)) {
       result = action_result_send(server, goal, i);
     }
   }
@@ -193,7 +193,7 @@ rcl_ret_t rclc_action_serve_result(rclc_action_server_t * server)
   uint8_t uuid[UUID_SIZE];
   rmw_service_info_t info;
   bool taken = false;
-  rcl_ret_t result = rmw_replier_take(server->result_service.impl, &info, uuid, &taken);
+  rcl_ret_t result = rmw_replier_take(server->rcl_handle.result_service.impl, &info, uuid, &taken);
 
   if (!taken) {
     return result;
@@ -202,7 +202,7 @@ rcl_ret_t rclc_action_serve_result(rclc_action_server_t * server)
   rclc_action_goal_handle_t * goal = rclc_action_find(server, uuid);
   result = goal != NULL && goal->status != GOAL_STATE_UNKNOWN
              ? action_result_wait(server, goal, &info.request_id)
-             : rmw_replier_respond(server->result_service.impl, &info.request_id, &unknown);
+             : rmw_replier_respond(server->rcl_handle.result_service.impl, &info.request_id, &unknown);
   microros_unlock();
   return result;
 }

@@ -7,9 +7,9 @@
 bool rclc_action_has_status(const rclc_action_server_t * server)
 {
   const bool is_due =
-    server->status_due || server->session != rmw_action_server_session(server->goal_service.impl);
+    server->status_due || server->session != rmw_action_server_session(server->rcl_handle.goal_service.impl);
 
-  return is_due && rmw_action_server_may_publish(server->status_publisher.impl);
+  return is_due && rmw_action_server_may_publish(server->rcl_handle.status_publisher.impl);
 }
 
 /* Called with the lock. */
@@ -39,8 +39,8 @@ rcl_ret_t rclc_action_publish_status(rclc_action_server_t * server)
   message.status_list.data = server->declared->statuses;
   message.status_list.size = action_status_fill(server);
   message.status_list.capacity = server->declared->goals_max;
-  server->session = rmw_action_server_session(server->goal_service.impl);
-  result = rcl_publish(&server->status_publisher, &message, NULL);
+  server->session = rmw_action_server_session(server->rcl_handle.goal_service.impl);
+  result = rcl_publish(&server->rcl_handle.status_publisher, &message, NULL);
   server->status_due = result != RCL_RET_OK;
   microros_unlock();
   return result;

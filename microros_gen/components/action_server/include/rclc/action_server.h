@@ -12,8 +12,7 @@
 #include <stdint.h>
 
 #include "rcl/node.h"
-#include "rcl/publisher.h"
-#include "rcl/service.h"
+#include "rcl_action/action_server.h"
 #include "rclc/action_goal_handle.h"
 #include "rclc/executor.h"
 #include "rclc/init.h"
@@ -42,15 +41,11 @@ typedef bool (*rclc_action_server_handle_cancel_callback_t)(
 
 struct rclc_action_declared_t; /* microros/rclc_action_server.h */
 
-/* Stays where it is while it is open. The application reads `refused_goals` alone. */
+/* Stays where it is while it is open. The application uses `rcl_handle`, and reads `refused_goals`. */
 typedef struct rclc_action_server_t {
   const struct rclc_action_declared_t * declared; /* NULL: not open */
   const void * type;                              /* microros_action_type_t */
-  rcl_service_t goal_service;
-  rcl_service_t cancel_service;
-  rcl_service_t result_service;
-  rcl_publisher_t feedback_publisher;
-  rcl_publisher_t status_publisher;
+  rcl_action_server_t rcl_handle;
   rclc_action_server_handle_goal_callback_t goal_callback;
   rclc_action_server_handle_cancel_callback_t cancel_callback;
   void * context;
