@@ -122,7 +122,7 @@ static void any_entities(void)
   entities->refused_place = proof_u16();
   entities->refused_status = proof_u8();
   entities->refusals = (uint8_t)Frama_C_interval(0, MOST_REFUSALS);
-  entities->pending = proof_bool();
+  entities->pending = (uint8_t)Frama_C_interval(XRCE_PENDING_NONE, XRCE_PENDING_ONE);
   entities->resting = proof_bool();
   for (uint16_t place = 0; place < XRCE_PLACES; ++place) {
     xrce_object_state_t * state = &client.states[place];

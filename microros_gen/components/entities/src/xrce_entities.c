@@ -6,9 +6,10 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_wire.h"
 
-#include <string.h>
-
 enum { NO_PLACE = 0xffff, STATUS_SIZE = 6, MOST_REFUSALS = 16 };
+
+/* A search of few places takes less than the code that saves it. */
+static const bool NOTES_ONE = XRCE_PLACES > 4;
 
 /* Submessage header, request id, object id; then kind, format, padding and length of the description. */
 enum {
@@ -16,6 +17,7 @@ enum {
   OBJECT_AT = 6,
   KIND_AT = 8,
   FORMAT_AT = 9,
+  PADDING_AT = 10,
   LENGTH_AT = 12,
   BLOB_AT = 16,
   DELETE_SIZE = 8
@@ -87,7 +89,7 @@ static void entities_next_place(xrce_entities_t * entities)
 /* Makes the next step look for work at once. */
 static void entities_wake(xrce_entities_t * entities)
 {
-  entities->pending = true;
+  entities->pending = XRCE_PENDING_ANY;
   entities->refusals = 0;
   entities->resting = false;
 }
@@ -108,7 +110,7 @@ void xrce_entities_renew(xrce_client_t * client)
 
 bool xrce_entities_settled(const xrce_client_t * client)
 {
-  return !client->entities.pending;
+  return client->entities.pending == (uint8_t)XRCE_PENDING_NONE;
 }
 
 static void entities_refuse(xrce_client_t * client, uint8_t status, uint32_t now)
@@ -126,6 +128,7 @@ static void entities_refuse(xrce_client_t * client, uint8_t status, uint32_t now
   entities->due_ms = now + xrce_session_pause((uint32_t)MICROROS_RETRY_FIRST_MS << entities->refusals);
   entities->refusals = (uint8_t)(entities->refusals + (entities->refusals < MOST_REFUSALS ? 1u : 0u));
   entities->resting = true;
+  entities->pending = XRCE_PENDING_ANY;
   entities_next_place(entities);
 }
 
@@ -161,8 +164,9 @@ static uint8_t * entities_put_object(
   uint8_t * end;
   uint16_t size;
 
-  (void)memset(&room[KIND_AT], 0, BLOB_AT - KIND_AT);
   room[KIND_AT] = kind;
+  xrce_put_le16(&room[PADDING_AT], 0);
+  xrce_put_le16(&room[LENGTH_AT + 2], 0); /* below 64 KiB, since a message is */
   end = xrce_describe(client, place, kind, blob, &room[FORMAT_AT]);
   size = xrce_size_between(blob, end);
   xrce_put_le16(&room[LENGTH_AT], size);
@@ -181,12 +185,13 @@ static uint8_t entities_outstanding_kind(const xrce_client_t * client)
   return entities_kind(entities->cursor, (uint8_t)(level - (entities->deleting ? 1u : 0u)));
 }
 
-static uint16_t entities_outstanding_id(const xrce_client_t * client)
+/* Returns the id of the outstanding request's object, which has this kind. */
+static uint16_t entities_outstanding_id(const xrce_client_t * client, uint8_t kind)
 {
   const uint16_t place = client->entities.cursor;
   const uint16_t index = xrce_place_is_participant(place) ? place : (uint16_t)(place - MICROROS_NODES_MAX);
 
-  return xrce_object_id(index, entities_outstanding_kind(client));
+  return xrce_object_id(index, kind);
 }
 
 /* Sends the outstanding request. */
@@ -197,50 +202,59 @@ static void entities_send(xrce_client_t * client, uint32_t now)
   const uint8_t kind = entities_outstanding_kind(client);
   uint8_t * room = xrce_creation_room(client);
   uint8_t * end = &room[DELETE_SIZE];
+  uint8_t id = XRCE_DELETE;
+  uint8_t flags = XRCE_FLAG_LITTLE_ENDIAN;
 
   entities->due_ms = now + xrce_session_short_pause(now - entities->requested_ms);
   if (!entities->deleting) {
     end = entities_put_object(client, entities->cursor, kind, room);
+    id = XRCE_CREATE;
+    flags = CREATE_FLAGS;
   }
-  xrce_put_submessage(
-    room, entities->deleting ? XRCE_DELETE : XRCE_CREATE,
-    entities->deleting ? XRCE_FLAG_LITTLE_ENDIAN : CREATE_FLAGS,
-    xrce_size_between(&room[XRCE_SUBMESSAGE_HEADER], end));
+  xrce_put_submessage(room, id, flags, xrce_size_between(&room[XRCE_SUBMESSAGE_HEADER], end));
   xrce_put_be16(&room[REQUEST_AT], entities->request);
-  xrce_put_be16(&room[OBJECT_AT], entities_outstanding_id(client));
+  xrce_put_be16(&room[OBJECT_AT], entities_outstanding_id(client, kind));
   xrce_creation_send(client, xrce_size_between(room, end));
 }
 
-/* Starts the next request; false: nothing to do. */
-static bool entities_begin(xrce_client_t * client, uint32_t now)
+/* Returns whether no other place than that of the cursor has work. */
+static bool entities_is_one(const xrce_entities_t * entities)
+{
+  /* cppcheck-suppress knownConditionTrueFalse ; a plan with few places never notes a single one */
+  return NOTES_ONE && entities->pending == (uint8_t)XRCE_PENDING_ONE;
+}
+
+/* Starts the next request; otherwise there is nothing to do until the next change. */
+static void entities_begin(xrce_client_t * client, uint32_t now)
 {
   xrce_entities_t * entities = &client->entities;
+  size_t left = entities_is_one(entities) ? 1u : (size_t)XRCE_PLACES;
 
-  for (size_t i = 0; i < XRCE_PLACES; ++i) {
+  for (; left != 0u; --left) {
     const uint8_t level = client->states[entities->cursor].level;
     const uint8_t goal = entities_goal(client, entities->cursor);
 
     if (level != goal && entities_is_free(client, entities->cursor, goal)) {
       if (!xrce_creation_begin(client, now)) {
-        return true;
+        return;
       }
       entities->deleting = level > goal;
       entities->outstanding = true;
       entities->requested_ms = now;
       entities->request = xrce_session_next_request(&client->session);
       entities_send(client, now);
-      return true;
+      return;
     }
     entities_next_place(entities);
   }
-  return false;
+  entities->pending = XRCE_PENDING_NONE;
 }
 
 void xrce_entities_step(xrce_client_t * client, uint32_t now)
 {
   xrce_entities_t * entities = &client->entities;
 
-  if (!entities->pending || client->session.state != XRCE_READY) {
+  if (entities->pending == (uint8_t)XRCE_PENDING_NONE || client->session.state != XRCE_READY) {
     return;
   }
   if (xrce_entities_waits(entities) && !xrce_is_due(now, entities->due_ms)) {
@@ -250,7 +264,7 @@ void xrce_entities_step(xrce_client_t * client, uint32_t now)
   if (entities->outstanding) {
     entities_send(client, now);
   } else {
-    entities->pending = entities_begin(client, now);
+    entities_begin(client, now);
   }
 }
 
@@ -266,7 +280,7 @@ void xrce_entities_on_status(xrce_client_t * client, const uint8_t * submessage,
   }
   if (
     !entities->outstanding || xrce_get_be16(&payload[0]) != entities->request ||
-    xrce_get_be16(&payload[2]) != entities_outstanding_id(client)) {
+    xrce_get_be16(&payload[2]) != entities_outstanding_id(client, entities_outstanding_kind(client))) {
     return; /* answer to a repetition, or to a request of another part */
   }
   xrce_creation_end(client);
@@ -284,13 +298,18 @@ void xrce_entities_on_status(xrce_client_t * client, const uint8_t * submessage,
 
 void xrce_entities_add(xrce_client_t * client, uint16_t place)
 {
-  const xrce_entities_t * entities = &client->entities;
+  xrce_entities_t * entities = &client->entities;
   xrce_object_state_t * state = &client->states[place];
 
   /* Also if the request of a former owner is still outstanding: its result is no longer wanted. */
   state->stale = state->level != 0u || (entities->outstanding && entities->cursor == place);
   state->wanted = true;
-  entities_wake(&client->entities);
+  if (NOTES_ONE && entities->pending == (uint8_t)XRCE_PENDING_NONE && !state->stale) {
+    entities->cursor = place; /* creating it makes no work for another place: nothing is searched */
+    entities->pending = XRCE_PENDING_ONE;
+  } else {
+    entities_wake(entities);
+  }
 }
 
 void xrce_entities_remove(xrce_client_t * client, uint16_t place)

@@ -6,10 +6,38 @@
 #include "microros/rclc_parameter_string.h"
 
 #include <stddef.h>
+#include <string.h>
+
+/* Bytes of the integer and the double of a value. */
+enum { VALUE_NUMBERS = 16 };
 
 static const rclc_parameter_about_t value_about_nothing = {.name = ""};
 
 const rclc_parameter_place_t rclc_parameter_nothing = {.about = &value_about_nothing};
+
+#if MICROROS_PARAMETER_STRING_SIZE > 0u || MICROROS_PARAMETER_ARRAY_SIZE > 0u
+enum { VALUE_REST = 0 };
+
+static void value_out_rest(parameter_out_t * out, const rclc_parameter_place_t * place, const uint8_t * to)
+{
+  (void)to;
+  rclc_parameter_out_text(out, rclc_parameter_string_of(place));
+  rclc_parameter_out_arrays(out, place);
+}
+#else
+/* An empty string and five empty arrays: a length of 1, a NUL with its padding, five lengths of 0. */
+enum { VALUE_REST = 4 + 4 + PARAMETER_ARRAYS * 4 };
+
+static void value_out_rest(const parameter_out_t * out, const rclc_parameter_place_t * place, uint8_t * to)
+{
+  (void)out;
+  (void)place;
+  if (to != NULL) {
+    (void)memset(&to[VALUE_NUMBERS], 0, VALUE_REST);
+    to[VALUE_NUMBERS] = 1;
+  }
+}
+#endif
 
 void rclc_parameter_out_value(parameter_out_t * out, const rclc_parameter_place_t * place)
 {
@@ -22,11 +50,10 @@ void rclc_parameter_out_value(parameter_out_t * out, const rclc_parameter_place_
     to[0] = type;
     to[1] = truth ? 1u : 0u;
   }
-  to = rclc_parameter_out_take(out, 8u, 16u);
+  to = rclc_parameter_out_take(out, 8u, (uint32_t)VALUE_NUMBERS + (uint32_t)VALUE_REST);
   if (to != NULL) {
     cdr_put_8(&to[0], type == (uint8_t)RCLC_PARAMETER_INT ? &place->value : &zero);
     cdr_put_8(&to[8], type == (uint8_t)RCLC_PARAMETER_DOUBLE ? &place->value : &zero);
   }
-  rclc_parameter_out_text(out, rclc_parameter_string_of(place));
-  rclc_parameter_out_arrays(out, place);
+  value_out_rest(out, place, to);
 }

@@ -19,6 +19,9 @@
 extern "C" {
 #endif
 
+/* Places whose objects may have to be created or deleted: none, any, or that of the cursor. */
+enum { XRCE_PENDING_NONE = 0, XRCE_PENDING_ANY = 1, XRCE_PENDING_ONE = 2 };
+
 typedef struct xrce_entities_t {
   uint32_t due_ms;       /* while xrce_entities_waits: time of the next action */
   uint32_t requested_ms; /* when the outstanding request was first sent */
@@ -29,8 +32,8 @@ typedef struct xrce_entities_t {
   uint8_t refusals; /* consecutive refusals */
   bool outstanding;
   bool deleting;
-  bool pending; /* objects may have to be created or deleted */
-  bool resting; /* the agent has just refused a request */
+  uint8_t pending; /* XRCE_PENDING_ */
+  bool resting;    /* the agent has just refused a request */
 } xrce_entities_t;
 
 /*

@@ -19,7 +19,7 @@ static inline bool xrce_entities_leave_stream(const xrce_client_t * client)
 /* Returns the time until a request is due, at most `left`. */
 static inline uint32_t xrce_entities_left(const xrce_client_t * client, uint32_t left, uint32_t now)
 {
-  if (!client->entities.pending) {
+  if (client->entities.pending == (uint8_t)XRCE_PENDING_NONE) {
     return left;
   }
   return xrce_sooner(left, xrce_entities_waits(&client->entities) ? client->entities.due_ms : now, now);
