@@ -14,6 +14,7 @@ from microros_gen.diagnostics import nearest
 from microros_gen.migrate.colcon_meta import MetaSetting
 from microros_gen.migrate.draft import Draft, DraftValue, Flow, Remark, Setting, place
 from microros_gen.migrate.meta_reasons import NOT_HERE_WHEN_ON, NOT_NEEDED, OF_A_BUILD, PREFIXES_OF_BUILDS
+from microros_gen.migrate.profiles import profiles_of
 
 MOST_ENTITIES = 250
 _ON = ("ON", "TRUE", "YES", "Y", "1")
@@ -199,15 +200,12 @@ class _Reader:
 
     def _profiles(self) -> tuple[str, ...]:
         pools = self._groups["pools"]
-        does = {entity for entity in _ENTITIES[1:] if entity in pools and pools[entity].value}
-        profiles = [
-            p
-            for p, entity in (("pure_sender", "publishers"), ("pure_reader", "subscriptions"))
-            if entity in does
-        ]
-        if does & {kind.key for kind in KINDS if kind.service_type}:
-            self._components.append("+services")
-        return tuple(profiles)
+        does = [kind for kind in KINDS if kind.key in pools and pools[kind.key].value]
+        profiles = profiles_of({kind.name for kind in does})
+        self._components += sorted(
+            {f"+{kind.component}" for kind in does if kind.component not in profiles.components}
+        )
+        return profiles.names
 
     def _number(self, group: str, key: str, setting: MetaSetting, least: int, most: int) -> None:
         number = self._within(setting, least, most)

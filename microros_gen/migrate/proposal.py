@@ -24,6 +24,7 @@ from microros_gen.migrate.draft import Draft, DraftValue, Flow, Remark
 from microros_gen.migrate.first import AGENT, first_draft
 from microros_gen.migrate.limits import DEFAULT_LIMITS, limits_of
 from microros_gen.migrate.meta_draft import meta_draft
+from microros_gen.migrate.profiles import first_profile
 from microros_gen.migrate.rclc_draft import Adopted, rclc_draft
 from microros_gen.platform.capabilities import capabilities
 from microros_gen.records import dataclass
@@ -31,7 +32,6 @@ from microros_gen.selection.find_components import declared_functions, load_cata
 from microros_gen.selection.outside import with_installed
 from microros_gen.selection.resolve import check_ready
 
-DEFAULT_PROFILE = "pure_sender"
 DEFAULT_SERVICE = "example_interfaces/srv/AddTwoInts"
 
 
@@ -142,8 +142,8 @@ def _with_defaults(options: InitOptions, draft: Draft) -> Draft:
     remarks = list(draft.remarks)
     profiles = options.profiles or draft.profiles
     if not profiles and not draft.nodes:
-        profiles = (DEFAULT_PROFILE,)
-        remarks.append(Remark(f"what the application does is unknown: `profiles` has {DEFAULT_PROFILE}"))
+        profiles = (first_profile(),)
+        remarks.append(Remark(f"what the application does is unknown: `profiles` has {profiles[0]}"))
     interfaces = draft.interfaces
     if not draft.nodes:
         interfaces = (DEFAULT_INTERFACE, *((DEFAULT_SERVICE,) if "+services" in draft.components else ()))
@@ -177,7 +177,7 @@ def _with_defaults(options: InitOptions, draft: Draft) -> Draft:
 
 def _of_profiles(options: InitOptions) -> Draft:
     diagnostics = Diagnostics()
-    profiles = options.profiles or (DEFAULT_PROFILE,)
+    profiles = options.profiles or (first_profile(),)
     compiled = compiler.Options(
         profiles=profiles, interface_paths=options.interface_paths, target=options.target
     )

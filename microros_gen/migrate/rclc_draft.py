@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import replace
 
 from microros_gen.diagnostics import Diagnostics, Source
@@ -16,6 +16,7 @@ from microros_gen.migrate.draft import Draft, DraftNode, DraftValue, Remark, pla
 from microros_gen.migrate.missing import find_missing, selected_by
 from microros_gen.migrate.parameter_clients import find_clients, owner, watches
 from microros_gen.migrate.parameter_servers import SERVERS, server_limits, server_pools
+from microros_gen.migrate.profiles import profiles_of
 from microros_gen.migrate.rclc_actions import actions_of, find_actions
 from microros_gen.migrate.rclc_calls import (
     ENDPOINT_CALLS,
@@ -49,9 +50,7 @@ _TASKS = frozenset(
 )
 _THREADS = frozenset(("std", "thread"))
 _AXES = ("transport_", "entities_", "port_", "liveliness_", "clock_ros", "ping", "stream_")
-_GIVEN = (("publish", "pure_sender"), ("subscribe", "pure_reader"))
 _HELD = ("rclc_parameter_check_held", "rclc_parameter_count_overruled")
-_PROFILES = (("pure_sender", "publisher"), ("pure_reader", "subscription"))
 
 
 @dataclass(frozen=True)
@@ -77,8 +76,7 @@ def rclc_draft(
     values = Values(files)
     calls = [call for file in files for call in file.calls]
     nodes, remarks = _nodes(files, calls, values)
-    endpoints = {endpoint.kind for node in nodes for endpoint in node.endpoints}
-    profiles = tuple(profile for profile, kind in _PROFILES if kind in endpoints)
+    profiles = profiles_of({endpoint.kind for node in nodes for endpoint in node.endpoints})
     own = {function.name for file in files for function in file.functions}
     selected = _selected(calls, declared, catalogue)
     called = [
@@ -93,11 +91,11 @@ def rclc_draft(
     limits, guesses = server_limits(calls, values)
     groups = {**settings, **({"pools": pools} if pools else {})}
     draft = Draft(
-        profiles=profiles,
+        profiles=profiles.names,
         components=_components(
             _wanted(files, called, selected, catalogue) | ({"subscribe"} if watches(calls) else set()),
             catalogue,
-            profiles,
+            profiles.components,
         ),
         interfaces=_types_without_entity(nodes),
         nodes=nodes,
@@ -271,11 +269,9 @@ def _wanted(
     return found | ({"multithread"} if starts or names >= _THREADS else set())
 
 
-def _components(wanted: set[str], catalogue: Catalogue, profiles: tuple[str, ...]) -> tuple[str, ...]:
+def _components(wanted: set[str], catalogue: Catalogue, of_profiles: Set[str]) -> tuple[str, ...]:
     """Return the components that have to be named: without those that others bring along."""
     wanted = {name for name in wanted | {"node"} if catalogue[name].ready and not name.startswith(_AXES)}
-    of_profiles = {component for component, profile in _GIVEN if profile in profiles}
-    of_profiles |= {"node"} if profiles else set()
     needed = {below for name in wanted | of_profiles for below in _below(name, catalogue)}
     return tuple(f"+{name}" for name in sorted(wanted - needed - of_profiles))
 

@@ -125,7 +125,7 @@ class Component:
 class Profile:
     """A micro-ROS profile: components, and defaults for the axes (None: no opinion).
 
-    `nodes` are those of its example; None: those of the profiles that it extends.
+    `nodes` are those of its example; None: those of the profiles that it extends. `order`: see `in_lists`.
     """
 
     name: str
@@ -140,6 +140,7 @@ class Profile:
     logging: Named | None = None
     clock: Named | None = None
     nodes: tuple[NodeDecl, ...] | None = None
+    order: int | None = None
 
 
 @dataclass(frozen=True)
@@ -174,6 +175,7 @@ class ResolvedProfile:
     span: Span | None = None
     requested: Span | None = None
     nodes: tuple[NodeDecl, ...] = ()
+    order: int | None = None
 
     def place(self, span: Span | None) -> Span | None:
         """Return where the user can change what stands at `span`: there, or where this profile is asked for.
@@ -238,3 +240,8 @@ class Middleware:
 
 Catalogue = Mapping[str, Component]
 """All components by name, in the order of the names; cannot be changed."""
+
+
+def in_lists(profile: Profile | ResolvedProfile) -> tuple[bool, int, str]:
+    """Return the sort key of a profile: by the `order` of its file, then those without one; each by name."""
+    return profile.order is None, profile.order or 0, profile.name

@@ -11,10 +11,9 @@ from types import MappingProxyType
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
 from microros_gen.documents.files import is_file, read_text
 from microros_gen.documents.named import Named
-from microros_gen.selection.component import Middleware, Profile, ProfileSet
+from microros_gen.selection.component import Middleware, Profile, ProfileSet, in_lists
 from microros_gen.selection.extension import INSTALLED, Extensions
 from microros_gen.selection.profile_file import parse_middleware, parse_profile
-from microros_gen.selection.xrce import BUILTIN_PROFILES
 
 MIDDLEWARE_FILE = "middleware.yaml"
 _SUFFIXES = (".yaml", ".yml")
@@ -28,7 +27,7 @@ def profiles_folder() -> Path:
 
 
 def load_builtin_profiles(folder: Path | None = None) -> Mapping[str, Profile]:
-    """Return the built-in profiles by name: those of D1.4 in its order, then any other of `folder` by name.
+    """Return the built-in profiles of `folder` by name, in the order that their files give them.
 
     Raises UserError where a file of the folder is faulty or not named as its profile.
     """
@@ -49,8 +48,7 @@ def load_builtin_profiles(folder: Path | None = None) -> Mapping[str, Profile]:
             elif profile is not None:
                 found[profile.name] = profile
     diagnostics.check()
-    order = [*(n for n in BUILTIN_PROFILES if n in found), *(n for n in found if n not in BUILTIN_PROFILES)]
-    return MappingProxyType({name: found[name] for name in order})
+    return MappingProxyType({profile.name: profile for profile in sorted(found.values(), key=in_lists)})
 
 
 def load_middleware(folder: Path | None = None) -> Middleware:

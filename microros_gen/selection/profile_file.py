@@ -14,7 +14,7 @@ from microros_gen.application.nodes import parse_nodes
 from microros_gen.application.parser import SCHEMA as APPLICATION_SCHEMA
 from microros_gen.diagnostics import Diagnostics, Source, Span, reads
 from microros_gen.documents.tree_read import check_keys, expect_mapping, read_choice, read_names, read_text
-from microros_gen.documents.tree_values import bool_of
+from microros_gen.documents.tree_values import bool_of, int_of
 from microros_gen.documents.yaml_tree import MappingNode, parse_yaml
 from microros_gen.selection.component import Axis, AxisValue, Middleware, Profile, XrceProfile
 from microros_gen.selection.xrce import MICRO_ROS_COMPONENTS, SUBMESSAGES, XRCE_PROFILES
@@ -29,7 +29,7 @@ AXES = {
 }
 """Axis → its values, as both schemas and the middleware table have them."""
 
-_PROFILE_KEYS = ("profile", "summary", "extends", "components", *AXES, "nodes")
+_PROFILE_KEYS = ("profile", "summary", "order", "extends", "components", *AXES, "nodes")
 _Part = TypeVar("_Part", bound=Any)
 _AXIS_VALUE_KEYS = ("component", "xrce", "agent", "allows")
 
@@ -71,6 +71,7 @@ def _profile(node: MappingNode, start: Span, diagnostics: Diagnostics, builtin: 
         builtin=builtin,
         span=named.value.span if named else start,
         nodes=_nodes(node, diagnostics, builtin),
+        order=int_of(node.get("order")),
     )
 
 

@@ -9,14 +9,13 @@ from types import MappingProxyType
 from microros_gen.application.model import ComponentChange, NodeDecl
 from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.documents.named import Named
-from microros_gen.selection.component import Profile, ProfileSet, ResolvedProfile
+from microros_gen.selection.component import Profile, ProfileSet, ResolvedProfile, in_lists
 from microros_gen.selection.declared import at, without_components
 from microros_gen.selection.profile_nodes import joined_nodes
-from microros_gen.selection.xrce import BUILTIN_PROFILES
 
 
 def resolve_profiles(profiles: ProfileSet, diagnostics: Diagnostics) -> tuple[ResolvedProfile, ...]:
-    """Return the requested profiles, folded: built-in ones in the order of D1.4, then others by name.
+    """Return the requested profiles, folded, in the order that their files give them, then by name.
 
     Errors: a profile that extends itself, `+x` and `-x` in one file, and bases that disagree about an axis or
     a component where the profile itself decides nothing.
@@ -27,8 +26,7 @@ def resolve_profiles(profiles: ProfileSet, diagnostics: Diagnostics) -> tuple[Re
         resolved = folder.fold(name.name, name.span)
         if resolved is not None:
             found.setdefault(resolved.name, replace(resolved, requested=name.span))
-    order = {name: index for index, name in enumerate(BUILTIN_PROFILES)}
-    return tuple(sorted(found.values(), key=lambda p: (order.get(p.name, len(order)), p.name)))
+    return tuple(sorted(found.values(), key=in_lists))
 
 
 def axes_of(profile: Profile) -> dict[str, Named]:
@@ -118,6 +116,7 @@ class _Folder:
             builtin=profile.builtin,
             span=profile.span,
             nodes=self._nodes(profile, bases),
+            order=profile.order,
         )
 
     def _nodes(self, profile: Profile, bases: list[ResolvedProfile]) -> tuple[NodeDecl, ...]:

@@ -83,14 +83,3 @@ MICRO_ROS_COMPONENTS = (
     "discovery",
 )
 """The eleven components of D1.4, 4.10.3.1, in its order."""
-
-BUILTIN_PROFILES = (
-    "pure_sender",
-    "pure_reader",
-    "configurable_sender_with_diagnostics",
-    "ad_hoc_discoverable_sender",
-    "static_configured_sender",
-    "managed_service",
-    "simulation_node",
-)
-"""The seven profiles of D1.4, 4.10.3.1, in its order."""

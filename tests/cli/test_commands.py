@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 
 from microros_gen.cli.main import _COMMANDS
-from microros_gen.selection.xrce import BUILTIN_PROFILES
 from tests.support.command_line import Runner
 from tests.support.paths import ROOT
+from tests.support.selection.profiles import BUILTIN_PROFILES
 
 IDL = str(ROOT / "microros_gen" / "idl")
 ALL_COMMANDS = [*_COMMANDS, "agent udp4", "modes check", "modes simulate", "modes graph"]

@@ -18,7 +18,7 @@ from microros_gen.cli.profiles import select_profile
 from microros_gen.cli.tables import format_selection, selection_data
 from microros_gen.selection.component import Catalogue
 from microros_gen.selection.model import Selection
-from microros_gen.selection.xrce import BUILTIN_PROFILES
+from tests.support.selection.profiles import BUILTIN_PROFILES
 
 GOLDEN = Path(__file__).parent / "golden"
 UPDATE = os.environ.get("MICROROS_UPDATE_GOLDEN") == "1"

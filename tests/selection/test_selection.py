@@ -13,8 +13,8 @@ from microros_gen.cli.tables import selection_data
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.selection.find_profiles import load_builtin_profiles
 from microros_gen.selection.resolve import check_ready
-from microros_gen.selection.xrce import BUILTIN_PROFILES
 from tests.support.ids import without_id
+from tests.support.selection.profiles import BUILTIN_PROFILES
 from tests.support.selection.small_catalogue import Outcome
 
 Resolve = Callable[..., Outcome]

@@ -3,16 +3,20 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable
 from itertools import combinations, product
+from pathlib import Path
 
 import pytest
 
+import microros_gen
 from microros_gen.selection.component import Catalogue, Middleware
 from microros_gen.selection.find_components import load_catalogue
 from microros_gen.selection.find_profiles import load_builtin_profiles
 from microros_gen.selection.model import Selection
-from microros_gen.selection.xrce import BUILTIN_PROFILES, MICRO_ROS_COMPONENTS, SUBMESSAGES, XRCE_PROFILES
+from microros_gen.selection.xrce import MICRO_ROS_COMPONENTS, SUBMESSAGES, XRCE_PROFILES
+from tests.support.selection.profiles import BUILTIN_PROFILES
 from tests.support.selection.small_catalogue import Outcome
 from tests.support.slices import spread
 
@@ -79,6 +83,18 @@ def test_there_are_seven_profiles_and_nothing_else_changes_their_components() ->
     assert all(c.add for p in profiles.values() for c in p.components)
     assert not any(p.extends for p in profiles.values())
     assert all(p.summary for p in profiles.values())
+
+
+def test_no_module_names_a_profile() -> None:
+    """A profile is known by its file alone: another one is added without a change in Python."""
+    names = set(load_builtin_profiles())
+    found = [
+        f"{path.name}:{node.lineno}"
+        for path in sorted(Path(microros_gen.__file__).parent.rglob("*.py"))
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Constant) and node.value in names
+    ]
+    assert found == []
 
 
 def test_the_real_components_agree_with_the_table(real_catalogue: Catalogue, middleware: Middleware) -> None:
