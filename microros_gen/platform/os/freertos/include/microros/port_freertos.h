@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * FreeRTOS 10.4 or newer. What the application can set, and what its FreeRTOSConfig.h must contain: a missing
+ * setting stops the compiler. All objects are static. The kernel's vectors, start-up code and linker script belong
+ * to the application.
+ */
+#ifndef MICROROS_PORT_FREERTOS_H
+#define MICROROS_PORT_FREERTOS_H
+
+#include "FreeRTOS.h"
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if !defined(configSUPPORT_STATIC_ALLOCATION) || configSUPPORT_STATIC_ALLOCATION != 1
+#error "FreeRTOSConfig.h: set configSUPPORT_STATIC_ALLOCATION to 1"
+#endif
+#if !defined(INCLUDE_vTaskDelay) || INCLUDE_vTaskDelay != 1
+#error "FreeRTOSConfig.h: set INCLUDE_vTaskDelay to 1"
+#endif
+
+/* Tasks that can wait for messages at the same time, in executors and rcl_wait. One more polls once per tick. */
+#ifndef PORT_FREERTOS_WAITERS
+#define PORT_FREERTOS_WAITERS 4
+#endif
+
+/* Whether the caller of port_wake is an interrupt. The kernel's ports for Cortex-M3 and later have this function;
+ * for other processors, define the macro in FreeRTOSConfig.h. */
+#ifndef PORT_FREERTOS_IS_INTERRUPT
+#define PORT_FREERTOS_IS_INTERRUPT() (xPortIsInsideInterrupt() == pdTRUE)
+#endif
+
+/* Returns the ticks since the scheduler started; does not wrap. */
+uint64_t port_freertos_now(void);
+
+/* Returns the ticks that last at least `duration_ms`, not counting the current one, and at most portMAX_DELAY - 1. */
+TickType_t port_freertos_ticks(uint32_t duration_ms);
+
+/* Sets the time of day that port_time_epoch_ns returns, in nanoseconds since 1970-01-01 00:00 UTC. From any task. */
+void port_freertos_epoch_set(int64_t now_ns);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_PORT_FREERTOS_H */

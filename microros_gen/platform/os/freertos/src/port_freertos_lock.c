@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/port.h"
+#include "microros/port_freertos.h"
+
+#include "semphr.h"
+#include "task.h"
+
+#include <stddef.h>
+
+#if !defined(configUSE_MUTEXES) || configUSE_MUTEXES != 1
+#error "FreeRTOSConfig.h: set configUSE_MUTEXES to 1"
+#endif
+#if !defined(configUSE_RECURSIVE_MUTEXES) || configUSE_RECURSIVE_MUTEXES != 1
+#error "FreeRTOSConfig.h: set configUSE_RECURSIVE_MUTEXES to 1"
+#endif
+
+static SemaphoreHandle_t lock; /* the kernel's mutexes inherit priority */
+
+/* The first call of the library makes it, while no other task runs. */
+static void lock_make(void)
+{
+  static StaticSemaphore_t storage;
+
+  vTaskSuspendAll();
+  if (lock == NULL) {
+    lock = xSemaphoreCreateRecursiveMutexStatic(&storage); /* with storage, it cannot fail */
+  }
+  (void)xTaskResumeAll();
+}
+
+void port_lock(void)
+{
+  if (lock == NULL) {
+    lock_make();
+  }
+  (void)xSemaphoreTakeRecursive(lock, portMAX_DELAY); /* waits without a limit */
+}
+
+void port_unlock(void)
+{
+  (void)xSemaphoreGiveRecursive(lock);
+}

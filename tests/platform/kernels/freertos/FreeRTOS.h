@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Declarations of FreeRTOS that the port calls: for a check of its syntax, not of what it does. */
+#ifndef STAND_IN_FREERTOS_H
+#define STAND_IN_FREERTOS_H
+
+#include <stdint.h>
+
+#ifndef KERNEL_TICK_RATE_HZ
+#define KERNEL_TICK_RATE_HZ 1000
+#endif
+#define configTICK_RATE_HZ ((TickType_t)KERNEL_TICK_RATE_HZ) /* as in most configurations: no constant of the preprocessor */
+#define configSUPPORT_STATIC_ALLOCATION 1
+#define configUSE_MUTEXES 1
+#define configUSE_RECURSIVE_MUTEXES 1
+#define configUSE_TIMERS 1
+#define INCLUDE_vTaskDelay 1
+
+typedef long BaseType_t;
+typedef unsigned long UBaseType_t;
+typedef uint32_t TickType_t;
+
+#define portMAX_DELAY ((TickType_t)0xffffffffu)
+#define portYIELD_FROM_ISR(is_switched) port_yield_from_isr(is_switched)
+#define pdFALSE ((BaseType_t)0)
+#define pdTRUE ((BaseType_t)1)
+#define pdPASS pdTRUE
+
+void port_yield_from_isr(BaseType_t is_switched);
+BaseType_t xPortIsInsideInterrupt(void);
+
+#endif /* STAND_IN_FREERTOS_H */

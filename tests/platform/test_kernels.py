@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Ports to kernels and networks: a syntax check against the declarations that they call, in tests/platform/kernels.
+
+What they do is seen by hand with the public sources (docs/verification/ports.md).
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from microros_gen.platform.part_file import builtin_parts
+from microros_gen.selection.find_components import parts_folder
+from tests.support.command_line import Runner
+from tests.support.paths import TESTS
+
+KERNELS = TESTS / "platform" / "kernels"
+TARGET = "target: board\nsummary: A board under a kernel\nextends: {cpu}\nos: {os}\nnetwork: {network}\n"
+APPLICATION = """\
+version: 1
+profiles: [pure_sender, pure_reader]
+components: [+executor, +timers, +multithread{more}]
+target: board.yaml
+session: {{key: 1}}
+transport: {transport}
+nodes:
+  - name: device
+    publishers: [{{topic: count, type: std_msgs/msg/Int32}}]
+    subscriptions: [{{topic: target, type: std_msgs/msg/Int32}}]
+    timers: [{{name: beat, period: 100 ms, kind: rtos}}]
+"""
+VARIANTS = (
+    {"transport": "{type: udp, agent: 192.168.1.2:8888}", "more": ", +sleep_cycles"},
+    {"transport": "{type: udp}", "more": ", +discovery"},
+    {"transport": "{type: tcp, agent: 192.168.1.2:8888}", "more": ""},
+)
+WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Werror")
+COMPILERS = (
+    ("arm-none-eabi-gcc",),
+    ("clang", "-DKERNEL_TICK_RATE_HZ=1024", "-DLWIP_IPV6=0"),
+    ("gcc", "-DKERNEL_TICK_RATE_HZ=100", "-DLWIP_NETIF_TX_SINGLE_PBUF=1"),
+)
+PAIRS = [("freertos", "lwip")]
+
+
+def sources(folder: Path, name: str) -> list[Path]:
+    return sorted((folder / "src" / f"port_{name}").glob("*.c"))
+
+
+def complaints(compiler: str, out: Path, names: tuple[str, str], *flags: str) -> str:
+    """Return what the compiler says of the sources of an OS and a network."""
+    files = [str(path) for name in names for path in sources(out, name)]
+    folders = [f"-I{path}" for path in (out / "include", *(KERNELS / name for name in names))]
+    call = [compiler, "-std=c99", "-fsyntax-only", *WARNINGS, *flags, *folders, *files]
+    return subprocess.run(call, capture_output=True, text=True, check=False).stderr
+
+
+@pytest.mark.builds
+@pytest.mark.parametrize("names", PAIRS, ids="-".join)
+def test_a_port_calls_what_its_kernel_declares(names: tuple[str, str], folder: Path, run: Runner) -> None:
+    (folder / "board.yaml").write_text(TARGET.format(cpu="cortex-m4", os=names[0], network=names[1]))
+    compiled = set()
+    for variant in VARIANTS:
+        (folder / "microros.yaml").write_text(APPLICATION.format(**variant))
+        done = run("generate", "-o", "out")
+        assert (done.status, "warning" in done.err) == (0, False), done.err
+        out = folder / "out"
+        compiled |= {path.name for name in names for path in sources(out, name)}
+        for compiler, *flags in COMPILERS:
+            if shutil.which(compiler):
+                assert complaints(compiler, out, names, *flags) == ""
+    parts = [parts_folder() / kind / name for kind, name in zip(("os", "network"), names, strict=True)]
+    assert compiled == {path.name for part in parts for path in part.glob("src/*.c")}
+
+
+@pytest.mark.builds
+def test_a_missing_setting_of_freertos_stops_the_compiler(folder: Path, run: Runner) -> None:
+    (folder / "board.yaml").write_text(TARGET.format(cpu="cortex-m4", os="freertos", network="lwip"))
+    (folder / "microros.yaml").write_text(APPLICATION.format(**VARIANTS[0]))
+    assert run("generate", "-o", "out").status == 0
+    found = {}
+    for setting in ("SUPPORT_STATIC_ALLOCATION", "USE_MUTEXES", "USE_RECURSIVE_MUTEXES", "USE_TIMERS"):
+        name = f"config{setting}"
+        header = KERNELS / "freertos" / "FreeRTOS.h"
+        changed = folder / "changed" / "FreeRTOS.h"
+        changed.parent.mkdir(exist_ok=True)
+        changed.write_text(re.sub(rf"(#define {name}) 1", r"\1 0", header.read_text()))
+        said = complaints("gcc", folder / "out", ("freertos", "lwip"), f"-I{changed.parent}")
+        found[name] = said
+    assert {
+        name: f'#error "FreeRTOSConfig.h: set {name} to 1"' in said for name, said in found.items()
+    } == dict.fromkeys(found, True)
+
+
+def test_every_port_to_a_kernel_is_checked() -> None:
+    assert set(builtin_parts("os")) - {"bare", "posix"} == {os for os, _ in PAIRS}
+    assert set(builtin_parts("network")) - {"posix_sockets"} == {network for _, network in PAIRS}
