@@ -89,10 +89,10 @@ def test_a_missing_setting_of_freertos_stops_the_compiler(folder: Path, run: Run
         changed = folder / "changed" / "FreeRTOS.h"
         changed.parent.mkdir(exist_ok=True)
         changed.write_text(re.sub(rf"(#define {name}) 1", r"\1 0", header.read_text()))
-        said = complaints("gcc", folder / "out", ("freertos", "lwip"), f"-I{changed.parent}")
-        found[name] = said
+        messages = complaints("gcc", folder / "out", ("freertos", "lwip"), f"-I{changed.parent}")
+        found[name] = messages
     assert {
-        name: f'#error "FreeRTOSConfig.h: set {name} to 1"' in said for name, said in found.items()
+        name: f'#error "FreeRTOSConfig.h: set {name} to 1"' in messages for name, messages in found.items()
     } == dict.fromkeys(found, True)
 
 

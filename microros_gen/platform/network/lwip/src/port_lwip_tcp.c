@@ -49,7 +49,7 @@ bool port_tcp_open(port_tcp_t * tcp, const char * host, uint16_t port)
   return tcp->handle >= 0;
 }
 
-static void stream_forget(lwip_stream_t * stream)
+static void stream_clear(lwip_stream_t * stream)
 {
   if (stream->received != NULL) {
     (void)pbuf_free(stream->received);
@@ -63,7 +63,7 @@ void port_tcp_close(port_tcp_t * tcp)
   if (tcp->handle >= 0) {
     lwip_stream_t * stream = &streams[tcp->handle];
 
-    stream_forget(stream);
+    stream_clear(stream);
     port_lwip_close(stream->connection);
     stream->connection = NULL;
   }
@@ -110,7 +110,7 @@ int32_t port_tcp_receive(port_tcp_t * tcp, uint8_t * buffer, size_t capacity)
   size = pbuf_copy_partial(stream->received, buffer, size, stream->taken);
   stream->taken = (u16_t)(stream->taken + size);
   if (stream->taken == stream->received->tot_len) {
-    stream_forget(stream);
+    stream_clear(stream);
   }
   return (int32_t)size;
 }

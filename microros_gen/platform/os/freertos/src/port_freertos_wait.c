@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Each task that waits has an event of its own, a binary semaphore, from its first wait on. port_wake sets all of them:
+ * Each task that waits has a separate event, a binary semaphore, from its first wait on. port_wake sets all of them:
  * a task that is busy meanwhile finds its event set at its next wait. Networks and drivers call port_wake when something
  * has arrived.
  */
