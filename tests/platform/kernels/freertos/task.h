@@ -4,8 +4,6 @@
 
 #include "FreeRTOS.h"
 
-typedef struct kernel_task_t * TaskHandle_t;
-
 typedef struct TimeOut_t {
   BaseType_t xOverflowCount;
   TickType_t xTimeOnEntering;
@@ -20,6 +18,5 @@ void vTaskSuspendAll(void);
 BaseType_t xTaskResumeAll(void);
 void vTaskSetTimeOutState(TimeOut_t * now);
 TickType_t xTaskGetTickCount(void);
-TaskHandle_t xTaskGetCurrentTaskHandle(void);
 
 #endif /* STAND_IN_FREERTOS_TASK_H */

@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/*
- * Each task that waits has a separate event, a binary semaphore, from its first wait on. port_wake sets all of them:
- * a task that is busy meanwhile finds its event set at its next wait. Networks and drivers call port_wake when something
- * has arrived.
- */
+/* One binary semaphore: it ends one wait, or the next one. Networks and drivers call port_wake when something has arrived. */
 #include "microros/port.h"
 #include "microros/port_freertos.h"
 
@@ -12,66 +8,41 @@
 
 #include <stddef.h>
 
-typedef struct waiter_t {
-  TaskHandle_t task;
-  StaticSemaphore_t storage;
-  SemaphoreHandle_t event; /* set last: not NULL from then on */
-} waiter_t;
+static SemaphoreHandle_t event; /* NULL until the first wait, which looks for what has arrived before */
 
-static waiter_t waiters[PORT_FREERTOS_WAITERS];
-
-/* Returns the event of the calling task, which its first call makes; NULL: more tasks wait than there are places. */
-static SemaphoreHandle_t event_of_task(void)
+static void event_make(void)
 {
-  const TaskHandle_t task = xTaskGetCurrentTaskHandle();
-  SemaphoreHandle_t event = NULL;
+  static StaticSemaphore_t storage;
 
   vTaskSuspendAll();
-  for (size_t i = 0; i < (size_t)PORT_FREERTOS_WAITERS && event == NULL; ++i) {
-    waiter_t * place = &waiters[i];
-
-    if (place->event == NULL) {
-      place->task = task;
-      place->event = xSemaphoreCreateBinaryStatic(&place->storage); /* with storage, it cannot fail */
-    }
-    if (place->task == task) {
-      event = place->event;
-    }
+  if (event == NULL) {
+    event = xSemaphoreCreateBinaryStatic(&storage); /* with storage, it cannot fail */
   }
   (void)xTaskResumeAll();
-  return event;
 }
 
+/* What arrives on any handle wakes. */
 void port_wait(intptr_t handle, uint32_t timeout_ms)
 {
-  const SemaphoreHandle_t event = event_of_task();
-  const TickType_t ticks = port_freertos_ticks(timeout_ms);
-
-  (void)handle; /* what arrives on any of them wakes */
-  if (event != NULL) {
-    (void)xSemaphoreTake(event, ticks); /* may return early, or without an event */
-  } else if (ticks != 0u) {
-    vTaskDelay(1);
+  (void)handle;
+  if (event == NULL) {
+    event_make();
+    return;
   }
-}
-
-static void wake_from_interrupt(void)
-{
-  BaseType_t is_switched = pdFALSE;
-
-  for (size_t i = 0; i < (size_t)PORT_FREERTOS_WAITERS && waiters[i].event != NULL; ++i) {
-    (void)xSemaphoreGiveFromISR(waiters[i].event, &is_switched); /* fails if it is set already */
-  }
-  portYIELD_FROM_ISR(is_switched);
+  (void)xSemaphoreTake(event, port_freertos_ticks(timeout_ms)); /* false: the time has passed */
 }
 
 void port_wake(void)
 {
-  if (PORT_FREERTOS_IS_INTERRUPT()) {
-    wake_from_interrupt();
+  BaseType_t is_switched = pdFALSE;
+
+  if (event == NULL) {
     return;
   }
-  for (size_t i = 0; i < (size_t)PORT_FREERTOS_WAITERS && waiters[i].event != NULL; ++i) {
-    (void)xSemaphoreGive(waiters[i].event);
+  if (PORT_FREERTOS_IS_INTERRUPT()) {
+    (void)xSemaphoreGiveFromISR(event, &is_switched); /* fails if it is given already */
+    portYIELD_FROM_ISR(is_switched);
+  } else {
+    (void)xSemaphoreGive(event);
   }
 }

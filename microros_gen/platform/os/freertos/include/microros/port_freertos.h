@@ -22,11 +22,6 @@ extern "C" {
 #error "FreeRTOSConfig.h: set INCLUDE_vTaskDelay to 1"
 #endif
 
-/* Tasks that can wait for messages at the same time, in executors and rcl_wait. One more polls once per tick. */
-#ifndef PORT_FREERTOS_WAITERS
-#define PORT_FREERTOS_WAITERS 4
-#endif
-
 /* Whether the caller of port_wake is an interrupt. The kernel's ports for Cortex-M3 and later have this function;
  * for other processors, define the macro in FreeRTOSConfig.h. */
 #ifndef PORT_FREERTOS_IS_INTERRUPT
