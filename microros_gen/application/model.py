@@ -9,6 +9,7 @@ from dataclasses import field
 from microros_gen.application.action_decl import ActionClientDecl, ActionDecl
 from microros_gen.application.diagnosis_decl import DiagnosisDecl
 from microros_gen.application.mode_decl import ModeDecl
+from microros_gen.application.transport_decl import Transport
 from microros_gen.diagnostics import Span
 from microros_gen.documents.named import Named
 from microros_gen.records import dataclass
@@ -36,35 +37,6 @@ LARGEST_UDP_PAYLOAD = 65_507
 
 MOST_HISTORY = 16
 """Most messages that a reliable stream keeps; application.schema.json says it too."""
-
-
-@dataclass(frozen=True)
-class Transport:
-    """How the firmware reaches its agent. `mtu`: largest datagram or frame payload, bytes; None: planned.
-
-    `type_span` None and `type` udp: the application does not say, so a profile's or the target's choice holds.
-    `device` and `baud` are the serial line's; `framing` None: a custom transport chooses at run time;
-    `read_polls`: its read function returns at once with a time-out of 0.
-    `send_buffer`: bytes that wait for a serial line; None: planned. `discover`: the agent is to be found by
-    multicast to this port; None: `host` and `port` say where it is, or, where `agent_span` is None too, the
-    selection decides. `agents`: address and port of each of several, of which `host` and `port` are the first; or none.
-    """
-
-    type: str = "udp"
-    host: str = "127.0.0.1"
-    port: int = 8888
-    mtu: int | None = None
-    span: Span | None = None
-    mtu_span: Span | None = None
-    type_span: Span | None = None
-    agent_span: Span | None = None
-    device: str = "/dev/ttyUSB0"
-    baud: int = 115_200
-    framing: bool | None = None
-    read_polls: bool = False
-    discover: int | None = None
-    send_buffer: int | None = None
-    agents: tuple[tuple[str, int], ...] = ()
 
 
 @dataclass(frozen=True)

@@ -20,11 +20,11 @@ from microros_gen.application.model import (
     LogWriter,
     Memory,
     TargetRef,
-    Transport,
     component_change,
 )
 from microros_gen.application.nodes import parse_nodes
 from microros_gen.application.session_times import hard_liveliness, session_times
+from microros_gen.application.transport_decl import Transport
 from microros_gen.diagnostics import Diagnostics, Source, Span, reads
 from microros_gen.documents.named import Named
 from microros_gen.documents.schema import load_schema, validate
@@ -61,13 +61,15 @@ _POOLS_BESIDE_NODES = (
     "jump_callbacks",
     "parameters",
 )
-_WITHOUT_ADDRESS = ("serial", "custom")
+_WITHOUT_ADDRESS = ("serial", "canfd", "custom")
 _ONLY_FOR = {
-    "device": "serial",
-    "baud": "serial",
-    "send_buffer": "serial",
-    "framing": "custom",
-    "read_polls": "custom",
+    "device": ("serial", "canfd"),
+    "id": ("canfd",),
+    "baud": ("serial",),
+    "send_buffer": ("serial",),
+    "framing": ("custom",),
+    "read_polls": ("custom",),
+    "mtu": ("udp", "tcp", "serial", "custom"),
 }
 
 
@@ -183,12 +185,11 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
         message = f"transport: {type_name} has no agent address"
         diagnostics.error(message, agent.span, "Remove `agent`, or use type: udp or tcp", id="MG-3013")
     for key, only in _ONLY_FOR.items():
-        if child(node, key) is not None and type_name != only:
+        if child(node, key) is not None and type_name not in only:
             message = f"transport: {type_name} has no `{key}`"
-            diagnostics.error(
-                message, span_of(child(node, key)), f"Remove `{key}`, or use type: {only}", id="MG-3014"
-            )
-    framing, read_polls = child(node, "framing"), child(node, "read_polls")
+            hint = f"Remove `{key}`, or use type: {' or '.join(only)}"
+            diagnostics.error(message, span_of(child(node, key)), hint, id="MG-3014")
+    framing, read_polls, device = (child(node, key) for key in ("framing", "read_polls", "device"))
     if bool_of(framing) and read_polls is not None:
         message = "'transport.read_polls' has no effect with frames: their read function always gets a time-out of 0"
         diagnostics.error(
@@ -208,7 +209,11 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
         type_span=span_of(kind),
         agent_span=span_of(agent) or span_of(child(node, "agents")),
         agents=agents,
-        device=text_of(child(node, "device")) or Transport().device,
+        device=text_of(device) or Transport().device if type_name == "serial" else Transport().device,
+        can_device=text_of(device) or Transport().can_device
+        if type_name == "canfd"
+        else Transport().can_device,
+        can_id=int_of(child(node, "id")),
         baud=int_of(child(node, "baud")) or Transport().baud,
         framing=bool_of(framing),
         read_polls=bool_of(read_polls) or False,

@@ -245,6 +245,8 @@ def _agent_of_host(image: _Image) -> list[str]:
     device = image.transport.get("device", "")
     if kind == "serial" and not device.startswith("/dev/"):
         return ["pty", "--link", device]
+    if kind == "canfd":
+        return ["canfd", "--device", device]
     what = f"opens {device} itself" if kind == "serial" else "has a custom transport"
     hint = "Start an agent at the other end (microros-gen agent --help), then run with --no-agent"
     raise UserError([Diagnostic(f"cannot start an agent for this image: it {what}", hint=hint, id="MG-9719")])

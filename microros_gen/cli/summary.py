@@ -93,6 +93,8 @@ def _agent(planned: Planned) -> str:
     if transport == "serial":
         line = runtime.transport.device if project.target.hosted else "the board's line"
         return f"serial, {line}, {runtime.transport.baud} baud"
+    if transport == "canfd":
+        return f"canfd, {project.application.transport.can_device}"
     return (
         "custom transport of the application"
         if transport == "custom"

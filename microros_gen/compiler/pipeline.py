@@ -25,7 +25,8 @@ from microros_gen.client.plan.features import with_endpoints, with_limits
 from microros_gen.client.plan.project import Project, plan_project
 from microros_gen.client.plan.service_limits import service_roots
 from microros_gen.client.plan.stream_budget import check_stream_budget
-from microros_gen.client.plan.streams import DEFAULT_MTU, WRITE_DATA_OVERHEAD
+from microros_gen.client.plan.streams import WRITE_DATA_OVERHEAD
+from microros_gen.client.plan.transport_sizes import DEFAULT_MTU
 from microros_gen.compiler.request import Request
 from microros_gen.diagnostics import Diagnostic, Diagnostics
 from microros_gen.documents.named import Named
@@ -42,6 +43,7 @@ from microros_gen.records import dataclass
 from microros_gen.selection.clock import CLOCK_ROS, with_clock
 from microros_gen.selection.component import Catalogue, Profile
 from microros_gen.selection.component_sources import ComponentFile, component_files, template_names
+from microros_gen.selection.creation import with_creation
 from microros_gen.selection.extension import files_of, folders_below
 from microros_gen.selection.find_components import load_catalogue
 from microros_gen.selection.find_profiles import load_middleware, load_profiles
@@ -118,6 +120,7 @@ def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
     _check_interfaces_have_a_use(application, selection, diagnostics)
     diagnostics.check()
     application = with_profile_nodes(application, resolved)
+    application = with_creation(application, selection.transport, selection.entities)
     application = with_endpoints(with_implied(application, selection, catalogue, diagnostics), selection)
     application = with_limits(application, selection)
     found = replace(request.found_target, target=with_emulated_console(target, selection))

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from microros_gen.application.find import read_application
-from microros_gen.application.model import Application, TargetRef, Transport, component_change
+from microros_gen.application.model import Application, TargetRef, component_change
 from microros_gen.application.parameter_find import with_parameter_files
 from microros_gen.application.parser import (
     parse_agent_address,
@@ -16,6 +16,7 @@ from microros_gen.application.parser import (
     parse_application,
     parse_discover,
 )
+from microros_gen.application.transport_decl import Transport
 from microros_gen.compiler.options import Options
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, Span
 from microros_gen.documents.named import Named
@@ -133,7 +134,7 @@ def _with_agent(transport: Transport, agent: Named, diagnostics: Diagnostics) ->
         return replace(
             transport, type="serial", type_span=transport.type_span or agent.span, device=agent.name
         )
-    if is_device or chosen in ("serial", "custom"):
+    if is_device or chosen in ("serial", "canfd", "custom"):
         what = "device" if is_device else "agent address"
         hint = "Give the path of a device such as /dev/ttyUSB0" if chosen == "serial" else "Leave it out"
         diagnostics.error(f"transport: {chosen} has no {what}", agent.span, hint, id="MG-8607")

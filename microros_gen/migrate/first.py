@@ -51,6 +51,8 @@ def transport_of(selection: Selection) -> Mapping[str, DraftValue]:
     keys: dict[str, DraftValue] = {"type": DraftValue(kind)}
     if kind == "serial":
         keys["baud"] = DraftValue(115_200)
+    elif kind == "canfd":
+        keys["id"] = DraftValue(0x7F, "each client of a bus needs its own")
     elif kind in ("udp", "tcp"):
         found = DraftValue("discover", "it asks for one by multicast; or its address and port")
         keys["agent"] = found if selection.has("discovery") else DraftValue(AGENT)

@@ -88,7 +88,7 @@ NOT_HERE_WHEN_ON: Mapping[str, str] = MappingProxyType(
     {
         "RMW_UXRCE_GRAPH": "declare the nodes and write `components: [+graph]`, which needs a graph server",
         "RMW_UXRCE_ALLOW_DYNAMIC_ALLOCATIONS": "pools do not grow: the library has no heap. Declare all entities",
-        "UCLIENT_PROFILE_CAN": "CAN FD is not supported: provide its four functions as a custom transport",
+        "UCLIENT_PROFILE_CAN": "`transport: {type: canfd, id: 0x7f}` selects it, with the identifier of this client",
         "UCLIENT_PROFILE_SHARED_MEMORY": "delivery inside one device goes through the agent in this version",
         "UCLIENT_PROFILE_MATCHING": "matching of QoS on the device is not in this version; the agent does it",
     }

@@ -78,6 +78,9 @@ def _transport(project: Project) -> dict[str, Any]:
     common = {"type": kind, "mtu": runtime.streams.mtu}
     if kind == "serial":
         return {**common, "device": runtime.transport.device, "baud": runtime.transport.baud}
+    if kind == "canfd":
+        requested = project.application.transport
+        return {**common, "device": requested.can_device, "id": requested.can_id}
     return common if kind == "custom" else {**common, "agent": runtime.transport.agent_place}
 
 

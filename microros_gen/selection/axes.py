@@ -6,7 +6,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from microros_gen.application.model import Application, Transport
+from microros_gen.application.model import Application
+from microros_gen.application.transport_decl import Transport
 from microros_gen.diagnostics import Diagnostics, Span, nearest
 from microros_gen.documents.named import Named
 from microros_gen.records import dataclass

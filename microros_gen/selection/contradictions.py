@@ -136,7 +136,7 @@ def _check_creation(picker: Picker, application: Application, choice: AxisChoice
 
 
 def _check_discovery(picker: Picker, choice: AxisChoice) -> None:
-    if "discovery" in picker.causes and choice.value in ("serial", "custom"):
+    if "discovery" in picker.causes and choice.value in ("serial", "canfd", "custom"):
         root = picker.roots("discovery")[0]
         picker.diagnostics.error(
             f"{choice.text} contradicts the component 'discovery' ({placed(root)}): agents are searched for "

@@ -22,7 +22,7 @@ from microros_gen.selection.xrce import MICRO_ROS_COMPONENTS, SUBMESSAGES, XRCE_
 SCHEMA = Path(__file__).with_name("profile.schema.json")
 AXES = {
     "entities": ("preconfigured", "reference", "xml", "binary"),
-    "transport": ("udp", "tcp", "serial", "custom"),
+    "transport": ("udp", "tcp", "serial", "canfd", "custom"),
     "liveliness": ("ping", "acknack", "none"),
     "logging": ("console", "callback", "rosout", "ring"),
     "clock": ("steady", "ros"),

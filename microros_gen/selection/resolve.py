@@ -22,6 +22,7 @@ from microros_gen.selection.component import (
     ResolvedProfile,
 )
 from microros_gen.selection.contradictions import check_contradictions
+from microros_gen.selection.creation import with_creation
 from microros_gen.selection.declared import at, check_holder, selecting_demands, stream_demands
 from microros_gen.selection.model import Chosen, ChosenAxis, ChosenComponent, Selection
 from microros_gen.selection.picker import Picker
@@ -52,6 +53,7 @@ def resolve_selection(
     """
     axes = choose_axes(application, profiles, middleware, diagnostics, transport)
     application = with_profile_nodes(application, profiles)
+    application = with_creation(application, axes["transport"].value, axes["entities"].value)
     picker = Picker(catalogue, diagnostics)
     _pick_from_profiles(picker, application, profiles)
     if not picker.causes:

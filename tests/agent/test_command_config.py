@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft202012Validator
 
-from microros_gen.agent.configuration.model import PtyChoice, SerialChoice, SocketChoice
+from microros_gen.agent.configuration.model import CanChoice, PtyChoice, SerialChoice, SocketChoice
 from microros_gen.agent.configuration.parser import SCHEMA, parse_agent_file
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.manifests import Manifests
@@ -52,6 +52,7 @@ transports:
   - tcp4: {port: 0, connections: 8, output_bytes: 4096, patience_s: 2.5}
   - serial: {device: tty, baud: 9600}
   - serial: {device: /dev/ttyUSB0}
+  - canfd: {device: can0}
   - pty: {link: board}
 discovery: {port: 7401}
 domain: 7
@@ -80,6 +81,8 @@ def test_everything_that_a_file_can_say(tmp_path: Path) -> None:
             SocketChoice("tcp4", 0, None, (("connections", 8), ("output_bytes", 4096), ("patience_s", 2.5))),
             SerialChoice(str(tmp_path / "tty"), 9600),
             SerialChoice("/dev/ttyUSB0"),
+            CanChoice("can0"),
+            CanChoice("can0"),
             PtyChoice(str(tmp_path / "board")),
         ),
         discovery=7401,

@@ -56,6 +56,22 @@ ERRORS: dict[str, tuple[str, str]] = {
         "transport: {type: udp, read_polls: true}\n",
         "f:1:36: error: transport: udp has no `read_polls`. Remove `read_polls`, or use type: custom",
     ),
+    "an MTU for frames that have one size": (
+        "transport: {type: canfd, id: 1, mtu: 64}\n",
+        "f:1:38: error: transport: canfd has no `mtu`. Remove `mtu`, or use type: udp or tcp or serial or custom",
+    ),
+    "an agent's address on a bus": (
+        'transport: {type: canfd, id: 1, agent: "10.0.0.1:8888"}\n',
+        "f:1:40: error: transport: canfd has no agent address. Remove `agent`, or use type: udp or tcp",
+    ),
+    "the device of no transport with one": (
+        "transport: {type: udp, device: can0}\n",
+        "f:1:32: error: transport: udp has no `device`. Remove `device`, or use type: serial or canfd",
+    ),
+    "an identifier of a serial line": (
+        "transport: {type: serial, id: 1}\n",
+        "f:1:31: error: transport: serial has no `id`. Remove `id`, or use type: canfd",
+    ),
     "unknown key": (
         "profles: [a]\n",
         "f:1:1: error: unknown key 'profles' in the file. Did you mean 'profiles'?",

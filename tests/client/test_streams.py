@@ -9,15 +9,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from microros_gen.application.model import Application, Transport
+from microros_gen.application.model import Application
+from microros_gen.application.transport_decl import Transport
 from microros_gen.client.plan.streams import (
-    DEFAULT_MTU,
     LARGEST_BODY,
     Received,
     StreamSizes,
     Written,
     plan_streams,
 )
+from microros_gen.client.plan.transport_sizes import DEFAULT_MTU
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.documents.named import Named
 from microros_gen.selection.declared import STREAM_BEST_EFFORT, STREAM_RELIABLE_INPUT, stream_demands
@@ -126,11 +127,12 @@ def test_reliable_creation_with_best_effort_messages() -> None:
 @pytest.mark.parametrize("transport", DEFAULT_MTU)
 def test_fragments_begin_one_byte_above_the_mtu(transport: str) -> None:
     mtu = DEFAULT_MTU[transport]
-    fits, _ = plan(large(mtu - 12), transport=transport)
-    assert (fits.fragments, fits.reliable_slot_size, fits.mtu) == (False, mtu, mtu)
-    above, found_warnings = plan(large(mtu - 11), transport=transport)
+    most = mtu & ~3  # submessages are aligned to four bytes
+    fits, _ = plan(large(most - 12), transport=transport, create=0)
+    assert (fits.fragments, fits.reliable_slot_size, fits.mtu) == (False, most, most)
+    above, found_warnings = plan(large(most - 11), transport=transport, create=0)
     assert (above.fragments, above.mtu, found_warnings) == (True, mtu, [])
-    assert above.reliable_slot_size == mtu + 4 + 4, "the message, and FRAGMENT's header in front of it"
+    assert above.reliable_slot_size == most + 4 + 4, "the message, and FRAGMENT's header in front of it"
 
 
 @pytest.mark.parametrize("transport", ["serial", "tcp"])
@@ -155,6 +157,37 @@ def test_a_create_above_the_datagram_is_an_error(transport: str) -> None:
     what = "the longest CREATE message takes 601 bytes and transport.mtu is 600"
     (error,) = plan(INT32, application=application, transport="serial", create=601)[1]
     assert what in error
+
+
+def test_a_create_above_a_frame_goes_in_fragments_on_the_reliable_stream() -> None:
+    streams, found_errors = plan(
+        INT32, application=RELIABLE, transport="canfd", create=92, reliable_input=True
+    )
+    assert found_errors == []
+    assert (streams.mtu, streams.input_size, streams.fragments) == (63, 63, False)
+    assert (streams.creation_fragments, streams.creation_size) == (True, 92 + 4), (
+        "a fragment's header in front"
+    )
+    streams, _ = plan(INT32, application=RELIABLE, transport="canfd", create=63, reliable_input=True)
+    assert (streams.creation_fragments, streams.creation_size) == (False, 63)
+
+
+def test_a_create_beyond_what_an_agent_holds_is_an_error() -> None:
+    most = 15 * (63 - 8) + 4
+    assert plan(INT32, application=RELIABLE, transport="canfd", create=most, reliable_input=True)[1] == []
+    (error,) = plan(INT32, application=RELIABLE, transport="canfd", create=most + 1, reliable_input=True)[1]
+    assert f"the longest CREATE message takes {most + 1} bytes and a CAN FD frame holds 63" in error
+
+
+@pytest.mark.parametrize("reliable", [True, False])
+def test_what_fits_no_frame_is_sent_reliably_or_refused(reliable: bool) -> None:
+    _, found = plan(large(100, reliable=reliable), transport="canfd", create=0)
+    if reliable:
+        assert found == []
+    else:
+        (error,) = found
+        assert "takes up to 112 bytes in its stream and a CAN FD frame holds 63" in error
+        assert "Lower its limits, or make it reliable: reliable messages are sent in fragments" in error
 
 
 @given(size=st.integers(1, LARGEST_BODY), mtu=st.integers(64, 65507))

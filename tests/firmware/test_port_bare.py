@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.application.model import Application, Transport
+from microros_gen.application.model import Application
+from microros_gen.application.transport_decl import Transport
 from microros_gen.client.plan.board import plan_board, ring_size
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.diagnostics import Diagnostics

@@ -122,7 +122,7 @@ def test_what_is_not_needed_is_named_with_its_reason_and_line(init: Init, tmp_pa
         (11, "tracetools TRACETOOLS_DISABLED=ON: the tracing"),
         (16, "microxrcedds_client UCLIENT_PIC=OFF: it is about how the old stack is built"),
         (17, "microxrcedds_client UCLIENT_UDP_TRANSPORT_MTU=1024: the transport is custom"),
-        (18, "microxrcedds_client UCLIENT_PROFILE_CAN=OFF: CAN FD is not supported"),
+        (18, "microxrcedds_client UCLIENT_PROFILE_CAN=OFF: `transport: {type: canfd, id: 0x7f}`"),
         (24, "rmw_microxrcedds RMW_UXRCE_MAX_TOPICS=9: topics are counted"),
         (25, "rmw_microxrcedds RMW_UXRCE_DEFAULT_UDP_PORT=1: the transport is custom"),
     ]:

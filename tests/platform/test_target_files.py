@@ -125,7 +125,7 @@ def test_extends_is_relative_to_the_file_that_says_it(tmp_path: Path) -> None:
         ),
         (
             BOARD + "transport: seriel\n",
-            "mine.yaml:6:12: error: 'transport' must be udp, tcp, serial or custom",
+            "mine.yaml:6:12: error: 'transport' must be udp, tcp, serial, canfd or custom",
         ),
         (BOARD.replace("256 KiB", "256 KB"), "mine.yaml:4:35: error: 'flash.size' must be a number of bytes"),
         (

@@ -398,6 +398,7 @@ TIMELESS = {
     "port_riscv": "waits for one byte of a UART; its counter has 64 bits",
     "qos": "the deadline of a QoS is a number for the agent",
     "transport_custom": "hands a time-out on to the application's function",
+    "transport_canfd": "keeps no time",
     "transport_serial": "keeps no time",
     "transport_tcp": "keeps no time",
     "transport_udp": "keeps no time",

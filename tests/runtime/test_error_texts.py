@@ -12,7 +12,7 @@ from microros_gen.application.model import MOST_HISTORY
 from microros_gen.application.parser import parse_application
 from microros_gen.client.plan.declared import LARGEST_POOL
 from microros_gen.client.plan.runtime import RuntimePlan
-from microros_gen.client.plan.streams import LARGEST_MTU
+from microros_gen.client.plan.transport_sizes import LARGEST_MTU
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.documents.templates import make_environment
 from microros_gen.selection.find_components import components_folder, load_catalogue

@@ -126,7 +126,7 @@ def allowed_submessages(selection: Selection, middleware: Middleware) -> set[str
 
 
 ENTITIES = ("reference", "xml", "binary")
-TRANSPORTS = ("udp", "tcp", "serial", "custom")
+TRANSPORTS = ("udp", "tcp", "serial", "canfd", "custom")
 SETS = [*((p,) for p in BUILTIN_PROFILES), *combinations(BUILTIN_PROFILES, 2)]
 ResolveWith = Callable[..., Outcome]
 

@@ -40,7 +40,15 @@ class PtyChoice:
     span: Span | None = field(default=None, compare=False, repr=False)
 
 
-TransportChoice = SocketChoice | SerialChoice | PtyChoice
+@dataclass(frozen=True)
+class CanChoice:
+    """A CAN FD bus: a network interface such as can0, or unix:PATH, a socket of a program that plays the bus."""
+
+    device: str
+    span: Span | None = field(default=None, compare=False, repr=False)
+
+
+TransportChoice = SocketChoice | SerialChoice | PtyChoice | CanChoice
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from microros_gen.agent.configuration.model import (
     AgentFile,
+    CanChoice,
     NamedPath,
     PtyChoice,
     SerialChoice,
@@ -73,6 +74,8 @@ def _transport(kind: str, node: YamlNode) -> TransportChoice:
     if kind == "serial":
         baud = int_of(child(node, "baud"))
         return SerialChoice(text_of(child(node, "device")) or "", SerialChoice.baud if baud is None else baud)
+    if kind == "canfd":
+        return CanChoice(text_of(child(node, "device")) or "")
     if kind == "pty":
         return PtyChoice(text_of(child(node, "link")))
     port = int_of(child(node, "port"))

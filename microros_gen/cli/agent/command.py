@@ -8,7 +8,13 @@ from typing import Any
 
 import click
 
-from microros_gen.agent.configuration.model import PtyChoice, SerialChoice, SocketChoice, TransportChoice
+from microros_gen.agent.configuration.model import (
+    CanChoice,
+    PtyChoice,
+    SerialChoice,
+    SocketChoice,
+    TransportChoice,
+)
 from microros_gen.agent.transport.sockets import PROTOCOLS, Protocol
 from microros_gen.agent.transport.tcp import TcpLimits
 from microros_gen.cli.agent.options import AgentOptions, common_options
@@ -159,6 +165,32 @@ def serial(devices: tuple[str, ...], baud: int, **common: Any) -> _Part:
     microros-gen agent serial --device /dev/ttyACM0 serial --device /dev/ttyS1 --baud 9600
     """
     return _Part(tuple(SerialChoice(device, baud) for device in devices), common)
+
+
+@command.command()
+@click.option(
+    "--device",
+    "--dev",
+    "devices",
+    multiple=True,
+    required=True,
+    metavar="NAME",
+    help="Network interface with CAN FD, such as can0 or vcan0; or unix:PATH, a socket (SOCK_SEQPACKET) of a program"
+    " that plays the bus. Can be repeated.",
+)
+@common_options
+def canfd(devices: tuple[str, ...], **common: Any) -> _Part:
+    """Serve clients on CAN FD buses.
+
+    Each client of a bus has its own identifier, in its application file; the agent answers with the same. Frames are
+    those of the public client and agent: extended identifiers, up to 63 bytes of message. The agent waits for an
+    interface that does not exist yet or is down. Status 2: a device cannot be opened, or no ROS 2.
+
+    \b
+    ip link set can0 up type can bitrate 500000 dbitrate 2000000 fd on
+    microros-gen agent canfd --device can0
+    """
+    return _Part(tuple(CanChoice(device) for device in devices), common)
 
 
 @command.command()

@@ -16,7 +16,13 @@ import click
 
 from microros_gen.agent.budgets import Budgets, most_bytes, most_descriptors
 from microros_gen.agent.configuration.entities_file import parse_preconfigured
-from microros_gen.agent.configuration.model import PtyChoice, SerialChoice, SocketChoice, TransportChoice
+from microros_gen.agent.configuration.model import (
+    CanChoice,
+    PtyChoice,
+    SerialChoice,
+    SocketChoice,
+    TransportChoice,
+)
 from microros_gen.agent.core import Agent
 from microros_gen.agent.fairness import Account, Fairness
 from microros_gen.agent.input_pool import InputPool
@@ -183,12 +189,15 @@ def connections(choices: Sequence[TransportChoice]) -> int:
 
 
 def _open(choice: TransportChoice, log: EventLog, shared: Shared) -> Transport:
+    from microros_gen.agent.transport.canfd import CanFd
     from microros_gen.agent.transport.serial import Pty, serial_line
     from microros_gen.agent.transport.tcp import Tcp, TcpLimits
     from microros_gen.agent.transport.udp import Udp
 
     if isinstance(choice, SerialChoice):
         return serial_line(choice.device, choice.baud, log)
+    if isinstance(choice, CanChoice):
+        return CanFd(choice.device, log)
     if isinstance(choice, PtyChoice):
         return Pty(log, Path(choice.link) if choice.link else None)
     protocol = PROTOCOLS[choice.kind]

@@ -28,6 +28,8 @@ _XML_SERVICE = len(
     "<subscriber><topic><historyQos><depth>10</depth></historyQos></topic></subscriber></requester></dds>"
 )
 _NUL = 1
+_WINDOW = 16
+"""Messages of a reliable stream that agents accept ahead of what they have (the public agent's number)."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +52,14 @@ def create_size(names: CreateNames, entities: str = "binary") -> int:
     participant, *others = _DESCRIPTIONS[entities](names)
     longest = max(participant + participant % 2, *others)
     return MESSAGE_HEADER + SUBMESSAGE_HEADER + _BEFORE_DESCRIPTION + longest + _OWNER
+
+
+def most_in_fragments(mtu: int) -> int:
+    """Return the size of the largest request that goes in fragments of at most `mtu` bytes.
+
+    All of it is under way at once: one of the numbers that an agent accepts ends what the last session left.
+    """
+    return (_WINDOW - 1) * (mtu - MESSAGE_HEADER - SUBMESSAGE_HEADER) + MESSAGE_HEADER
 
 
 def create_text(size: int, names: CreateNames, entities: str = "binary") -> int:

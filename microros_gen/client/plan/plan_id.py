@@ -18,7 +18,14 @@ from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import NodePlan, PublisherPlan, SubscriptionPlan
 from microros_gen.client.plan.services import ServicePlan
 from microros_gen.client.plan.session_times import TimesPlan
-from microros_gen.client.plan.slices import InputPlan, MemoryPlan, OutputPlan, SessionPlan, TransportPlan
+from microros_gen.client.plan.slices import (
+    CreationPlan,
+    InputPlan,
+    MemoryPlan,
+    OutputPlan,
+    SessionPlan,
+    TransportPlan,
+)
 from microros_gen.typesupport.plan.size import TypeLimits
 from microros_gen.typesupport.plan.types import TypePlan
 
@@ -45,7 +52,7 @@ def plan_record(runtime: RuntimePlan, components: Iterable[str], types: Iterable
         "transport": _transport(runtime.transport),
         "output": _output(runtime.streams),
         "input": _input(runtime.input),
-        "creation": [runtime.creation.entities, runtime.creation.stream, runtime.creation.size],
+        "creation": _creation(runtime.creation),
         "entities": _entities(runtime.entities),
         "memory": _memory(runtime.memory),
         "error_text": runtime.errors.text_size,
@@ -53,6 +60,10 @@ def plan_record(runtime: RuntimePlan, components: Iterable[str], types: Iterable
         **({"features": runtime.features.records} if runtime.features.slices else {}),
         "types": [_type(plan) for plan in types],
     }
+
+
+def _creation(plan: CreationPlan) -> list[object]:
+    return [plan.entities, plan.stream, plan.size, *(["fragments"] if plan.fragments else [])]
 
 
 def _session(plan: SessionPlan) -> _Record:

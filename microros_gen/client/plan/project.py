@@ -177,6 +177,7 @@ def plan_project(
             entities=selection.entities,
             stream=application.creation.name if application.creation else "best_effort",
             size=streams.creation_size,
+            fragments=streams.creation_fragments,
         ),
         entities=EntitiesPlan(
             declared=bool(nodes),

@@ -51,7 +51,7 @@ class SessionPlan:
 class TransportPlan:
     """How messages reach the agent, and where it is.
 
-    `kind` is udp, tcp, serial or custom; `framing` of a custom one on, off or either (chosen at run time),
+    `kind` is udp, tcp, serial, canfd or custom; `framing` of a custom one on, off or either (chosen at run time),
     `read_polls`: its function that reads packets never waits with a time-out of 0.
     `device` and `baud` are those of a serial line. `send_buffer`: bytes that wait for it; `keeps_output`: it takes
     messages of the reliable stream from where they are; `line_input`: the largest message that it must not lose while
@@ -267,13 +267,14 @@ class InputPlan:
 class CreationPlan:
     """How the client's entities come to be at the agent.
 
-    `entities` is preconfigured, reference, xml or binary; `stream` that of CREATE (best_effort, reliable). `size`: the
-    largest CREATE, where creation is reliable, else 0.
+    `entities` is preconfigured, reference, xml or binary; `stream` that of CREATE (best_effort, reliable). `size`: of
+    the buffer for the largest CREATE, where creation is reliable, else 0. `fragments`: it is larger than a message.
     """
 
     entities: str = "binary"
     stream: str = "best_effort"
     size: int = 0
+    fragments: bool = False
 
     @property
     def preconfigured(self) -> bool:

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from microros_gen.application.model import LARGEST_UDP_PAYLOAD, Application
-from microros_gen.client.plan.creation import MESSAGE_HEADER, SUBMESSAGE_HEADER
+from microros_gen.application.model import Application
+from microros_gen.client.plan.creation import MESSAGE_HEADER, SUBMESSAGE_HEADER, most_in_fragments
+from microros_gen.client.plan.transport_sizes import FRAGMENTS_PER_SAMPLE, default_mtu, largest_mtu, mtu_is
 from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.records import dataclass
 
@@ -18,14 +19,9 @@ OBJECT_PREFIX = 4  # request id and object id
 WRITE_DATA_OVERHEAD = MESSAGE_HEADER + SUBMESSAGE_HEADER + OBJECT_PREFIX
 # The largest message of the agent to a client that only writes is INFO with two locators (52 bytes).
 WRITE_SIDE_INPUT = 64
-# One Ethernet frame: larger datagrams are fragmented by IP, which small stacks drop. The sizes of serial and custom
-# transports are those that micro-ROS has.
-DEFAULT_MTU = {"udp": 1472, "tcp": 1460, "serial": 512, "custom": 512}
-_BYTE_STREAMS = ("tcp", "serial")
 DEFAULT_HISTORY = 4
 LEAST_DEFAULT_HISTORY = 2
 DEFAULT_HISTORY_BYTES = 1024
-LARGEST_MTU = 0xFFFF  # application.schema.json says it too
 DEFAULT_INPUT_HISTORY = 1
 # A frame around a message on a serial line: flag, addresses, length, CRC; all but the flag may be stuffed, and are
 # then twice as long (OMG DDS-XRCE 1.0, annex C). Of random bytes one in 128 is.
@@ -36,9 +32,6 @@ _LINES = ("serial", "custom")  # a custom transport may use the line of a board
 # The longest of what a session sends besides its streams: READ_DATA, CREATE_CLIENT; the latter with its property.
 _SESSION_MESSAGE = 24
 _SESSION_MESSAGE_HARD = 54
-# A sample that waits alone in its queue comes in so many pieces: the input buffer holds one. A board has a ring of
-# twice that in front of a serial line (client/plan/board.py). Smaller ones would save little, and each is acknowledged.
-FRAGMENTS_PER_SAMPLE = {"udp": 3, "tcp": 3, "serial": 8, "custom": 8}
 LEAST_FRAGMENT = 256
 # What a streamed endpoint receives at a time, at least.
 STREAMED_FRAGMENT = LEAST_FRAGMENT - WRITE_DATA_OVERHEAD
@@ -97,7 +90,8 @@ class StreamSizes:
     """Bytes of each stream's storage; 0 or no slots where a stream is not needed.
 
     `mtu`: the largest message that is sent. `fragments`: some reliable message is larger and is sent in fragments.
-    `creation_size`: of a request to create on the reliable stream. `reliable_input_slots`: messages of the agent's
+    `creation_size`: of a request to create on the reliable stream, which goes in fragments (`creation_fragments`) where
+    it is larger than the MTU. `reliable_input_slots`: messages of the agent's
     reliable stream that are held at a time; the one that is being handled is in the input buffer.
     `arrives_in_fragments`: some reliable DATA is larger than the input buffer; it is put together in the slot of its
     reader's queue. `input_size`: the largest message of the agent, as it is told. `input_reader`: which of the received
@@ -114,6 +108,7 @@ class StreamSizes:
     reliable_slot_size: int
     input_size: int
     creation_size: int = 0
+    creation_fragments: bool = False
     fragments: bool = False
     reliable_input_slots: int = 0
     line_input: int = WRITE_SIDE_INPUT
@@ -164,19 +159,19 @@ def plan_streams(
     `transport` is the selected one. `create` is the size of the largest CREATE (client/plan/creation.py), 0 where the
     client creates nothing (entities: preconfigured), and `create_text` how much of it a serial line never
     stuffs. With `creation: reliable` it has its own storage, and the reliable stream is there for it. A
-    reliable message above the MTU goes in fragments, a best-effort one and a CREATE cannot. `reliable_input`:
-    the agent's reliable stream is selected; a reliable DATA above the input buffer comes in fragments,
+    reliable message above the MTU goes in fragments, as a CREATE does there; a best-effort one cannot.
+    `reliable_input`: the agent's reliable stream is selected; a reliable DATA above the input buffer comes in parts,
     since the client announces the size of that buffer to the agent. `lends_input`: a best-effort sample may wait in the
     input buffer. `keeps_output`: the line can take a message from its stream. `reliable_output`, `best_effort_output`:
     this stream is selected, even where nothing is written to it. `pools.slot_size` makes each buffer at least so large.
     """
     messages, samples = tuple(written), tuple(received)
-    ceiling = application.transport.mtu or _default_mtu(transport, create)
+    ceiling = application.transport.mtu or default_mtu(transport, create)
     for message in messages:
         _check_fits(message, ceiling, transport, application, diagnostics)
     for sample in samples:
         _check_received(sample, ceiling, transport, application, diagnostics)
-    _check_create(create, ceiling, application, diagnostics)
+    _check_create(create, ceiling, transport, application, diagnostics)
     requested = application.pools.get("slot_size", 0)
     least = min(requested, ceiling)
     best_effort = max((_datagram(m) for m in messages if m.best_effort), default=0)
@@ -192,13 +187,14 @@ def plan_streams(
             id="MG-7023",
         )
     creation = create if application.creation and application.creation.name == "reliable" else 0
+    request_in_fragments = creation > ceiling
     if not creation:
         best_effort = max(best_effort, create)
     if (creation or reliable_output) and not reliable:
         slots, reliable = 1, WRITE_DATA_OVERHEAD
     best_effort = max(best_effort, least, WRITE_DATA_OVERHEAD) if best_effort or best_effort_output else 0
     input_size = max(
-        WRITE_SIDE_INPUT,
+        min(WRITE_SIDE_INPUT, ceiling),
         least,
         *(sample.largest_message(ceiling, FRAGMENTS_PER_SAMPLE[transport]) for sample in samples),
     )
@@ -220,12 +216,13 @@ def plan_streams(
         else None
     )
     return StreamSizes(
-        mtu=ceiling if fragments else max(best_effort, reliable, create),
+        mtu=ceiling if fragments or request_in_fragments else max(best_effort, reliable, create),
         best_effort_size=best_effort,
         reliable_slots=slots,
         reliable_slot_size=_align4(reliable + FRAGMENT_HEADER) if fragments else reliable,
         input_size=input_size,
-        creation_size=creation,
+        creation_size=creation + (FRAGMENT_HEADER if request_in_fragments else 0),
+        creation_fragments=request_in_fragments,
         fragments=fragments,
         reliable_input_slots=_input_slots(application, reliable_input, diagnostics),
         arrives_in_fragments=any(sample.streamed or sample.whole > input_size for sample in samples),
@@ -318,27 +315,24 @@ def _input_slots(application: Application, reliable_input: bool, diagnostics: Di
     return 0
 
 
-def _default_mtu(transport: str, create: int) -> int:
-    """Return the largest message without `transport.mtu`: a line without datagrams carries any CREATE."""
-    if transport in _BYTE_STREAMS:
-        return max(DEFAULT_MTU[transport], min(create, LARGEST_MTU))
-    return DEFAULT_MTU[transport]
-
-
-def _check_create(create: int, ceiling: int, application: Application, diagnostics: Diagnostics) -> None:
-    if create > ceiling:
+def _check_create(
+    create: int, ceiling: int, transport: str, application: Application, diagnostics: Diagnostics
+) -> None:
+    reliable = application.creation is not None and application.creation.name == "reliable"
+    if create > (most_in_fragments(ceiling) if reliable else ceiling):
+        larger = create <= largest_mtu(transport)
+        way = f"Set transport.mtu: {create}" if larger else "Write `creation: reliable`: it goes in fragments"
         diagnostics.error(
-            f"the longest CREATE message takes {create} bytes and {_mtu_is(application)} {ceiling}",
+            f"the longest CREATE message takes {create} bytes and {mtu_is(application, transport)} {ceiling}",
             application.transport.mtu_span or application.transport.span,
-            f"Set transport.mtu: {create}, or shorten the longest topic name",
+            f"{way}, or shorten the longest topic name",
             id="MG-7026",
         )
 
 
 def _larger_mtu(size: int, transport: str) -> str:
     """Return the advice to take a larger MTU, where the transport has one."""
-    largest = LARGEST_UDP_PAYLOAD if transport == "udp" else LARGEST_MTU
-    return f"Set transport.mtu: {size}, or lower" if size <= largest else "Lower"
+    return f"Set transport.mtu: {size}, or lower" if size <= largest_mtu(transport) else "Lower"
 
 
 def _check_fits(
@@ -357,7 +351,7 @@ def _check_fits(
         declare = "declare its publisher under `nodes:` as reliable"
         reliable = declare if message.reliable else "make it reliable"
         diagnostics.too_large(
-            f"{message.label} takes up to {size} bytes in its stream and {_mtu_is(application)} {ceiling}",
+            f"{message.label} takes up to {size} bytes in its stream and {mtu_is(application, transport)} {ceiling}",
             span,
             f"{_larger_mtu(size, transport)} its limits{message.hint}, or {reliable}: reliable messages"
             " are sent in fragments",
@@ -381,15 +375,11 @@ def _check_received(
         declare = "declare its subscription under `nodes:` as reliable"
         reliable = declare if sample.reliable else "make it reliable"
         diagnostics.too_large(
-            f"{sample.label} takes up to {size} bytes when it arrives and {_mtu_is(application)} {ceiling}",
+            f"{sample.label} takes up to {size} bytes when it arrives and {mtu_is(application, transport)} {ceiling}",
             span,
             f"{_larger_mtu(size, transport)} its limits, or {reliable}: reliable messages come in fragments",
             id="MG-7030",
         )
-
-
-def _mtu_is(application: Application) -> str:
-    return "transport.mtu is" if application.transport.mtu else "without transport.mtu a datagram holds"
 
 
 def _datagram(message: Written) -> int:

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from microros_gen.application.model import DISCOVERY_PORT, Application, Transport
+from microros_gen.application.model import DISCOVERY_PORT, Application
+from microros_gen.application.transport_decl import Transport
 from microros_gen.client.plan.board import RING_CHUNK
 from microros_gen.client.plan.slices import DISCOVERY_GROUP, LINE_CHUNK, TransportPlan
 from microros_gen.client.plan.streams import StreamSizes

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from microros_gen.client.plan.features import PlanContext
-from microros_gen.client.plan.streams import DEFAULT_MTU
+from microros_gen.client.plan.transport_sizes import DEFAULT_MTU
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass
 

@@ -285,7 +285,7 @@ _TOP = {
         "serial",
         "transport: {type: upd}",
         "1:19",
-        "'transport.type' must be udp, tcp, serial or custom; it is the text 'upd'. Did you mean 'udp'?",
+        "'transport.type' must be udp, tcp, serial, canfd or custom; it is the text 'upd'. Did you mean 'udp'?",
     ),
     "transport.agent": KeyCase(
         'transport: {agent: "192.168.1.10:9999"}',
@@ -302,6 +302,14 @@ _TOP = {
         'transport: {agents: "192.168.1.10:8888"}',
         "1:21",
         "'transport.agents' must be a list of 2 to 8 addresses",
+    ),
+    "transport.id": KeyCase(
+        "transport: {type: canfd, device: can1, id: 0x1FFFFFFF}",
+        lambda a: (a.transport.can_device, a.transport.can_id),
+        ("can1", 0x1FFFFFFF),
+        "transport: {type: canfd, id: 0x20000000}",
+        "1:30",
+        "'transport.id' must be a number between 1 and 0x1FFFFFFF",
     ),
     "transport.mtu": KeyCase(
         "transport: {mtu: 0x200}",

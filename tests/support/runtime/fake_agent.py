@@ -106,14 +106,8 @@ class FakeAgent:
         while (following := (self.last_handled + 1) & 0xFFFF) in self.waiting:
             self.last_handled = following
             datagram = self.waiting.pop(following)
-            if datagram[4] == 0x0D:
-                self._join(datagram)
-            elif datagram[4] == 0x07:
-                self._handle_written(_split(datagram))
-            else:
-                ((identifier, payload),) = _split(datagram)
-                assert identifier in (0x01, 0x03)
-                answers.append(self._reliably(self._handle(identifier, payload)[0]))
+            whole = self._join(datagram) if datagram[4] == 0x0D else datagram
+            answers += self._handle_reliable(_split(whole))
         return answers
 
     def _reliably(self, status: bytes) -> bytes:
@@ -135,20 +129,24 @@ class FakeAgent:
         self.unacknowledged = {n: m for n, m in self.unacknowledged.items() if n >= first}
         return [m for n, m in self.unacknowledged.items() if missing >> (n - first) & 1]
 
-    def _handle_written(self, submessages: list[tuple[int, bytes]]) -> None:
+    def _handle_reliable(self, submessages: list[tuple[int, bytes]]) -> list[bytes]:
+        answers = []
         for identifier, payload in submessages:
-            assert identifier == 0x07
-            self._write(payload)
+            assert identifier in (0x01, 0x03, 0x07)
+            answers += [self._reliably(answer) for answer in self._handle(identifier, payload)]
+        return answers
 
-    def _join(self, datagram: bytes) -> None:
+    def _join(self, datagram: bytes) -> bytes:
+        """Return the message that a fragment completes; a header alone: none."""
         ((_, payload),) = _split(datagram)
         self.chunks += payload
-        if datagram[5] & 2:
-            whole, self.chunks = b"\x81\x80\0\0" + self.chunks, b""
-            if len(whole) > 4 and len(whole) < 8 + struct.unpack_from("<H", whole, 6)[0]:
-                self.spoiled += 1
-            else:
-                self._handle_written(_split(whole))
+        if not datagram[5] & 2:
+            return datagram[:4]
+        whole, self.chunks = datagram[:4] + self.chunks, b""
+        if len(whole) > 4 and len(whole) < 8 + struct.unpack_from("<H", whole, 6)[0]:
+            self.spoiled += 1
+            return datagram[:4]
+        return whole
 
     def _acknack(self) -> bytes:
         first = (self.last_handled + 1) & 0xFFFF

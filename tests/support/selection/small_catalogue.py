@@ -92,6 +92,7 @@ def small_catalogue() -> Catalogue:
         _component("transport_udp"),
         _component("transport_tcp", ready=False),
         _component("transport_serial", ready=False),
+        _component("transport_canfd", ready=False),
         _component("transport_custom", ready=False),
         _component("logging_rosout", ready=False, needs="logging publish"),
         _component("logging_console", needs="logging"),
