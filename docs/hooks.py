@@ -20,6 +20,7 @@ from mkdocs.structure.pages import Page
 
 from microros_gen.agent.configuration import parser as agent_parser
 from microros_gen.application import parser as application_parser
+from microros_gen.application import system_file
 from microros_gen.platform import target_file
 from microros_gen.selection import profile_file
 
@@ -33,6 +34,7 @@ _SCHEMAS = {
         "microros.yaml",
         "The application file: what is selected, declared, and what it may cost.",
     ),
+    "system": ("System file", "Boards that exchange messages without an agent ([how](../howto/peer.md))."),
     "profile": ("Profile file", "A profile of your own ([how](../howto/profile.md)), or one of profiles/."),
     "target": ("Target file", "A processor or a board of your own ([how](../howto/port.md))."),
     "agent": (
@@ -43,6 +45,7 @@ _SCHEMAS = {
 
 SCHEMA_FILES = {
     "application": application_parser.SCHEMA,
+    "system": system_file.SCHEMA,
     "profile": profile_file.SCHEMA,
     "target": target_file.SCHEMA,
     "agent": agent_parser.SCHEMA,

@@ -8,7 +8,9 @@ from dataclasses import field
 
 from microros_gen.application.action_decl import ActionClientDecl, ActionDecl
 from microros_gen.application.diagnosis_decl import DiagnosisDecl
+from microros_gen.application.log_decl import LogWriter
 from microros_gen.application.mode_decl import ModeDecl
+from microros_gen.application.system_decl import Link, SystemRef
 from microros_gen.application.transport_decl import Transport
 from microros_gen.diagnostics import Span
 from microros_gen.documents.named import Named
@@ -91,7 +93,8 @@ class EndpointDecl:
     same. `usual_limits` are then those of its component, which hold where the application says nothing but `*`.
     `streamed`: its samples are taken piece by piece and never wait; `outside_ros`: `topic` is the name in DDS.
     `managed`: a publisher that drops what is published while its node is not active.
-    `local`: whether its messages are exchanged inside the image without the agent: `never`, `also` or `only`.
+    `local`: whether its messages are exchanged inside the image without the agent: `never`, `also` or `only`; `peer`:
+    the same with other boards of the system.
     """
 
     kind: str
@@ -114,6 +117,12 @@ class EndpointDecl:
     outside_ros: bool = False
     managed: bool = False
     local: str = "never"
+    peer: str = "never"
+
+    @property
+    def exists_at_agent(self) -> bool:
+        """Whether an agent knows it."""
+        return "only" not in (self.local, self.peer)
 
     @property
     def takes_handle(self) -> bool:
@@ -314,24 +323,6 @@ class SessionTimes:
     close_timeout: int | None = None
 
 
-LOG_LEVELS = ("debug", "info", "warn", "error", "fatal")
-BUFFERED_LOG_WRITERS = ("rosout", "ring", "console")
-"""Writers that keep lines."""
-
-
-@dataclass(frozen=True)
-class LogWriter:
-    """Where log messages of `level` and above go: `to` is console, callback, rosout or ring.
-
-    `size`: bytes of the lines that a writer keeps; None: the usual ones.
-    """
-
-    to: str
-    level: str = "info"
-    size: int | None = None
-    span: Span | None = None
-
-
 @dataclass(frozen=True)
 class Application:
     """The whole file. `interfaces` are `pkg` or `pkg/msg/Type`.
@@ -341,7 +332,7 @@ class Application:
     best effort. `clock` (steady, ros) is an axis like `entities` and `liveliness`. `interface_paths` are relative to
     the file. `implied` are the endpoints of the library itself where there are no nodes (with nodes they are among
     their endpoints), `endpoints` what the file changes of those. `spans` holds the places of top-level keys and of
-    the keys of `pools` (as `pools.history`), for later steps.
+    the keys of `pools` (as `pools.history`), for later steps. `links` are those of this board in its `system`.
     """
 
     distro: str = "jazzy"
@@ -369,4 +360,6 @@ class Application:
     diagnosis: DiagnosisDecl | None = None
     implied: tuple[EndpointDecl, ...] = ()
     endpoints: tuple[EndpointChange, ...] = ()
+    system: SystemRef | None = None
+    links: tuple[Link, ...] = ()
     spans: Mapping[str, Span] = field(default_factory=dict)

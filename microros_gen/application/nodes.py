@@ -140,6 +140,7 @@ def _endpoints(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Iter
                 stored=text_of(child(endpoint, "storage")) != "none",
                 managed=bool_of(child(endpoint, "managed")) is True,
                 local=text_of(child(endpoint, "local")) or EndpointDecl.local,
+                peer=text_of(child(endpoint, "peer")) or EndpointDecl.peer,
             )
 
 

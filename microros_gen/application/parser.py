@@ -11,19 +11,19 @@ from types import MappingProxyType
 
 from microros_gen.application.diagnosis import parse_diagnosis
 from microros_gen.application.limits import application_limits, endpoint_limits
+from microros_gen.application.log_decl import BUFFERED_LOG_WRITERS, LogWriter
 from microros_gen.application.model import (
-    BUFFERED_LOG_WRITERS,
     DISCOVERY_PORT,
     LARGEST_UDP_PAYLOAD,
     Application,
     EndpointChange,
-    LogWriter,
     Memory,
     TargetRef,
     component_change,
 )
 from microros_gen.application.nodes import parse_nodes
 from microros_gen.application.session_times import hard_liveliness, session_times
+from microros_gen.application.system_decl import SystemRef
 from microros_gen.application.transport_decl import Transport
 from microros_gen.diagnostics import Diagnostics, Source, Span, reads
 from microros_gen.documents.named import Named
@@ -121,6 +121,7 @@ def _application(tree: MappingNode, diagnostics: Diagnostics) -> Application:
         clock=named_of(child(tree, "clock")),
         logging=_log_writers(child(tree, "logging"), diagnostics),
         diagnosis=parse_diagnosis(child(tree, "diagnosis"), nodes, diagnostics),
+        system=_system(child(tree, "system")),
         spans=MappingProxyType(_spans(tree)),
     )
 
@@ -142,6 +143,11 @@ def _log_writers(node: YamlNode | None, diagnostics: Diagnostics) -> tuple[LogWr
             diagnostics.error(message, item.span, "Write it once, with its lowest level", id="MG-3052")
         found.setdefault(writer.to, writer)
     return tuple(found.values())
+
+
+def _system(node: YamlNode | None) -> SystemRef | None:
+    file, board = named_of(child(node, "file")), named_of(child(node, "board"))
+    return SystemRef(file, board) if file is not None and board is not None else None
 
 
 def _endpoint_change(entry: Entry) -> EndpointChange:

@@ -13,6 +13,7 @@ from microros_gen.application.find import APPLICATION_FILE
 from microros_gen.application.kinds import KIND, SERVICE_KINDS, TOPIC_KINDS
 from microros_gen.application.model import Application, EndpointDecl
 from microros_gen.application.parameter_find import parameter_paths
+from microros_gen.application.system_find import system_paths
 from microros_gen.client.plan.agent_files import check_entities
 from microros_gen.client.plan.declared import (
     check_types,
@@ -232,6 +233,7 @@ def read_paths(planned: Planned) -> Iterator[Path]:
     yield from (candidate for path in own for candidate in (path, path.with_suffix(".yaml")))
     yield near / request.application.target.name
     yield from parameter_paths(request.application, near)
+    yield from system_paths(request.application, near)
     yield from (Path(s.name) for s in (*request.found_target.own, *request.found_target.boards))
     yield from (path for _, path in _outside_files(planned.resolved))
     yield from (path for folder in _outside_folders(planned.resolved) for path in folders_below(folder))

@@ -16,6 +16,7 @@ from microros_gen.application.parser import (
     parse_application,
     parse_discover,
 )
+from microros_gen.application.system_find import with_system
 from microros_gen.application.transport_decl import Transport
 from microros_gen.compiler.options import Options
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, Span
@@ -69,6 +70,9 @@ def request_of(source: Source | None, near: Path, options: Options, diagnostics:
     application, parameter_files = with_parameter_files(application, near, diagnostics)
     diagnostics.check()
     inputs |= {f"parameter file {Path(file.name).name}": file.text.encode() for file in parameter_files}
+    application, system_files = with_system(application, options.config, near, diagnostics)
+    diagnostics.check()
+    inputs |= {f"system {name}": file.text.encode() for name, file in system_files.items()}
     application, of_file = take_extensions(application, near, diagnostics)
     application = _with_options(application, options, diagnostics)
     application, of_options = take_extensions(application, Path(), diagnostics)

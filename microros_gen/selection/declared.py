@@ -17,6 +17,8 @@ STREAM_BEST_EFFORT_INPUT = "stream_best_effort_input"
 STREAM_RELIABLE = "stream_reliable"
 STREAM_RELIABLE_INPUT = "stream_reliable_input"
 _HELD = "parameters_held"
+_DELIVERY = {"local": "local_delivery", "peer": "peer"}
+"""The component of each key of an endpoint that says where messages go without an agent."""
 
 
 @dataclass(frozen=True)
@@ -70,9 +72,10 @@ def selecting_demands(application: Application) -> Iterator[Demand]:
         for mode in node.modes[:1]:
             yield Demand("node_modes", f"modes: of a node{at(mode.span)}", mode.span)
         for endpoint in node.endpoints:
-            if endpoint.local != "never":
-                text = f"local: {endpoint.local} of {endpoint.topic}{at(endpoint.span)}"
-                yield Demand("local_delivery", text, endpoint.span)
+            for key, value in (("local", endpoint.local), ("peer", endpoint.peer)):
+                if value != "never":
+                    text = f"{key}: {value} of {endpoint.topic}{at(endpoint.span)}"
+                    yield Demand(_DELIVERY[key], text, endpoint.span)
 
 
 def without_components(nodes: Iterable[NodeDecl], dropped: Container[str]) -> tuple[NodeDecl, ...]:

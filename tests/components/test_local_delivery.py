@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from microros_gen.components.agentless.plan import AgentlessPlan
 from microros_gen.components.loaned_messages.plan import LoansPlan
 from microros_gen.components.local_delivery.plan import LocalPlan
 from microros_gen.diagnostics import UserError
@@ -57,6 +58,12 @@ def local(folder: Path, text: str) -> LocalPlan:
     return part
 
 
+def agentless(folder: Path, text: str) -> AgentlessPlan:
+    part = planned(folder, text).project.runtime.features.of("agentless")
+    assert isinstance(part, AgentlessPlan)
+    return part
+
+
 def program(out: Path, sources: list[Path], units: list[str], flags: tuple[str, ...]) -> Path:
     objects = compile_merged(Tree(out, ()), sources, [UNITS / unit for unit in units], SANITIZER, flags)
     return link(objects, SANITIZER, flags, out / "unit")
@@ -79,19 +86,20 @@ def test_what_waits_and_where_it_goes(tmp_path: Path) -> None:
         ((3,), True),
         ((4,), False),
     ]
-    assert [place.name for place in part.places if place.value == "false"] == [
+    apart = agentless(tmp_path, APPLICATION)
+    assert [place.name for place in apart.places if place.value == "false"] == [
         "/device",
         "/other",
         "publisher /shout",
         "subscription /mixed",
     ]
-    assert not part.alone
+    assert not apart.alone
 
 
 def test_an_image_without_other_endpoints_needs_no_agent(tmp_path: Path) -> None:
-    assert local(tmp_path, HEAD + ALONE).alone
+    assert agentless(tmp_path, HEAD + ALONE).alone
     assert local(tmp_path, HEAD + ALONE).shown == "/count (only); no agent is needed"
-    assert not local(tmp_path, f"{HEAD}components: [+logger_services]\n{ALONE}").alone
+    assert not agentless(tmp_path, f"{HEAD}components: [+logger_services]\n{ALONE}").alone
 
 
 def test_without_the_key_nothing_of_it_is_in_an_image(tmp_path: Path) -> None:

@@ -374,6 +374,7 @@ ELSEWHERE = {
     "node_modes": "test_modes.py: services over the wrap; times of events have 64 bits",
     "parameter_client": "test_parameter_client.py: a call over the wrap",
     "parameters_held": "test_parameters_held.py: notices over the wrap; ages have 64 bits",
+    "peer": "test_peer.py: both streams over the wrap",
     "port_bare": "tests/firmware/c/unit_bare.c, unit_bare_timers.c and unit_console.c",
     "qos_events": "unit_qos_events.c: deadlines over the wrap",
     "service_call": "unit_service_call.c: a call over the wrap",

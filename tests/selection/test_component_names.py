@@ -32,6 +32,7 @@ _OTHER_MEANING = {
     ),
     *(
         "parameters",
+        "peer",
         "ping",
         "publish",
         "qos",

@@ -61,7 +61,6 @@ def check_topics(context: PlanContext, diagnostics: Diagnostics) -> None:
             for end in local:
                 _check_qos(topic, end, diagnostics)
             _check_pairs(topic, local, context.types, diagnostics)
-            _check_created(topic, local, context, diagnostics)
 
 
 def _check_ends(topic: str, ends: list[End], local: End, diagnostics: Diagnostics) -> None:
@@ -144,17 +143,3 @@ def _check_pairs(
                     "Write the same `limits:` at both, or by the type",
                     id="MG-7175",
                 )
-
-
-def _check_created(topic: str, ends: list[End], context: PlanContext, diagnostics: Diagnostics) -> None:
-    """Report ends that exist at the agent although they are to stay in the image."""
-    if context.selection.entities != "preconfigured":
-        return
-    for end in ends:
-        if end.endpoint.local == "only":
-            diagnostics.error(
-                f"'entities: preconfigured' creates the {end.endpoint.kind} of '{topic}' at the agent",
-                end.endpoint.span,
-                "Write `local: also`, or use other `entities`",
-                id="MG-7177",
-            )

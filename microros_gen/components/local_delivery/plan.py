@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from microros_gen.application.kinds import KINDS
 from microros_gen.application.model import Application, EndpointDecl, NodeDecl
 from microros_gen.client.plan.declared import declarations, full_name, type_name
 from microros_gen.client.plan.features import PlanContext
+from microros_gen.components.agentless.plan import in_c, is_alone
 from microros_gen.components.local_delivery.check import MOST_SLOTS, check_topics
 from microros_gen.components.local_delivery.copies import copy_body, copy_lines
 from microros_gen.diagnostics import Diagnostics
@@ -18,14 +18,6 @@ from microros_gen.typesupport.plan.names import include_path
 from microros_gen.typesupport.plan.types import TypePlan
 
 _NONE = "RMW_LOCAL_NONE"
-
-
-@dataclass(frozen=True)
-class LocalPlace:
-    """A place of the client, in their order: whether it has no objects at the agent, as C writes it."""
-
-    name: str
-    value: str
 
 
 @dataclass(frozen=True)
@@ -89,23 +81,21 @@ class LocalRoute:
         """The entry of the table of routes."""
         if not self.queues:
             return "{NULL, 0, false}"
-        return f"{{local_route_{self.index}, {len(self.queues)}, {_c(self.only)}}}"
+        return f"{{local_route_{self.index}, {len(self.queues)}, {in_c(self.only)}}}"
 
 
 @dataclass(frozen=True, kw_only=True)
 class LocalPlan:
-    """`alone`: 1 where nothing of the image exists at an agent, else 0. `queue_of`: of each subscription, as C.
+    """`queue_of`: of each subscription, as C.
 
     `copies` are functions that the queues call, as lines of C; `headers`: of the types and of their storage.
     """
 
-    places: tuple[LocalPlace, ...]
     queues: tuple[LocalQueue, ...]
     queue_of: tuple[str, ...]
     routes: tuple[LocalRoute, ...]
     copies: tuple[str, ...]
     headers: tuple[str, ...]
-    alone: int
     shown: str
 
     @property
@@ -119,9 +109,6 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LocalPlan:
     application = context.application
     check_topics(context, diagnostics)
     queues = tuple(_queues(application, context.types))
-    alone = bool(application.nodes) and all(
-        endpoint.local == "only" for node in application.nodes for endpoint in node.endpoints
-    )
     places = context.runtime.entities
     subscriptions = [_NONE] * places.subscriptions.max
     for queue in queues:
@@ -129,29 +116,21 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LocalPlan:
     types = [queue.type for queue in queues]
     messages = {name: known.message for name, known in context.types.items()}
     return LocalPlan(
-        places=tuple(_places(context, alone)),
         queues=queues,
         queue_of=tuple(subscriptions),
         routes=tuple(_routes(context, queues)),
         copies=copy_lines(types, messages),
         headers=tuple(sorted({h for name in types for h in _headers(context.types[name])})),
-        alone=int(alone),
-        shown=_shown(application, alone),
+        shown=_shown(application, is_alone(application)),
     )
 
 
 def record(part: LocalPlan) -> object:
     """Return what the plan id is made of."""
     return {
-        "places": "".join("1" if place.value == "true" else "0" for place in part.places),
         "queues": [[q.subscription, q.slots] for q in part.queues],
         "routes": [[list(r.queues), r.only] for r in part.routes],
-        "alone": part.alone,
     }
-
-
-def _c(value: bool) -> str:
-    return "true" if value else "false"
 
 
 def slots_of(endpoint: EndpointDecl) -> int:
@@ -170,7 +149,7 @@ def _queues(application: Application, types: Mapping[TypeName, TypePlan]) -> Ite
         yield LocalQueue(
             *(index, subscription, topic, name, types[name].c_name, slots_of(endpoint), storage),
             copy_body(name, messages),
-            _c(endpoint.local == "only"),
+            in_c(endpoint.local == "only"),
         )
         index += 1
 
@@ -191,21 +170,6 @@ def _routes(context: PlanContext, queues: tuple[LocalQueue, ...]) -> Iterable[Lo
         yield LocalRoute(index - 1, found, endpoint.local == "only")
     for other in range(index, context.runtime.entities.publisher_places):
         yield LocalRoute(other, (), False)
-
-
-def _places(context: PlanContext, alone: bool) -> Iterable[LocalPlace]:
-    """Yield the places in the order of the client: nodes, then publishers, subscriptions and what else there is."""
-    entities = context.runtime.entities
-    nodes = context.application.nodes
-    names = [node.full_name for node in nodes]
-    yield from (LocalPlace(name, _c(alone)) for name in names)
-    yield from (LocalPlace("none", "false") for _ in range(entities.node_places - len(names)))
-    for kind in KINDS:
-        declared = declarations(context.application, kind.name)
-        for _, node, endpoint in declared:
-            yield LocalPlace(f"{kind.name} {full_name(node, endpoint)}", _c(endpoint.local == "only"))
-        count = entities.publisher_places if kind is KINDS[0] else entities.places(kind.name).max
-        yield from (LocalPlace("none", "false") for _ in range(count - len(declared)))
 
 
 def _headers(type_: TypePlan) -> Iterable[str]:

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from microros_gen.application.model import LOG_LEVELS, Application, LogWriter, logger_name
+from microros_gen.application.log_decl import LOG_LEVELS, LogWriter
+from microros_gen.application.model import Application, logger_name
 from microros_gen.client.plan.features import PlanContext
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from microros_gen.application.model import LogWriter
+from microros_gen.application.log_decl import LogWriter
 from microros_gen.client.plan.console import console_size, console_waits
 from microros_gen.client.plan.features import PlanContext
 from microros_gen.components.logging.plan import TEXT_SIZE, writer_of

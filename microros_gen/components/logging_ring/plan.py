@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from microros_gen.application.model import LogWriter
+from microros_gen.application.log_decl import LogWriter
 from microros_gen.client.plan.features import PlanContext
 from microros_gen.components.logging.plan import level_number, writer_of
 from microros_gen.diagnostics import Diagnostics

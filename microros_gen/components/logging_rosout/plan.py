@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from microros_gen.application.model import Application, LimitRule, LogWriter
+from microros_gen.application.log_decl import LogWriter
+from microros_gen.application.model import Application, LimitRule
 from microros_gen.client.plan.features import PlanContext, refuse_own_limits
 from microros_gen.components.logging.plan import level_number, name_size, writer_of
 from microros_gen.diagnostics import Diagnostics

@@ -15,6 +15,16 @@ def _node(app: Application) -> Any:
     return app.nodes[0]
 
 
+def _system(application: Application) -> tuple[str, str]:
+    reference = application.system
+    assert reference is not None
+    return reference.file.name, reference.board.name
+
+
+def _member(key: str, application: Application) -> object:
+    return getattr(_endpoint(application), key)
+
+
 def _endpoint(app: Application) -> Any:
     return app.nodes[0].endpoints[0]
 
@@ -103,14 +113,15 @@ def _endpoint_cases(
         ),
     }
     if kind in ("publisher", "subscription"):
-        cases[f"{path}.local"] = KeyCase(
-            one(f"{entry}, local: also"),
-            lambda a: _endpoint(a).local,
-            "also",
-            one(f"{name_key}: a, type: {type_name}, local: yes"),
-            f"3:{start + 21 + len(name_key) + len(type_name)}",
-            f"'nodes[0].{key}[0].local' must be ",
-        )
+        for word in ("local", "peer"):
+            cases[f"{path}.{word}"] = KeyCase(
+                one(f"{entry}, {word}: also"),
+                partial(_member, word),
+                "also",
+                one(f"{name_key}: a, type: {type_name}, {word}: yes"),
+                f"3:{start + 16 + len(word) + len(name_key) + len(type_name)}",
+                f"'nodes[0].{key}[0].{word}' must be ",
+            )
     if kind == "publisher":
         cases[f"{path}.managed"] = KeyCase(
             one(f"{entry}, managed: true"),
@@ -434,6 +445,30 @@ _TOP = {
         "interfaces: [std_msgs/msgs/Int32]",
         "1:14",
         "'interfaces[0]' must be a package or a type such as std_msgs or std_msgs/msg/Int32; it is the text",
+    ),
+    "system": KeyCase(
+        "system: {file: ../s.yaml, board: arm}",
+        _system,
+        ("../s.yaml", "arm"),
+        "system: s.yaml",
+        "1:9",
+        "'system' must be a mapping of keys and values; it is the text 's.yaml'",
+    ),
+    "system.file": KeyCase(
+        "system: {file: s.yaml, board: arm}",
+        lambda a: _system(a)[0],
+        "s.yaml",
+        "system: {file: 3, board: arm}",
+        "1:16",
+        "'system.file' must be the path of a file; it is 3",
+    ),
+    "system.board": KeyCase(
+        "system: {file: s.yaml, board: arm}",
+        lambda a: _system(a)[1],
+        "arm",
+        "system: {file: s.yaml, board: 3}",
+        "1:31",
+        "'system.board' must be the name of a board; it is 3",
     ),
     "interface_paths": KeyCase(
         "interface_paths: [../msgs, own_msgs]",

@@ -34,11 +34,14 @@ def rendered(folder: Path, text: str) -> Path:
     return out
 
 
-def program_of(out: Path, source: str, without: Collection[str] = ()) -> Path:
-    """Compile a C file of tests/runtime/c with all sources of an output folder (names in `without`: left out)."""
+def program_of(out: Path, source: str, without: Collection[str] = (), more: tuple[str, ...] = ()) -> Path:
+    """Compile a C file of tests/runtime/c with all sources of an output folder (names in `without`: left out).
+
+    `more` are flags of the compiler.
+    """
     sources = [path for path in sorted((out / "src").rglob("*.c")) if path.name not in without]
     compiler, flags = quick()
-    flags = (*flags, "-std=gnu99", "-Wno-error")
+    flags = (*flags, "-std=gnu99", "-Wno-error", *more)
     objects = compile_merged(Tree(out, ()), sources, [UNITS / source], compiler, flags)
     return link(objects, compiler, flags, out / Path(source).stem)
 

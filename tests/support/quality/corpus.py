@@ -93,6 +93,31 @@ _LOCAL = (
     "      - {topic: count, type: std_msgs/msg/Int32, local: only}\n"
 )
 _SERIAL = "transport: {type: serial, device: /dev/ttyACM0, baud: 115200}\n"
+_PEER = (
+    "version: 1\nprofiles: [pure_sender, pure_reader]\nsystem: {file: system.yaml, board: own}\n"
+    "nodes:\n  - name: probe\n    publishers:\n"
+    "      - {topic: /sure, type: std_msgs/msg/UInt8, peer: only}\n"
+    "      - {topic: /best, type: std_msgs/msg/UInt8, peer: only, qos: {reliability: best_effort}}\n"
+    "    subscriptions:\n"
+    "      - {topic: /answer, type: std_msgs/msg/UInt8, peer: only, qos: {reliability: best_effort}, queue: 1}\n"
+)
+SYSTEM = "version: 1\nboards: {own: {application: microros.yaml}, other: {application: other.yaml}}\nlinks:\n"
+OTHER_BOARD = (
+    _PEER.replace("own", "other")
+    .replace("publishers", "subscriptions_")
+    .replace("subscriptions:", "publishers:")
+    .replace("subscriptions_", "subscriptions")
+    .replace(", queue: 1", "")
+)
+SYSTEMS: Mapping[str, str] = MappingProxyType(
+    {
+        "peer": SYSTEM + '  - {type: udp, ends: {own: "10.0.0.1:7500", other: "10.0.0.2:7500"}}\n',
+        "peer_also": SYSTEM + '  - {type: udp, ends: {other: "10.0.0.1:7500", own: "10.0.0.2:7500"}}\n',
+        "peer_serial": SYSTEM + "  - {type: serial, ends: {own: /dev/ttyS1, other: uart}}\n",
+        "peer_board": SYSTEM + "  - {type: serial, ends: {own: uart, other: uart}}\n",
+    }
+)
+"""The system files of applications that have one; OTHER_BOARD is the application of their other board."""
 
 APPLICATIONS: Mapping[str, str] = MappingProxyType(
     {
@@ -254,6 +279,11 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "local": _LOCAL,
         "local_also": _LOCAL.replace("local: only", "local: also", 1)
         + "components: [+multithread]\nerrors: code\n",
+        "peer": _PEER,
+        "peer_also": _PEER.replace("peer: only", "peer: also", 1)
+        + "components: [+multithread]\nerrors: code\n",
+        "peer_serial": _PEER + _SERIAL,
+        "peer_board": _PEER + "transport: {type: serial}\ntarget: qemu-mps2-an386\n",
         "lifecycle_managed": _NODES
         + "      - {topic: sure, type: std_msgs/msg/UInt8, managed: true}\n"
         + "    timers: [{name: control, period: 20 ms, managed: true}]\n"
@@ -335,6 +365,9 @@ def make_tree(name: str, folder: Path) -> Tree:
     if name in TARGETS:
         (place / "own.yaml").write_text(TARGETS[name], encoding="utf-8")
     (place / "parameters.yaml").write_text(PARAMETER_FILE, encoding="utf-8")
+    if name in SYSTEMS:
+        (place / "system.yaml").write_text(SYSTEMS[name], encoding="utf-8")
+        (place / "other.yaml").write_text(OTHER_BOARD, encoding="utf-8")
     options = compiler.Options(
         config=place / "microros.yaml", interface_paths=(INTERFACES / "quality_msgs", shipped_folder())
     )

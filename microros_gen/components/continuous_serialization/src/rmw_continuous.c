@@ -3,6 +3,7 @@
 #include "microros/lock.h"
 #include "microros/rmw_encode.h"
 #include "microros/rmw_local_publish.h"
+#include "microros/rmw_peer_publish.h"
 #include "microros/rmw_publish_parts.h"
 #include "microros/rmw_publisher.h"
 #include "microros/xrce_client.h"
@@ -168,7 +169,7 @@ static rmw_ret_t continuous_begin(const xrce_endpoint_t * writer)
 /* Returns the error that prevents a message, which has `size` bytes before the callback adds its own to *whole. */
 static rmw_ret_t continuous_check(const xrce_endpoint_t * writer, uint32_t size, uint32_t whole)
 {
-  if (rmw_local_has_route(writer)) {
+  if (rmw_local_has_route(writer) || rmw_peer_has_route(writer)) {
     return continuous_refuse(writer, microros_error_continuous_local, 0, 0);
   }
   if ((writer->qos & XRCE_QOS_RELIABLE) == 0u) {

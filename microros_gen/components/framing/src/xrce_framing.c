@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/xrce_framing.h"
 
+#include "microros/xrce_framing_addresses.h"
+
 enum { FRAME_ADDRESSES = 2 };
 
 /* Limits the bytes per call, so that a flooded line cannot block the client. */
@@ -36,7 +38,7 @@ static int32_t reader_take(xrce_framing_t * framing, uint8_t byte, uint8_t * buf
 
   ++framing->next;
   if (at < FRAME_ADDRESSES) {
-    return byte == at ? 0 : reader_drop(framing); /* source and destination: ADDRESS_AGENT, ADDRESS_CLIENT */
+    return xrce_framing_is_address(at, byte) ? 0 : reader_drop(framing); /* source and destination */
   }
   if (at < XRCE_FRAME_HEADER) {
     framing->size = (uint16_t)(((uint32_t)framing->size >> 8) | ((uint32_t)byte << 8));

@@ -3,6 +3,7 @@
 #include "microros/lock.h"
 #include "microros/rmw_encode.h"
 #include "microros/rmw_local_publish.h"
+#include "microros/rmw_peer_publish.h"
 #include "microros/rmw_publish_parts.h"
 #include "microros/rmw_publisher.h"
 #include "microros/xrce_routes.h"
@@ -45,12 +46,15 @@ rmw_ret_t rmw_publisher_write(const rmw_publisher_t * publisher, const void * ro
   cdr_fault_t fault; /* set if the message is refused */
   xrce_endpoint_t * writer = publisher->data;
   rmw_ret_t result = RMW_RET_OK;
+  rmw_ret_t of_peers = RMW_RET_OK;
+  bool apart;
 
   if (rmw_publish_parts(writer, ros_message, &result)) {
     return result;
   }
   microros_lock();
-  if (!rmw_local_publish(writer, ros_message, &result)) {
+  apart = rmw_peer_publish(writer, ros_message, &of_peers);
+  if (!rmw_local_publish(writer, ros_message, &result) && !apart) {
     const xrce_write_t outcome = xrce_write_message(writer, ros_message, &fault);
 
     if (outcome != XRCE_WRITTEN) {
@@ -58,7 +62,7 @@ rmw_ret_t rmw_publisher_write(const rmw_publisher_t * publisher, const void * ro
     }
   }
   microros_unlock();
-  return result;
+  return result != RMW_RET_OK ? result : of_peers;
 }
 
 rmw_ret_t rmw_publish(
@@ -80,7 +84,9 @@ rmw_ret_t rmw_publish_serialized_message(
   xrce_endpoint_t * writer;
   size_t capacity;
   size_t size;
-  rmw_ret_t result;
+  rmw_ret_t result = RMW_RET_OK;
+  rmw_ret_t of_peers = RMW_RET_OK;
+  bool apart;
 
   (void)allocation;
   if (serialized_message == NULL || serialized_message->buffer == NULL || !rmw_publisher_is_open(publisher)) {
@@ -99,9 +105,10 @@ rmw_ret_t rmw_publish_serialized_message(
   bytes = &bytes[PUBLISH_ENCAPSULATION_SIZE];
   size -= PUBLISH_ENCAPSULATION_SIZE;
   microros_lock();
-  if (!rmw_local_publish_body(writer, bytes, size, &result)) {
+  apart = rmw_peer_publish_body(writer, bytes, size, &of_peers);
+  if (!rmw_local_publish_body(writer, bytes, size, &result) && !apart) {
     result = publish_report(writer, xrce_write_body(writer, bytes, size), &none);
   }
   microros_unlock();
-  return result;
+  return result != RMW_RET_OK ? result : of_peers;
 }

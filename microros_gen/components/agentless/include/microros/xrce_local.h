@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Places whose messages stay in the image, from the plan. Internal. */
+/* Places without objects at an agent, from the plan. Internal. */
 #ifndef MICROROS_XRCE_LOCAL_H
 #define MICROROS_XRCE_LOCAL_H
 
@@ -8,7 +8,7 @@
 
 #include "microros_config.h"
 
-/* One for each place: true for an endpoint of `local: only`, and for each node of an image that has no other ones. */
+/* One for each place: true for an endpoint with `only`, and for each node of an image that has no other ones. */
 extern const bool xrce_local_places[];
 
 static inline bool xrce_place_is_local(uint16_t place)

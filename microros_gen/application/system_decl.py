@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Boards that exchange messages without an agent, as a system file declares them, seen from one of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from microros_gen.diagnostics import Span
+from microros_gen.documents.named import Named
+from microros_gen.records import dataclass
+
+
+@dataclass(frozen=True)
+class SystemRef:
+    """`system:` of an application: the path of the system file, relative to the application's, and this board."""
+
+    file: Named
+    board: Named
+
+
+@dataclass(frozen=True)
+class PeerEnd:
+    """A publisher or subscription of another board. `topic` is fully qualified.
+
+    `type_hash` is what its own interface files give; None: they are looked for where those of this board are.
+    """
+
+    kind: str
+    domain_id: int
+    topic: str
+    type: str
+    reliability: str
+    peer: str
+    span: Span | None = None
+    type_hash: str | None = None
+
+
+@dataclass(frozen=True)
+class Link:
+    """A link to another board, `board`; `position`: whether this one is its first (0) or second end.
+
+    `kind` is udp or serial. `own` and `other` are the addresses of the two ends, or the names of their devices.
+    `mtu`: largest message, bytes; `history`: messages that wait until they are acknowledged. `baud` of the other
+    board's line. `files` were read for it.
+    """
+
+    kind: str
+    board: str
+    position: int
+    own: Named
+    other: Named
+    mtu: int
+    history: int
+    baud: int
+    transport: str
+    ends: tuple[PeerEnd, ...]
+    files: tuple[Path, ...] = ()
+    span: Span | None = None

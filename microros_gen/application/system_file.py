@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A system file: the boards, the applications and the links of a system without an agent."""
+
+from __future__ import annotations
+
+import ipaddress
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+from microros_gen.diagnostics import Diagnostics, Source, Span, nearest, reads
+from microros_gen.documents.named import Named
+from microros_gen.documents.schema import load_schema, validate
+from microros_gen.documents.tree_values import child, entries, int_of, items, named_of, text_of
+from microros_gen.documents.yaml_tree import MappingNode, YamlNode, parse_yaml
+from microros_gen.records import dataclass
+
+SCHEMA = Path(__file__).with_name("system.schema.json")
+DEFAULT_MTU, DEFAULT_HISTORY = 512, 4
+UART = "uart"
+"""What a serial link calls the line of a board without an operating system."""
+
+
+@dataclass(frozen=True)
+class LinkDecl:
+    """A link; `ends` are its two boards, each with its address or device."""
+
+    kind: str
+    ends: tuple[tuple[str, Named], ...]
+    mtu: int
+    history: int
+    span: Span
+
+
+@dataclass(frozen=True)
+class SystemFile:
+    """`boards`: the path of the application file of each, relative to the system file."""
+
+    boards: Mapping[str, Named]
+    links: tuple[LinkDecl, ...]
+
+
+@reads
+def parse_system(source: Source, diagnostics: Diagnostics) -> SystemFile | None:
+    """Return the system that `source` describes; None where `diagnostics` got errors from it."""
+    found = Diagnostics()
+    tree = parse_yaml(source, found)
+    if tree is not None or not found.has_errors():
+        validate(tree, source, load_schema(SCHEMA), found)
+    system = None
+    if isinstance(tree, MappingNode) and not found.has_errors():
+        boards = {
+            e.key: n for e in entries(child(tree, "boards")) if (n := named_of(child(e.value, "application")))
+        }
+        links = tuple(_link(item, boards, found) for item in items(child(tree, "links")))
+        _check_twins(links, found)
+        system = SystemFile(boards, links)
+    diagnostics.extend(found)
+    return None if found.has_errors() else system
+
+
+def address_of(text: str) -> tuple[str, int] | None:
+    """Return host and port of `192.168.1.20:7500` or `[fd00::1]:7500`; None: it is no address."""
+    host, _, port = text.rpartition(":")
+    if not re.fullmatch(r"[0-9]{1,5}", port) or not 1 <= int(port) <= 65535:
+        return None
+    try:
+        if host.startswith("[") and host.endswith("]"):
+            found = ipaddress.IPv6Address(host[1:-1])
+            return (host[1:-1], int(port)) if found.scope_id is None else None
+        return (str(ipaddress.IPv4Address(host)), int(port))
+    except ValueError:
+        return None
+
+
+def _link(item: YamlNode, boards: Mapping[str, Named], diagnostics: Diagnostics) -> LinkDecl:
+    kind, ends = text_of(child(item, "type")) or "", entries(child(item, "ends"))
+    if len(ends) > 2:
+        message = f"a link joins two boards; this one has {len(ends)} ends"
+        diagnostics.error(message, ends[2].key_span, "Write a link for each pair of boards", id="MG-3192")
+    for end in ends:
+        if end.key not in boards:
+            hint = nearest(end.key, boards) or f"Available: {', '.join(sorted(boards))}"
+            message = f"the system has no board '{end.key}'"
+            diagnostics.error(message, end.key_span, hint, id="MG-3191")
+        if kind == "udp" and address_of(text_of(end.value) or "") is None:
+            message = f"'{text_of(end.value)}' is no IPv4 or IPv6 address with a port"
+            diagnostics.error(message, end.value.span, "Write it as 192.168.1.20:7500", id="MG-3193")
+    return LinkDecl(
+        kind=kind,
+        ends=tuple((end.key, named) for end in ends if (named := named_of(end.value)) is not None),
+        mtu=int_of(child(item, "mtu")) or DEFAULT_MTU,
+        history=int_of(child(item, "history")) or DEFAULT_HISTORY,
+        span=item.span,
+    )
+
+
+def _check_twins(links: tuple[LinkDecl, ...], diagnostics: Diagnostics) -> None:
+    """Report an address or line that two ends have: of a board, or an address of two boards."""
+    seen: dict[tuple[str, str], Span | None] = {}
+    for link in links:
+        for board, place in link.ends:
+            key = ("" if link.kind == "udp" else board, place.name)
+            if key in seen:
+                first = seen[key]
+                where = f"; the first is in line {first.line}" if first else ""
+                message = f"'{place.name}' is the end of two links{where}"
+                diagnostics.error(message, place.span, "Give each end its own port or line", id="MG-3194")
+            seen.setdefault(key, place.span)

@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads the system file that an application names, and the applications of the boards that it is linked with."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from microros_gen.application.find import APPLICATION_FILE
+from microros_gen.application.model import Application, EndpointDecl, NodeDecl
+from microros_gen.application.names import expand_topic_name
+from microros_gen.application.parser import parse_application
+from microros_gen.application.system_decl import Link, PeerEnd, SystemRef
+from microros_gen.application.system_file import LinkDecl, SystemFile, parse_system
+from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
+from microros_gen.documents.files import read_text, reason_of
+from microros_gen.documents.named import Named
+from microros_gen.interfaces.closure import resolve_interfaces, split_type_name
+from microros_gen.interfaces.find import InterfaceFinder
+
+PEER_KINDS = ("publisher", "subscription")
+
+
+def with_system(
+    application: Application, config: Path | None, near: Path, diagnostics: Diagnostics
+) -> tuple[Application, Mapping[str, Source]]:
+    """Return the application with the links of its board, and the files that were read for them, by name.
+
+    What the other applications say wrong is an error at its place there.
+    """
+    reference = application.system
+    if reference is None:
+        return application, {}
+    path = near / reference.file.name
+    source = _read(path, "system file", reference.file.span, diagnostics)
+    system = parse_system(source, diagnostics) if source else None
+    if source is None or system is None:
+        return application, {}
+    own = config or near / APPLICATION_FILE
+    if not _is_board(system, reference, own, path, diagnostics):
+        return application, {}
+    files = {path.name: source}
+    links = []
+    for link in system.links:
+        boards = [board for board, _ in link.ends]
+        if reference.board.name in boards:
+            linked = _link(link, boards.index(reference.board.name), system, path, diagnostics)
+            if linked is not None:
+                links.append(linked[0])
+                files[f"{linked[0].board}: {Path(linked[1].name).name}"] = linked[1]
+    return replace(application, links=tuple(links)), files
+
+
+def system_paths(application: Application, near: Path) -> Iterator[Path]:
+    """Yield the files that `with_system` reads."""
+    if application.system is not None:
+        yield near / application.system.file.name
+    for link in application.links:
+        yield from link.files
+
+
+def peer_ends(application: Application) -> Iterator[tuple[int, EndpointDecl, PeerEnd]]:
+    """Yield the publishers and subscriptions of an application that have `peer:`, and the index of each in its kind."""
+    for kind in PEER_KINDS:
+        declared = [(node, e) for node in application.nodes for e in node.endpoints if e.kind == kind]
+        for index, (node, endpoint) in enumerate(declared):
+            if endpoint.peer != "never":
+                yield index, endpoint, _end(node, endpoint)
+
+
+def _end(node: NodeDecl, endpoint: EndpointDecl) -> PeerEnd:
+    type_name = split_type_name(endpoint.type, "msg")
+    return PeerEnd(
+        kind=endpoint.kind,
+        domain_id=node.domain_id,
+        topic=expand_topic_name(endpoint.topic, node.name, node.namespace),
+        type=str(type_name or endpoint.type),
+        reliability=endpoint.qos.reliability,
+        peer=endpoint.peer,
+        span=endpoint.span,
+    )
+
+
+def _is_board(
+    system: SystemFile, reference: SystemRef, own: Path, path: Path, diagnostics: Diagnostics
+) -> bool:
+    """Return whether the system has the board, with this application."""
+    board = reference.board
+    if board.name not in system.boards:
+        hint = nearest(board.name, system.boards) or f"Available: {', '.join(sorted(system.boards))}"
+        diagnostics.error(f"the system has no board '{board.name}'", board.span, hint, id="MG-3197")
+        return False
+    named = path.parent / system.boards[board.name].name
+    if named.resolve() != own.resolve():
+        other = os.path.normpath(named)
+        message = f"the application of the board '{board.name}' is another file in the system: '{other}'"
+        hint = "Name this application there, or another board here"
+        diagnostics.error(message, board.span, hint, id="MG-3195")
+        return False
+    return True
+
+
+def _link(
+    link: LinkDecl, position: int, system: SystemFile, path: Path, diagnostics: Diagnostics
+) -> tuple[Link, Source] | None:
+    board, place = link.ends[1 - position]
+    named = system.boards[board]
+    file = path.parent / named.name
+    source = _read(file, "application file", named.span, diagnostics)
+    other = parse_application(source, diagnostics) if source else None
+    if source is None or other is None:
+        return None
+    _check_names_system(other, board, named, file, path, diagnostics)
+    ends = tuple(end for _, _, end in peer_ends(other))
+    hashes, files = _hashes(other, ends, file.parent, diagnostics)
+    linked = Link(
+        kind=link.kind,
+        board=board,
+        position=position,
+        own=link.ends[position][1],
+        other=place,
+        mtu=link.mtu,
+        history=link.history,
+        baud=other.transport.baud,
+        transport=other.transport.type,
+        ends=tuple(replace(end, type_hash=hashes.get(end.type)) for end in ends),
+        files=(file, *files),
+        span=link.span,
+    )
+    return linked, source
+
+
+def _check_names_system(
+    other: Application, board: str, named: Named, file: Path, path: Path, diagnostics: Diagnostics
+) -> None:
+    """Report an application of the system that would be built without it, or as another board."""
+    reference = other.system
+    if reference is not None:
+        its = (file.parent / reference.file.name).resolve()
+        if its == path.resolve() and reference.board.name == board:
+            return
+    diagnostics.error(
+        f"the application '{named.name}' does not name this system and its board '{board}'",
+        reference.file.span if reference else named.span,
+        f"Write `system: {{file: …, board: {board}}}` there",
+        id="MG-3196",
+    )
+
+
+def _hashes(
+    other: Application, ends: tuple[PeerEnd, ...], near: Path, diagnostics: Diagnostics
+) -> tuple[Mapping[str, str], tuple[Path, ...]]:
+    """Return the hashes of types that interface files of the other application define, and these files."""
+    paths = {near / path.name: path.span for path in other.interface_paths}
+    if not paths or not ends:
+        return {}, ()
+    finder = InterfaceFinder.from_environment(tuple(paths))
+    finder.check_paths(diagnostics, paths)
+    spans: dict[str, Span | None] = {}
+    for end in ends:
+        spans.setdefault(end.type, end.span)
+    wanted = tuple(Named(name, span) for name, span in spans.items())
+    interfaces = resolve_interfaces(wanted, finder, diagnostics)
+    if diagnostics.has_errors():
+        return {}, ()
+    hashes = {str(name): interfaces.type_hash(name) for name in interfaces.roots}
+    return hashes, tuple(Path(entry.source.name) for entry in interfaces)
+
+
+def _read(path: Path, what: str, span: Span | None, diagnostics: Diagnostics) -> Source | None:
+    shown = os.path.normpath(path)
+    try:
+        return Source(shown, read_text(path))
+    except (OSError, UnicodeDecodeError) as error:
+        message = f"cannot read the {what} '{shown}': {reason_of(error)}"
+        hint = "Its path is relative to the folder of the file that names it"
+        diagnostics.error(message, span, hint, id="MG-3190")
+        return None

@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Links with other boards (OMG DDS-XRCE 1.0 without an agent). On a link each board is the client of one session,
+ * which it opens with CREATE_CLIENT, and the agent of the other board's. Entities are preconfigured: the index of a
+ * data writer is that of its topic in the table of the link, which both images have. A client writes with WRITE_DATA;
+ * an agent answers with STATUS_AGENT, ACKNACK, and RESET to messages of a session that it does not know, or cannot
+ * follow.
+ *
+ * A client key is the hash of the table (24 bits) and a number, which follows in the session id: messages of an earlier
+ * session are recognized. Who asks for a session with a key that is in use, or was before, gets ALREADY_EXISTS and
+ * takes the next number: so a board that has restarted gets a new session, and a CREATE_CLIENT that arrives twice ends
+ * none. Internal. */
+#ifndef MICROROS_XRCE_PEER_H
+#define MICROROS_XRCE_PEER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "microros/xrce_forward.h"
+#include "microros/xrce_local.h"
+#include "microros/xrce_transport.h"
+#include "microros/xrce_wire.h"
+#include "microros_config.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* An endpoint and the topic of a link: its index among the publishers or subscriptions, and in the table. */
+typedef struct xrce_peer_route_t {
+  uint16_t endpoint;
+  uint16_t topic;
+} xrce_peer_route_t;
+
+/* A link, from the plan. */
+typedef struct xrce_peer_line_t {
+  const char * board;  /* name of the other board */
+  const char * remote; /* its address, or the own device */
+  uint16_t remote_port;
+  uint16_t local_port;
+  const xrce_peer_route_t * writers;
+  const xrce_peer_route_t * readers;
+  uint16_t writer_count;
+  uint16_t reader_count;
+  uint32_t key;     /* of the first session */
+  uint8_t position; /* 0: first end of the link, 1: second */
+} xrce_peer_line_t;
+
+extern const xrce_peer_line_t xrce_peer_lines[MICROROS_PEERS];
+
+/* State of a link. Zero-initialized: not open. */
+typedef struct xrce_peer_t {
+  xrce_transport_t transport;
+  uint32_t due_ms;     /* when to send CREATE_CLIENT, or a HEARTBEAT */
+  uint32_t since_ms;   /* start of connecting */
+  uint32_t key;        /* of the own session; 0: none was asked for */
+  uint32_t other_key;  /* of the other board's session; 0: not known */
+  uint32_t former_key; /* of the one before */
+  uint16_t number;     /* of the next best-effort message */
+  uint16_t first;      /* number of the oldest message that is not acknowledged */
+  uint16_t unsent;     /* which of these have to be sent, from the first on */
+  uint16_t newest;     /* number of the newest best-effort message of the other board */
+  uint16_t next;       /* of its next reliable message */
+  uint8_t head;        /* slot of the oldest message */
+  uint8_t count;       /* messages that are not acknowledged */
+  bool open : 1;       /* the transport */
+  bool ready : 1;      /* the own session */
+  bool received : 1;   /* something arrived in the other board's session */
+} xrce_peer_t;
+
+/* The part of a key that counts sessions; the rest identifies the table. */
+#define XRCE_PEER_NUMBER 0xffu
+
+/* Returns the id of a session: of the first board of a link 0x81, 0x83, … 0xbf, of the second one 0x82, 0x84, … 0xc0. */
+static inline uint8_t xrce_peer_session(uint32_t key, uint8_t position)
+{
+  return (uint8_t)((uint32_t)XRCE_SESSION_ID + position + 2u * (key & 0x1fu));
+}
+
+/* Return the ids of the current sessions of a link. */
+static inline uint8_t xrce_peer_own(const xrce_peer_t * peer, const xrce_peer_line_t * line)
+{
+  return xrce_peer_session(peer->key, line->position);
+}
+
+static inline uint8_t xrce_peer_other(const xrce_peer_t * peer, const xrce_peer_line_t * line)
+{
+  return xrce_peer_session(peer->other_key, (uint8_t)(1u - line->position));
+}
+
+/* Returns whether a session id is one of this board. */
+static inline bool xrce_peer_is_own(uint8_t session, const xrce_peer_line_t * line)
+{
+  return ((uint32_t)session - XRCE_SESSION_ID) % 2u == line->position;
+}
+
+/* Receives, and sends what is due. Never blocks. */
+void xrce_peer_step(xrce_client_t * client, uint32_t now);
+
+/* Waits until all messages are acknowledged and sent, at most client->close_timeout_ms. */
+void xrce_peer_leave(xrce_client_t * client);
+
+void xrce_peer_close(xrce_client_t * client);
+
+/* Returns whether the client looks for an agent: not if it has nothing there, and the line may be that of a link. */
+static inline bool xrce_peer_looks_for_agent(void)
+{
+  return !xrce_image_is_local();
+}
+
+/* Returns when to look again: a wait ends for the transport of the agent only. */
+static inline uint32_t xrce_peer_left(uint32_t left)
+{
+  return left != 0u ? 1u : 0u;
+}
+
+/* --- output; `index` is that of the link --- */
+
+/* Returns room for a submessage of xrce_peer_capacity bytes; NULL if no slot is free. */
+uint8_t * xrce_peer_reserve(const xrce_client_t * client, uint8_t index, bool reliable);
+
+/* Returns the largest submessage in bytes. */
+size_t xrce_peer_capacity(bool reliable);
+
+/* Sends `size` reserved bytes, a reliable message until it is acknowledged. Returns false if a best-effort one was not
+ * sent. */
+bool xrce_peer_commit(xrce_client_t * client, uint8_t index, bool reliable, size_t size, uint32_t now);
+
+/* Sends one message. Returns false if the line has no room for it. */
+bool xrce_peer_send(xrce_client_t * client, uint8_t index, const uint8_t * message, size_t size);
+
+/* Called when the own session begins: all messages that wait are numbered from 0. */
+void xrce_peer_renumber(xrce_peer_t * peer, uint32_t now);
+
+/* Sends what has to be sent, and a HEARTBEAT when it is due. */
+void xrce_peer_flow(xrce_client_t * client, uint8_t index, uint32_t now);
+
+/* Sends a HEARTBEAT: a board that does not know the session answers with RESET. */
+void xrce_peer_heartbeat(xrce_client_t * client, uint8_t index);
+
+/* Takes the payload of an ACKNACK. */
+void xrce_peer_acknowledged(
+  xrce_peer_t * peer, const uint8_t * payload, size_t size, uint8_t flags, uint32_t now);
+
+/* --- input --- */
+
+/* Called for a new session of the other board. */
+void xrce_peer_in_reset(xrce_peer_t * peer);
+
+/* Takes a message of the other board's session, which is complete. */
+void xrce_peer_in_take(
+  xrce_client_t * client, uint8_t index, const uint8_t * message, size_t size, uint32_t now);
+
+/* Opens the transport of a link. Returns false without a network, or if the line does not exist. */
+bool xrce_peer_open(xrce_transport_t * transport, const xrce_peer_line_t * line);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_XRCE_PEER_H */

@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What arrives in the session of the other board, of which this one is the agent. */
+#include "microros/xrce_client.h"
+#include "microros/xrce_peer.h"
+#include "microros/xrce_read.h"
+#include "microros/xrce_wire.h"
+
+enum {
+  ACKNACK_MESSAGE = XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER + XRCE_ACKNACK_SIZE,
+  RESET_MESSAGE = XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER
+};
+
+/* An ACKNACK has this many bits, and nobody sends more messages ahead. Numbers from half of 2^16 on are old. */
+enum { WINDOW = 16, HALF = 0x8000 };
+
+void xrce_peer_in_reset(xrce_peer_t * peer)
+{
+  peer->next = 0;
+  peer->newest = UINT16_MAX; /* 0 is newer */
+  peer->received = false;
+}
+
+/* Answers a message of this session. */
+static void in_send_reset(xrce_client_t * client, uint8_t index, uint8_t session)
+{
+  uint8_t message[RESET_MESSAGE];
+
+  xrce_put_header(message, session, XRCE_STREAM_NONE, 0);
+  xrce_put_submessage(&message[4], XRCE_RESET, XRCE_FLAG_LITTLE_ENDIAN, 0);
+  (void)xrce_peer_send(client, index, message, sizeof(message)); /* the next message is answered again */
+}
+
+/* Acknowledges up to the next message, and asks for `known` messages from that one on. */
+static void in_acknowledge(xrce_client_t * client, uint8_t index, uint16_t known)
+{
+  const uint32_t missing = known < WINDOW ? ((uint32_t)1u << known) - 1u : 0xffffu;
+  const xrce_peer_t * peer = &client->peers[index];
+  uint8_t message[ACKNACK_MESSAGE];
+
+  xrce_put_header(message, xrce_peer_other(peer, &xrce_peer_lines[index]), XRCE_STREAM_NONE, 0);
+  xrce_put_submessage(&message[4], XRCE_ACKNACK, XRCE_FLAG_LITTLE_ENDIAN, XRCE_ACKNACK_SIZE);
+  xrce_put_le16(&message[8], peer->next);
+  xrce_put_be16(&message[10], (uint16_t)missing);
+  message[12] = XRCE_STREAM_RELIABLE;
+  (void)xrce_peer_send(client, index, message, sizeof(message)); /* a HEARTBEAT asks again */
+}
+
+/* Stores a sample for a subscription. A full queue drops its oldest one: what is acknowledged here has arrived at the
+ * board, and nothing holds the other subscriptions of the link back. */
+static void in_store(xrce_client_t * client, uint16_t subscription, const xrce_sample_t * sample)
+{
+  xrce_receiver_t * receiver = &client->receivers[subscription];
+
+  if (!client->states[XRCE_READERS_AT + subscription].wanted) {
+    return;
+  }
+  if (sample->size > xrce_read_largest(client, receiver)) {
+    receiver->large = sample->size;
+    ++receiver->refused;
+    ++client->session.statistics.dropped;
+  } else {
+    xrce_read_keep(client, receiver, sample, false);
+  }
+}
+
+static void in_write_data(
+  xrce_client_t * client, uint8_t index, const uint8_t * submessage, size_t size, uint32_t now)
+{
+  const xrce_peer_line_t * line = &xrce_peer_lines[index];
+  const uint8_t * payload = xrce_payload_of(submessage);
+  xrce_sample_t sample;
+  uint16_t object;
+
+  if (size <= XRCE_OBJECT_PREFIX || (xrce_flags_of(submessage) & XRCE_READ_FORMATS) != 0u) {
+    ++client->session.statistics.malformed;
+    return;
+  }
+  object = xrce_get_be16(&payload[2]);
+  sample.data = &payload[XRCE_OBJECT_PREFIX];
+  sample.arrived_ms = now;
+  sample.size = (uint16_t)(size - XRCE_OBJECT_PREFIX);
+  sample.big_endian = (xrce_flags_of(submessage) & XRCE_FLAG_LITTLE_ENDIAN) == 0u;
+  for (uint16_t i = 0; i < line->reader_count; ++i) {
+    if (xrce_object_id(line->readers[i].topic, XRCE_KIND_DATAWRITER) == object) {
+      in_store(client, line->readers[i].endpoint, &sample);
+    }
+  }
+}
+
+static void in_heartbeat(xrce_client_t * client, uint8_t index, const uint8_t * submessage, size_t size)
+{
+  const uint8_t * payload = xrce_payload_of(submessage);
+  xrce_peer_t * peer = &client->peers[index];
+  uint16_t ahead;
+  uint16_t known;
+
+  if (size < XRCE_HEARTBEAT_SIZE || payload[4] != XRCE_STREAM_RELIABLE) {
+    ++client->session.statistics.malformed;
+    return;
+  }
+  ahead = (uint16_t)(xrce_get_u16(&payload[0], xrce_flags_of(submessage)) - peer->next);
+  if (ahead != 0u && ahead < HALF) {
+    /* the other board has forgotten what is missing here */
+    in_send_reset(client, index, xrce_peer_other(peer, &xrce_peer_lines[index]));
+    return;
+  }
+  known = (uint16_t)(xrce_get_u16(&payload[2], xrce_flags_of(submessage)) - peer->next + 1u);
+  in_acknowledge(client, index, known < HALF ? known : 0u);
+}
+
+/* Takes the submessages of a message, in order. */
+static void in_deliver(
+  xrce_client_t * client, uint8_t index, const uint8_t * message, size_t size, uint32_t now)
+{
+  size_t at = XRCE_MESSAGE_HEADER;
+
+  while (at < size) {
+    const uint8_t * submessage = &message[at];
+    const size_t length = xrce_get_le16(&submessage[2]);
+
+    if (submessage[0] == XRCE_WRITE_DATA) {
+      in_write_data(client, index, submessage, length, now);
+    } else if (submessage[0] == XRCE_HEARTBEAT) {
+      in_heartbeat(client, index, submessage, length);
+    } else {
+      ++client->session.statistics.malformed;
+    }
+    at = (at + XRCE_SUBMESSAGE_HEADER + length + 3u) & ~(size_t)3u;
+  }
+}
+
+static void in_take_reliable(
+  xrce_client_t * client, uint8_t index, const uint8_t * message, size_t size, uint32_t now)
+{
+  xrce_peer_t * peer = &client->peers[index];
+  const uint16_t ahead = (uint16_t)(xrce_get_le16(&message[2]) - peer->next);
+
+  if (ahead == 0u) {
+    ++peer->next;
+    in_deliver(client, index, message, size, now);
+  }
+  if (ahead < WINDOW) {
+    in_acknowledge(
+      client, index, ahead != 0u ? (uint16_t)(ahead + 1u) : 0u); /* only the next one is stored */
+  } else if (ahead < HALF) {
+    in_send_reset(client, index, message[0]);
+  } else {
+    in_acknowledge(client, index, 0);
+  }
+}
+
+void xrce_peer_in_take(
+  xrce_client_t * client, uint8_t index, const uint8_t * message, size_t size, uint32_t now)
+{
+  xrce_peer_t * peer = &client->peers[index];
+  const uint16_t number = xrce_get_le16(&message[2]);
+
+  if (peer->other_key == 0u || message[0] != xrce_peer_other(peer, &xrce_peer_lines[index])) {
+    in_send_reset(client, index, message[0]);
+    return;
+  }
+  peer->received = true;
+  if (message[1] == XRCE_STREAM_RELIABLE) {
+    in_take_reliable(client, index, message, size, now);
+  } else if (message[1] == XRCE_STREAM_NONE) {
+    in_deliver(client, index, message, size, now);
+  } else if (message[1] == XRCE_STREAM_BEST_EFFORT) {
+    if ((uint16_t)(number - peer->newest - 1u) < (uint16_t)HALF - 1u) {
+      peer->newest = number;
+      in_deliver(client, index, message, size, now);
+    }
+  } else {
+    ++client->session.statistics.malformed;
+  }
+}

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/xrce_peer.h"
+
+#include <string.h>
+
+bool xrce_peer_open(xrce_transport_t * transport, const xrce_peer_line_t * line)
+{
+  (void)memset(transport, 0, sizeof(*transport));
+  transport->device = line->remote;
+  return xrce_transport_open(transport);
+}

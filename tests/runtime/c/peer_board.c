@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * A board of tests/runtime/test_peer.py: publishes /OWN/best and /OWN/sure, subscribes to /OTHER/best and /OTHER/sure.
+ * Takes commands by lines, and answers each with lines and `ret CODE ERROR`:
+ *   publish TOPIC VALUE    TOPIC 0: best, 1: sure
+ *   spin MS                prints `got TOPIC VALUE` for each message
+ *   end
+ * The first argument is what port_time_ms starts with. */
+#define _POSIX_C_SOURCE 200809L
+#include <rcl/error_handling.h>
+#include <rcl/rcl.h>
+#include <rclc/executor.h>
+#include <rclc/rclc.h>
+#include <std_msgs/msg/int32.h>
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "microros/port.h"
+
+enum { TOPICS = 2, LINE = 80 };
+
+static const char * const out_names[TOPICS] = {"/" OWN "/best", "/" OWN "/sure"};
+static const char * const in_names[TOPICS] = {"/" OTHER "/best", "/" OTHER "/sure"};
+static uint32_t offset_ms;
+
+/* Instead of port_posix_time.c. */
+uint32_t port_time_ms(void)
+{
+  struct timespec now = {0, 0};
+
+  (void)clock_gettime(CLOCK_MONOTONIC, &now);
+  return offset_ms + (uint32_t)((uint64_t)now.tv_sec * 1000u + (uint64_t)now.tv_nsec / 1000000u);
+}
+
+int64_t port_time_epoch_ns(void)
+{
+  return 0;
+}
+
+void port_sleep_ms(uint32_t duration_ms)
+{
+  struct timespec left = {0, (long)duration_ms * 1000000L};
+
+  while (nanosleep(&left, &left) != 0 && errno == EINTR) {
+  }
+}
+
+static void hear(const void * message, void * context)
+{
+  (void)printf("got %s %d\n", (const char *)context, (int)((const std_msgs__msg__Int32 *)message)->data);
+}
+
+static int answer(rcl_ret_t code)
+{
+  (void)printf("ret %d %s\n", (int)code, code == RCL_RET_OK ? "" : rcl_get_error_string().str);
+  rcl_reset_error();
+  return fflush(stdout);
+}
+
+static void spin(rclc_executor_t * executor, uint32_t duration_ms)
+{
+  const uint32_t start = port_time_ms();
+
+  do {
+    (void)rclc_executor_spin_some(executor, RCL_MS_TO_NS(1));
+  } while (port_time_ms() - start < duration_ms);
+}
+
+int main(int argc, char ** argv)
+{
+  static char topics[TOPICS][2] = {"0", "1"};
+  rcl_allocator_t allocator = rcl_get_default_allocator();
+  const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
+  rclc_support_t support;
+  rcl_node_t node = rcl_get_zero_initialized_node();
+  rcl_publisher_t publishers[TOPICS];
+  rcl_subscription_t subscriptions[TOPICS];
+  std_msgs__msg__Int32 heard[TOPICS];
+  rclc_executor_t executor = rclc_executor_get_zero_initialized_executor();
+  char line[LINE];
+  unsigned topic;
+  int value;
+
+  if (argc > 1) {
+    offset_ms = (uint32_t)strtoul(argv[1], NULL, 0) - port_time_ms();
+  }
+  if (
+    rclc_support_init(&support, 0, NULL, &allocator) != RCL_RET_OK ||
+    rclc_node_init_default(&node, "board", "", &support) != RCL_RET_OK ||
+    rclc_executor_init(&executor, &support.context, TOPICS, &allocator) != RCL_RET_OK) {
+    return 2;
+  }
+  for (size_t i = 0; i < (size_t)TOPICS; ++i) {
+    if (
+      (i == 0 ? rclc_publisher_init_best_effort(&publishers[i], &node, type, out_names[i])
+              : rclc_publisher_init_default(&publishers[i], &node, type, out_names[i])) != RCL_RET_OK ||
+      (i == 0 ? rclc_subscription_init_best_effort(&subscriptions[i], &node, type, in_names[i])
+              : rclc_subscription_init_default(&subscriptions[i], &node, type, in_names[i])) != RCL_RET_OK ||
+      rclc_executor_add_subscription_with_context(
+        &executor, &subscriptions[i], &heard[i], hear, topics[i], ON_NEW_DATA) != RCL_RET_OK) {
+      (void)fprintf(stderr, "%s\n", rcl_get_error_string().str);
+      return 3;
+    }
+  }
+  while (fgets(line, sizeof(line), stdin) != NULL) {
+    rcl_ret_t code = RCL_RET_OK;
+
+    if (sscanf(line, "publish %u %d", &topic, &value) == 2 && topic < TOPICS) {
+      const std_msgs__msg__Int32 message = {.data = value};
+
+      code = rcl_publish(&publishers[topic], &message, NULL);
+    } else if (sscanf(line, "spin %d", &value) == 1) {
+      spin(&executor, (uint32_t)value);
+    } else if (strcmp(line, "end\n") == 0) {
+      break;
+    } else {
+      return 4;
+    }
+    if (answer(code) != 0) {
+      return 5;
+    }
+  }
+  for (size_t i = 0; i < (size_t)TOPICS; ++i) {
+    if (
+      rcl_publisher_fini(&publishers[i], &node) != RCL_RET_OK ||
+      rcl_subscription_fini(&subscriptions[i], &node) != RCL_RET_OK) {
+      return 6;
+    }
+  }
+  if (
+    rclc_executor_fini(&executor) != RCL_RET_OK || rcl_node_fini(&node) != RCL_RET_OK ||
+    rclc_support_fini(&support) != RCL_RET_OK) {
+    return 7;
+  }
+  return answer(RCL_RET_OK);
+}

@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Two boards of one system as processes, and a relay of datagrams between them that decodes, loses and repeats."""
+
+from __future__ import annotations
+
+import random
+import select
+import socket
+import subprocess
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+from microros_gen.agent.wire.message import header_size, split
+from microros_gen.agent.wire.submessages import decode
+from tests.support.components.rendered import program_of, rendered
+from tests.support.e2e.commanded import CommandedProgram
+
+HOST = "127.0.0.1"
+APPLICATION = """\
+version: 1
+profiles: [pure_sender, pure_reader]
+system: {file: ../system.yaml, board: OWN}
+session: {round_trip: 20 ms, heartbeat: 10 ms}
+nodes:
+  - name: board
+    publishers:
+      - {topic: /OWN/best, type: std_msgs/msg/Int32, peer: only, qos: {reliability: best_effort}}
+      - {topic: /OWN/sure, type: std_msgs/msg/Int32, peer: only}
+    subscriptions:
+      - topic: /OTHER/best
+        type: std_msgs/msg/Int32
+        peer: only
+        queue: 40
+        qos: {reliability: best_effort}
+      - {topic: /OTHER/sure, type: std_msgs/msg/Int32, peer: only, queue: 40}
+"""
+PAIR = ("a", "b")
+
+Fate = Callable[[bytes], Sequence[bytes]]
+"""What becomes of a datagram: those that arrive instead of it, in order."""
+
+
+def system(first: str, second: str, kind: str = "udp") -> str:
+    """Return a system file of the boards a and b, with the ends of their link."""
+    return f"""\
+version: 1
+boards:
+  a: {{application: a/microros.yaml}}
+  b: {{application: b/microros.yaml}}
+links:
+  - {{type: {kind}, ends: {{a: "{first}", b: "{second}"}}}}
+"""
+
+
+def application(own: str, text: str = APPLICATION) -> str:
+    """Return the application of board a or b."""
+    other = PAIR[1 - PAIR.index(own)]
+    return text.replace("OWN", own).replace("OTHER", other)
+
+
+def written(folder: Path, system_text: str, text: str = APPLICATION) -> Path:
+    """Write a system and the applications of its two boards; return the folder."""
+    for own in PAIR:
+        (folder / own).mkdir(parents=True, exist_ok=True)
+        (folder / own / "microros.yaml").write_text(application(own, text))
+    (folder / "system.yaml").write_text(system_text)
+    return folder
+
+
+def board_program(folder: Path, own: str, system_text: str, text: str = APPLICATION) -> Path:
+    """Build the program of a board, with a separate system file: the relay is the other end of its link."""
+    home = written(folder / f"of_{own}", system_text, text)
+    out = rendered(home / own, application(own, text))
+    flags = (f'-DOWN="{own}"', f'-DOTHER="{PAIR[1 - PAIR.index(own)]}"')
+    return program_of(out, "peer_board.c", without=("port_posix_time.c",), more=flags)
+
+
+class Board(CommandedProgram):
+    """A process that is a board; `values` has what it received, by topic."""
+
+    def __init__(self, program: Path, clock: int = 0) -> None:
+        self.process = subprocess.Popen(
+            [str(program), str(clock)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        )
+        super().__init__(self.process)
+        self.values: tuple[list[int], list[int]] = ([], [])
+
+    def spin(self, milliseconds: int = 2) -> None:
+        """Let it run."""
+        _, _, lines = self.call(f"spin {milliseconds}")
+        for line in lines:
+            _, topic, value = line.split()
+            self.values[int(topic)].append(int(value))
+
+    def publish(self, topic: int, value: int) -> str:
+        """Publish; return the error text, empty for none."""
+        code, error, _ = self.call(f"publish {topic} {value}")
+        assert bool(code) == bool(error)
+        return error
+
+    def end(self) -> None:
+        """End it in order."""
+        assert self.call("end")[0] == 0
+        assert self.process.wait(10) == 0
+
+    def kill(self) -> None:
+        """End it as if it lost its supply."""
+        self.process.kill()
+        self.process.communicate()
+
+
+class Relay:
+    """Passes datagrams between two ports and their boards.
+
+    `seen` has sender, session id and decoded form of each submessage. `fate` decides what becomes of a datagram; by
+    default it arrives.
+    """
+
+    def __init__(self) -> None:
+        self._sockets = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in PAIR]
+        for end in self._sockets:
+            end.bind((HOST, 0))
+        self.ports = [int(end.getsockname()[1]) for end in self._sockets]
+        self._boards: list[tuple[str, int] | None] = [None, None]
+        self.seen: list[tuple[int, int, object]] = []
+        self.faults: list[str] = []
+        self.fate: Fate = lambda data: (data,)
+        self._ends = threading.Event()
+        self._thread = threading.Thread(target=self._serve, daemon=True)
+
+    def __enter__(self) -> Relay:
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._ends.set()
+        self._thread.join(10)
+        for end in self._sockets:
+            end.close()
+
+    def of(self, name: str) -> list[tuple[int, int]]:
+        """Return sender and session id of the submessages of a kind: `Heartbeat`."""
+        return [(sender, session) for sender, session, sub in self.seen if type(sub).__name__ == name]
+
+    def _serve(self) -> None:
+        while not self._ends.is_set():
+            for ready in select.select(self._sockets, [], [], 0.02)[0]:
+                sender = self._sockets.index(ready)
+                data, self._boards[sender] = ready.recvfrom(65536)
+                self._note(sender, data)
+                target = self._boards[1 - sender]
+                for passed in self.fate(data) if target else ():
+                    self._sockets[1 - sender].sendto(passed, target or ("", 0))
+
+    def _note(self, sender: int, data: bytes) -> None:
+        try:
+            found = [decode(*span[:2], data, *span[2:]) for span in split(data, header_size(data))]
+            self.seen += [(sender, data[0], submessage) for submessage in found]
+        except Exception as fault:  # a thread: the test reports it
+            self.faults.append(f"{data.hex()}: {fault!r}")
+
+
+def unreliable(seed: int) -> Fate:
+    """Return a network that loses, repeats and reorders datagrams: one in eight each."""
+    chance = random.Random(seed)
+    late: list[bytes] = []
+
+    def fate(data: bytes) -> Sequence[bytes]:
+        what = chance.randrange(8)
+        kept, late[:] = list(late), []
+        if what == 0:
+            return kept
+        if what == 1:
+            return (data, data, *kept)
+        if what == 2:
+            late.append(data)
+            return kept
+        return (data, *kept)
+
+    return fate
+
+
+@contextmanager
+def started(program: Path, clock: int = 0) -> Iterator[Board]:
+    """Start a board; end it afterwards, whatever happened."""
+    board = Board(program, clock)
+    try:
+        yield board
+    finally:
+        if board.process.poll() is None:
+            board.kill()
