@@ -7,17 +7,19 @@ from pathlib import Path
 
 from tests.bench.images import PROCESSORS
 from tests.support.firmware.board import Builds
-from tests.support.firmware.local import way
+from tests.support.firmware.local import MESSAGES, TRANSPORTS, way
 
 
 def bench_local(folder: Path) -> None:
-    """Print one line for each processor."""
+    """Print one line for each processor, message and transport."""
     builds = Builds(folder)
-    print("local: instructions of publish and take of an Int32, inside the image; over the agent; ratio")
+    print("local: instructions of publish and of the executor up to the callback; over the agent; ratio")
     for board, processor in PROCESSORS.items():
-        local, agent = way(builds, board, True), way(builds, board, False)
-        print(
-            f"  {processor:12} {local.publish:4} + {local.take:4}; {agent.publish:5} + {agent.take:5}; "
-            f"{local.whole / agent.whole:.2f}"
-        )
+        for message in MESSAGES:
+            for transport in TRANSPORTS:
+                local, agent = (way(builds, board, where, message, transport) for where in (True, False))
+                print(
+                    f"  {processor:12} {message:6} {transport:7} {local.publish:4} + {local.spin:4}; "
+                    f"{agent.publish:5} + {agent.spin:5}; {local.whole / agent.whole:.3f}"
+                )
     print()

@@ -35,18 +35,18 @@ def copy_lines(roots: Iterable[TypeName], messages: Messages) -> tuple[str, ...]
     return tuple(line for lines in done.values() for line in lines)
 
 
-def copy_body(name: TypeName, messages: Messages) -> tuple[str, ...]:
-    """Return the statements that copy `from` to `to`, pointers to void, and return whether there was room."""
-    type_ = c_name(name)
+def put_body(name: TypeName, messages: Messages, slot: str) -> tuple[str, ...]:
+    """Return the statements that copy `message`, a pointer to void, to a slot, and return whether there was room."""
     if not is_fixed(messages[name], messages):
-        return (f"  return {_function(name)}(from, to);",)
-    return (
-        f"  const {type_} * source = from;",
-        f"  {type_} * target = to;",
-        "",
-        "  *target = *source;",
-        "  return true;",
-    )
+        return (f"  return {_function(name)}(message, &{slot});",)
+    return (f"  const {c_name(name)} * from = message;", "", f"  {slot} = *from;", "  return true;")
+
+
+def get_body(name: TypeName, messages: Messages, slot: str) -> tuple[str, ...]:
+    """Return the statements that copy a slot to `message`, a pointer to void, and return whether there was room."""
+    if not is_fixed(messages[name], messages):
+        return (f"  return {_function(name)}(&{slot}, message);",)
+    return (f"  {c_name(name)} * to = message;", "", f"  *to = {slot};", "  return true;")
 
 
 def _function(name: TypeName) -> str:

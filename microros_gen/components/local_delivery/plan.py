@@ -10,11 +10,12 @@ from microros_gen.client.plan.declared import declarations, full_name, type_name
 from microros_gen.client.plan.features import PlanContext
 from microros_gen.components.agentless.plan import in_c, is_alone
 from microros_gen.components.local_delivery.check import MOST_SLOTS, check_topics
-from microros_gen.components.local_delivery.copies import copy_body, copy_lines
+from microros_gen.components.local_delivery.copies import copy_lines, get_body, put_body
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.names import include_path
+from microros_gen.typesupport.plan.size import is_fixed
 from microros_gen.typesupport.plan.types import TypePlan
 
 _NONE = "RMW_LOCAL_NONE"
@@ -24,7 +25,8 @@ _NONE = "RMW_LOCAL_NONE"
 class LocalQueue:
     """The queue of a subscription: `slots` messages, `only` (as C writes it) those of the image.
 
-    `storage` begins the names of that of its type; empty: it needs none. `copy`: how a message is copied, as C.
+    `storage` begins the names of that of its type; empty: it needs none. `put` and `get`: how a
+    message is copied to a slot and from it, as C.
     """
 
     index: int
@@ -34,7 +36,8 @@ class LocalQueue:
     c_type: str
     slots: int
     storage: str
-    copy: tuple[str, ...]
+    put: tuple[str, ...]
+    get: tuple[str, ...]
     only: str
 
     @property
@@ -62,26 +65,46 @@ class LocalQueue:
 
 @dataclass(frozen=True)
 class LocalRoute:
-    """Where the messages of a publisher go: to `queues`, and to the agent unless `only`."""
+    """Where the messages of a publisher go: to `queues`, and to the agent unless `only`.
+
+    `checks`: its messages can be above their limits.
+    """
 
     index: int
     queues: tuple[int, ...]
     only: bool
+    checks: bool
 
     @property
-    def queue_lines(self) -> tuple[str, ...]:
-        """The list of queues as lines of C."""
+    def lines(self) -> tuple[str, ...]:
+        """The list of queues and the function that delivers to them, as lines of C."""
         if not self.queues:
             return ()
         queues = ", ".join(map(str, self.queues))
-        return ("", f"static const uint8_t local_route_{self.index}[] = {{{queues}}};")
+        return (
+            "",
+            f"static const uint8_t local_route_{self.index}[] = {{{queues}}};",
+            "",
+            f"static void local_deliver_{self.index}(xrce_client_t * client, const void * message)",
+            "{",
+            "  const uint32_t now = port_time_ms();",
+            "",
+            *(
+                f"  rmw_local_deliver(client, &rmw_local_queues[{i}], &rmw_local_states[{i}], message, now);"
+                for i in self.queues
+            ),
+            "}",
+        )
 
     @property
     def entry(self) -> str:
         """The entry of the table of routes."""
         if not self.queues:
-            return "{NULL, 0, false}"
-        return f"{{local_route_{self.index}, {len(self.queues)}, {in_c(self.only)}}}"
+            return "{NULL, NULL, 0, false, false}"
+        i = self.index
+        return (
+            f"{{local_deliver_{i}, local_route_{i}, {len(self.queues)}, {in_c(self.only)}, {in_c(self.checks)}}}"
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -148,7 +171,8 @@ def _queues(application: Application, types: Mapping[TypeName, TypePlan]) -> Ite
         storage = types[name].storage_name(topic) if types[name].storage else ""
         yield LocalQueue(
             *(index, subscription, topic, name, types[name].c_name, slots_of(endpoint), storage),
-            copy_body(name, messages),
+            put_body(name, messages, f"local_messages_{index}[index]"),
+            get_body(name, messages, f"local_messages_{index}[index]"),
             in_c(endpoint.local == "only"),
         )
         index += 1
@@ -160,6 +184,7 @@ def _key(node: NodeDecl, endpoint: EndpointDecl) -> tuple[int, str]:
 
 def _routes(context: PlanContext, queues: tuple[LocalQueue, ...]) -> Iterable[LocalRoute]:
     readers = declarations(context.application, "subscription")
+    messages = {name: known.message for name, known in context.types.items()}
     by_topic: dict[tuple[int, str], list[int]] = {}
     for queue in queues:
         _, node, endpoint = readers[queue.subscription]
@@ -167,9 +192,10 @@ def _routes(context: PlanContext, queues: tuple[LocalQueue, ...]) -> Iterable[Lo
     index = 0
     for index, (_, node, endpoint) in enumerate(declarations(context.application, "publisher"), 1):
         found = tuple(by_topic.get(_key(node, endpoint), ())) if endpoint.local != "never" else ()
-        yield LocalRoute(index - 1, found, endpoint.local == "only")
+        checks = not is_fixed(messages[type_name(endpoint.type)], messages)
+        yield LocalRoute(index - 1, found, endpoint.local == "only", checks)
     for other in range(index, context.runtime.entities.publisher_places):
-        yield LocalRoute(other, (), False)
+        yield LocalRoute(other, (), False, False)
 
 
 def _headers(type_: TypePlan) -> Iterable[str]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Instructions of a message from a publisher to a subscription of the same image, and of the way over the agent."""
+"""Instructions of a message from a publisher to a callback of the same image, and of the way over the agent."""
 
 from __future__ import annotations
 
@@ -12,40 +12,54 @@ from tests.support.firmware.instructions import trace_regions
 APPLICATION = """\
 version: 1
 profiles: [pure_sender, pure_reader]
+components: [+executor]
 errors: code
-transport: {type: udp}
+transport: {type: TRANSPORT}
 session: {connect_timeout: 20 s, create_timeout: 20 s, liveliness_timeout: 20 s}
 nodes:
   - name: device
-    publishers: [{topic: count, type: std_msgs/msg/Int32, local: WHERE}]
-    subscriptions: [{topic: count, type: std_msgs/msg/Int32, local: WHERE}]
+    publishers: [{topic: count, type: TYPE, local: WHERE}]
+    subscriptions: [{topic: count, type: TYPE, local: WHERE}]
 """
-_STEPS = 3
-"""Regions of c/measured_local.c for each message: publish, the agent, take."""
+MESSAGES = {"Int32": ("std_msgs/msg/Int32", ()), "Pose": ("geometry_msgs/msg/Pose", ("-DMEASURED_POSE",))}
+TRANSPORTS = {"udp": (), "serial": ("-DMEASURED_LINE",)}
+_LINE = (
+    *("line_take", "line_stuff", "line_crc", "line_frame", "port_serial_open", "port_serial_close"),
+    *("port_serial_room", "port_serial_write", "port_serial_send_kept", "port_serial_break_off"),
+    *("port_serial_has_kept", "port_serial_is_idle", "port_serial_read", "port_bare_serial_arrived"),
+)
+"""Functions of c/measured_serial.h: the work of the driver and of the agent does not count."""
+_STEPS = 4
+"""Regions of c/measured_local.c for each message: what is around, publish, the agent, the executor."""
+_BEFORE = 2
+"""Regions before the first publish call: an empty one, and what is around."""
 
 
 @dataclass(frozen=True)
 class Way:
-    """Instructions of a publish call, and of the take call that returns the message."""
+    """Instructions of a publish call, and of the executor's from its beginning to the callback."""
 
     publish: int
-    take: int
+    spin: int
 
     @property
     def whole(self) -> int:
-        """Both calls together."""
-        return self.publish + self.take
+        """Both together."""
+        return self.publish + self.spin
 
 
-def way(builds: Builds, name: str, local: bool) -> Way:
-    """Count the second message on a board: `local`, or over the agent of c/measured.h, whose work does not count."""
+def way(builds: Builds, name: str, local: bool, message: str = "Int32", transport: str = "udp") -> Way:
+    """Count the second message on a board: `local`, or over the agent, whose work does not count."""
+    type_, flags = MESSAGES[message]
     text = APPLICATION.replace("WHERE", "only" if local else "never")
-    flags = () if local else ("-DMEASURED_AGENT",)
+    text = text.replace("TYPE", type_).replace("TRANSPORT", transport)
+    flags = (*flags, *TRANSPORTS[transport], *(() if local else ("-DMEASURED_AGENT",)))
     image = builds.application(builds.build(name, text), "measured_local.c", *flags)
     emulator = target(name).emulator
     assert emulator is not None
     command = [emulator.program, *emulator.arguments, *EXIT]
-    left_out = (*AGENT_FUNCTIONS, *INTERRUPTS, "agent_returns")
+    left_out = (*AGENT_FUNCTIONS, *INTERRUPTS, *_LINE, "agent_returns")
     empty, *steps = (region.counted for region in trace_regions(command, image, left_out))
-    assert len(steps) >= 2 * _STEPS, "the program ended early"
-    return Way(steps[_STEPS] - empty, steps[_STEPS + 2] - empty)
+    second = _BEFORE - 1 + _STEPS
+    assert len(steps) > second + 2, "the program ended early"
+    return Way(steps[second] - empty, steps[second + 2] - empty)

@@ -1,12 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/lock.h"
+#include "microros/port.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_client_wait.h"
+#include "microros/xrce_client.h"
+#include "microros/xrce_local_fresh.h"
 #include "microros/xrce_session.h"
 
+/* Not twice in a millisecond while a message of the image waits, which needs no pump. */
 void rmw_client_pump(void)
 {
+  xrce_client_t * client = rmw_client_instance();
+
   microros_lock();
-  xrce_session_pump(rmw_client_instance());
+  if (!(xrce_local_take_fresh() && client->session.now_ms == port_time_ms())) {
+    xrce_session_pump(client);
+  }
   microros_unlock();
 }

@@ -21,9 +21,9 @@ enum { LOCAL_NS_PER_MS = 1000000 };
 
 bool rmw_local_is_ready(const xrce_endpoint_t * reader)
 {
-  const uint8_t queue = rmw_local_queue_of[reader->index - MICROROS_PUBLISHERS_MAX];
+  const uint8_t index = rmw_local_queue_of[reader->index - MICROROS_PUBLISHERS_MAX];
 
-  return queue != (uint8_t)RMW_LOCAL_NONE && rmw_local_states[queue].count != 0u;
+  return index != (uint8_t)RMW_LOCAL_NONE && rmw_local_states[index].count != 0u;
 }
 
 bool rmw_local_may_wait(const xrce_endpoint_t * reader)
@@ -31,38 +31,44 @@ bool rmw_local_may_wait(const xrce_endpoint_t * reader)
   return rmw_local_is_ready(reader) && reader->client->session.now_ms == port_time_ms();
 }
 
-/* Returns the queue whose oldest message is the reader's oldest; NULL: nothing waits there, or one of the agent is older. */
-static const rmw_local_queue_t * local_oldest(const xrce_endpoint_t * reader, rmw_local_state_t ** state)
+/* Returns whether a sample of the agent is older than the oldest message of a queue. */
+static bool local_agent_first(
+  const xrce_endpoint_t * reader, const rmw_local_queue_t * queue, const rmw_local_state_t * state)
 {
-  const uint8_t index = rmw_local_queue_of[reader->index - MICROROS_PUBLISHERS_MAX];
-  const rmw_local_queue_t * queue;
   xrce_sample_t sample;
 
+  return xrce_read_peek(reader, &sample) && !xrce_is_due(sample.arrived_ms, queue->published_ms[state->head]);
+}
+
+/* Returns the index of the queue whose oldest message is the reader's oldest; RMW_LOCAL_NONE: nothing waits there, or one
+ * of the agent is older. */
+static uint8_t local_oldest(const xrce_endpoint_t * reader)
+{
+  const uint8_t index = rmw_local_queue_of[reader->index - MICROROS_PUBLISHERS_MAX];
+
   if (index == (uint8_t)RMW_LOCAL_NONE || rmw_local_states[index].count == 0u) {
-    return NULL;
+    return RMW_LOCAL_NONE;
   }
-  queue = &rmw_local_queues[index];
-  *state = &rmw_local_states[index];
   if (
-    !queue->only && xrce_read_peek(reader, &sample) &&
-    !xrce_is_due(sample.arrived_ms, queue->published_ms[(*state)->head])) {
-    return NULL;
+    !rmw_local_queues[index].only &&
+    local_agent_first(reader, &rmw_local_queues[index], &rmw_local_states[index])) {
+    return RMW_LOCAL_NONE;
   }
-  return queue;
+  return index;
 }
 
 bool rmw_local_describe(const xrce_endpoint_t * reader, rmw_message_info_t * info)
 {
-  rmw_local_state_t * state;
-  const rmw_local_queue_t * queue = local_oldest(reader, &state);
+  const uint8_t index = local_oldest(reader);
   int64_t epoch_ns;
 
-  if (queue == NULL) {
+  if (index == (uint8_t)RMW_LOCAL_NONE) {
     return false;
   }
   epoch_ns = port_time_epoch_ns();
   if (epoch_ns != 0) { /* otherwise the time of day has not been set yet */
-    const uint32_t age_ms = port_time_ms() - queue->published_ms[state->head];
+    const uint32_t age_ms =
+      port_time_ms() - rmw_local_queues[index].published_ms[rmw_local_states[index].head];
 
     epoch_ns -= (int64_t)age_ms * LOCAL_NS_PER_MS;
   }
@@ -77,14 +83,17 @@ bool rmw_local_describe(const xrce_endpoint_t * reader, rmw_message_info_t * inf
 
 bool rmw_local_take(const xrce_endpoint_t * reader, void * message, rmw_ret_t * result)
 {
+  const uint8_t index = local_oldest(reader);
+  const rmw_local_queue_t * queue;
   rmw_local_state_t * state;
-  const rmw_local_queue_t * queue = local_oldest(reader, &state);
 
-  if (queue == NULL) {
+  if (index == (uint8_t)RMW_LOCAL_NONE) {
     return false;
   }
+  queue = &rmw_local_queues[index];
+  state = &rmw_local_states[index];
   *result = RMW_RET_OK;
-  if (!queue->copy(queue->slot(state->head), message)) {
+  if (!queue->get(state->head, message)) {
     *result = microros_error_named(RMW_RET_ERROR, microros_error_local_capacity, reader->name);
   }
   rmw_local_pop(queue, state);
@@ -114,12 +123,15 @@ static rmw_ret_t local_serialize(
 bool rmw_local_take_serialized(
   const xrce_endpoint_t * reader, rmw_serialized_message_t * serialized_message, rmw_ret_t * result)
 {
+  const uint8_t index = local_oldest(reader);
+  const rmw_local_queue_t * queue;
   rmw_local_state_t * state;
-  const rmw_local_queue_t * queue = local_oldest(reader, &state);
 
-  if (queue == NULL) {
+  if (index == (uint8_t)RMW_LOCAL_NONE) {
     return false;
   }
+  queue = &rmw_local_queues[index];
+  state = &rmw_local_states[index];
   *result = local_serialize(reader, queue->slot(state->head), serialized_message);
   if (*result != RMW_RET_BAD_ALLOC) {
     rmw_local_pop(queue, state);

@@ -20,8 +20,10 @@ enum { RMW_LOCAL_NONE = 0xff };
 
 /* The queue of a subscription, from the plan. */
 typedef struct rmw_local_queue_t {
-  void * (*slot)(uint8_t index);              /* the message of a slot */
-  bool (*copy)(const void * from, void * to); /* false: `to` has too little memory */
+  void * (*slot)(uint8_t index); /* the message of a slot */
+  bool (*put)(
+    uint8_t index, const void * message);     /* copies it to a slot; false: that has too little memory */
+  bool (*get)(uint8_t index, void * message); /* copies a slot to it; false: it has too little memory */
   void (*bind)(void);                         /* gives each slot its storage; NULL: the type needs none */
   uint32_t * published_ms;                    /* one for each slot, port_time_ms() */
   uint16_t subscription;                      /* its index among the subscriptions */
@@ -31,9 +33,11 @@ typedef struct rmw_local_queue_t {
 
 /* Where the messages of a publisher go, from the plan. */
 typedef struct rmw_local_route_t {
+  void (*deliver)(xrce_client_t * client, const void * message); /* a checked one; NULL: to the agent alone */
   const uint8_t * queues;
-  uint8_t count; /* 0: to the agent alone */
-  bool only;     /* not to the agent */
+  uint8_t count;
+  bool only;   /* not to the agent */
+  bool checks; /* its messages can be above their limits */
 } rmw_local_route_t;
 
 /* Messages of a queue that wait. Zero-initialized: none. */
