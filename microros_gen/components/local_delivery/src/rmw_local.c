@@ -10,6 +10,7 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_drops.h"
 #include "microros/xrce_gate.h"
+#include "microros/xrce_local_fresh.h"
 
 #include <stddef.h>
 
