@@ -109,8 +109,8 @@ class GraphServer(Serving):
     def _gave(self, request: Value) -> bool:
         """Return whether a list begins, or began with a page of this server."""
         version: int = request["version"]
-        mine = (version - self._first) % _VERSIONS <= (self._version - self._first) % _VERSIONS
-        return version == 0 or mine
+        own = (version - self._first) % _VERSIONS <= (self._version - self._first) % _VERSIONS
+        return version == 0 or own
 
     def _changed(self) -> None:
         self._version = (self._version + 1) % _VERSIONS or 1

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* A call of rcl_action, which asks for the goals that rclc keeps. */
 #include "microros/error.h"
 #include "microros/lock.h"
 #include "microros/rclc_action_server.h"
