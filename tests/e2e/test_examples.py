@@ -205,6 +205,21 @@ def test_services(examples: Examples, agent: AgentProcess, observer: Observer) -
     assert sorted(client.log) == ["1 + 10 = 11", "2 + 20 = 22", "3 + 30 = 33"]
 
 
+def test_actions(examples: Examples, agent: AgentProcess) -> None:
+    """The client begins before there is a server, gets all of its feedback in order, and ends by itself."""
+    examples.build_all(["fibonacci_server", "fibonacci_client"])
+    found = [0, 1, 1, 2, 3, 5, 8, 13]
+    with examples.running("fibonacci_server") as (server,), examples.running("fibonacci_client") as (client,):
+        client.process.wait(timeout=seconds(30))
+        server.wait_for("ended with 8 numbers")
+    lines = [" ".join(map(str, found[: i + 1])) for i in range(len(found))]
+    first = client.log.index("accepted")
+    told = client.log[first + 1 :]
+    assert told[-1] == f"succeeded: {lines[-1]}"
+    assert set(told[:-1]) <= {f"feedback: {line}" for line in lines}
+    assert told[:-1] == sorted(told[:-1], key=len)
+
+
 def test_reconnection(
     tmp_path: Path, shared_agent: AgentProcess, observer: Observer, examples: Examples
 ) -> None:
