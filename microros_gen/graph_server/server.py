@@ -109,8 +109,8 @@ class GraphServer(Serving):
     def _gave(self, request: Value) -> bool:
         """Return whether a list begins, or began with a page of this server."""
         version: int = request["version"]
-        own = (version - self._first) % _VERSIONS <= (self._version - self._first) % _VERSIONS
-        return version == 0 or own
+        since, current = version - self._first, self._version - self._first
+        return version == 0 or since % _VERSIONS <= current % _VERSIONS
 
     def _changed(self) -> None:
         self._version = (self._version + 1) % _VERSIONS or 1

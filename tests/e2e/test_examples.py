@@ -214,10 +214,10 @@ def test_actions(examples: Examples, agent: AgentProcess) -> None:
         server.wait_for("ended with 8 numbers")
     lines = [" ".join(map(str, found[: i + 1])) for i in range(len(found))]
     first = client.log.index("accepted")
-    told = client.log[first + 1 :]
-    assert told[-1] == f"succeeded: {lines[-1]}"
-    assert set(told[:-1]) <= {f"feedback: {line}" for line in lines}
-    assert told[:-1] == sorted(told[:-1], key=len)
+    reported = client.log[first + 1 :]
+    assert reported[-1] == f"succeeded: {lines[-1]}"
+    assert set(reported[:-1]) <= {f"feedback: {line}" for line in lines}
+    assert reported[:-1] == sorted(reported[:-1], key=len)
 
 
 def test_reconnection(

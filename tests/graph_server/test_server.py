@@ -297,8 +297,8 @@ def test_of_two_servers_one_answers_those_that_know_it(peer: Peer) -> None:
     client = peer.client(STATUS_SERVICE, "microros_graph_msgs/srv/EndpointStatus")
     nobody = 1
 
-    def instance(wanted: int) -> int | None:
-        response = client.call({"topic": "/x", "node": "/y", "instance": wanted}, 0.5)
+    def instance(requested: int) -> int | None:
+        response = client.call({"topic": "/x", "node": "/y", "instance": requested}, 0.5)
         return None if response is None else response["instance"]
 
     with graph_server(int(os.environ["ROS_DOMAIN_ID"])) as other:

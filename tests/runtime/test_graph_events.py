@@ -192,9 +192,9 @@ def test_of_two_servers_the_first_one_is_asked_until_it_is_silent(device: Device
     device.agent.arrivals.__init__()  # type: ignore[misc]
     before = len(device.agent.requests)
     device.spin(3 * AGAIN_MS)
-    asked = [request for _, request in device.agent.requests[before:]]
-    assert all(request["instance"] == first and request["any_server"] for request in asked)
-    assert len(asked) == 2, "one for each event"
+    requests = [request for _, request in device.agent.requests[before:]]
+    assert all(request["instance"] == first and request["any_server"] for request in requests)
+    assert len(requests) == 2, "one for each event"
     device.change(1, 2, 3)
     last = [request for _, request in device.agent.requests[-2:]]
     assert [(request["instance"], request["any_server"]) for request in last] == [(first + 1, False)] * 2

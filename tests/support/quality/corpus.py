@@ -256,7 +256,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "components: [+action_server, +multithread]\nlimits: {'*': {string: 20}}\n",
         "action_client": _NODES.replace("    publishers:\n", "")
         + "    action_clients:\n      - {name: walk, type: tf2_msgs/action/LookupTransform, goals: 2}\n"
-        + "components: [+action_client, +graph, +multithread]\nmemory: {arena: 4096}\nlimits: {'*': {string: 20}}\n",
+        + "components: [+action_client, +graph, +multithread]\non_full: drop_oldest\nmemory: {arena: 4096}\nlimits: {'*': {string: 20}}\n",
         "diagnosis": _NODES.replace("    publishers:\n", "")
         + _MODES
         + "    timers: [{name: tick, period: 50 ms}]\ncomponents: [+timers, +executor, +diagnosis]\n"
