@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TypedDict
 
 from microros_gen.application.action_decl import ActionClientDecl, ActionDecl
 from microros_gen.application.names import expand_topic_name, expanded_fault, substitute, topic_fault
-from microros_gen.diagnostics import Diagnostics
+from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.documents.tree_values import child, int_of, items, report_name, span_of, text_of, time_of
 from microros_gen.documents.yaml_tree import YamlNode
 
@@ -23,13 +24,10 @@ def parse_actions(
     default = ActionDecl("", "")
     for item in items(tree):
         yield ActionDecl(
-            name=_name(item, node, namespace, diagnostics),
-            type=text_of(child(item, "type")) or "",
+            **_shared(item, node, namespace, diagnostics),
             goals=int_of(child(item, "goals")) or default.goals,
             result_timeout_ms=_timeout(item, "result_timeout", default.result_timeout_ms, diagnostics),
             waiting=int_of(child(item, "waiting")) or default.waiting,
-            span=item.span,
-            type_span=span_of(child(item, "type")),
         )
 
 
@@ -40,14 +38,30 @@ def parse_action_clients(
     default = ActionClientDecl("", "")
     for item in items(tree):
         yield ActionClientDecl(
-            name=_name(item, node, namespace, diagnostics),
-            type=text_of(child(item, "type")) or "",
+            **_shared(item, node, namespace, diagnostics),
             goals=int_of(child(item, "goals")) or default.goals,
             response_timeout_ms=_timeout(item, "response_timeout", default.response_timeout_ms, diagnostics),
             result_timeout_ms=_timeout(item, "result_timeout", default.result_timeout_ms, diagnostics),
-            span=item.span,
-            type_span=span_of(child(item, "type")),
         )
+
+
+class _Shared(TypedDict):
+    """What both declarations have."""
+
+    name: str
+    type: str
+    span: Span | None
+    type_span: Span | None
+
+
+def _shared(item: YamlNode, node: str, namespace: str, diagnostics: Diagnostics) -> _Shared:
+    kind = child(item, "type")
+    return {
+        "name": _name(item, node, namespace, diagnostics),
+        "type": text_of(kind) or "",
+        "span": item.span,
+        "type_span": span_of(kind),
+    }
 
 
 def _name(item: YamlNode, node: str, namespace: str, diagnostics: Diagnostics) -> str:

@@ -12,7 +12,7 @@ from microros_gen.application.action_decl import ActionClientDecl
 from microros_gen.application.model import Application, EndpointDecl, LimitRule, NodeDecl, Qos
 from microros_gen.client.plan.declared import full_name, type_name
 from microros_gen.client.plan.features import PlanContext, refuse_own_limits
-from microros_gen.components.actions.plan import place_of
+from microros_gen.components.actions.plan import ActionEnds, place_of
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.names import c_name
@@ -42,25 +42,15 @@ class ActionClient:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ActionClientPlan:
+class ActionClientPlan(ActionEnds):
     """The clients in the order of the file."""
 
     clients: tuple[ActionClient, ...]
 
     @property
-    def count(self) -> int:
-        """Return the number of clients."""
-        return len(self.clients)
-
-    @property
-    def goals(self) -> int:
-        """Return the number of goals of all clients."""
-        return sum(client.goals for client in self.clients)
-
-    @property
-    def shown(self) -> str:
-        """Return each action with its goals."""
-        return ", ".join(f"{client.name} ({client.goals} at once)" for client in self.clients)
+    def ends(self) -> tuple[ActionClient, ...]:
+        """Return the clients."""
+        return self.clients
 
 
 def endpoints(node: NodeDecl) -> Iterator[EndpointDecl]:

@@ -13,7 +13,7 @@ from microros_gen.application.model import Application, EndpointDecl, LimitRule,
 from microros_gen.client.plan.declared import full_name, type_name
 from microros_gen.client.plan.features import PlanContext, refuse_own_limits
 from microros_gen.client.plan.receiving import buffers_of
-from microros_gen.components.actions.plan import place_of
+from microros_gen.components.actions.plan import ActionEnds, place_of
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.dds_names import dds_type
 from microros_gen.interfaces.derived import derived_name
@@ -65,26 +65,16 @@ class ActionServer:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ActionServerPlan:
+class ActionServerPlan(ActionEnds):
     """`result_size`: bytes of the largest response with a result."""
 
     servers: tuple[ActionServer, ...]
     result_size: int
 
     @property
-    def count(self) -> int:
-        """Return the number of servers."""
-        return len(self.servers)
-
-    @property
-    def goals(self) -> int:
-        """Return the number of goals of all servers."""
-        return sum(server.goals for server in self.servers)
-
-    @property
-    def shown(self) -> str:
-        """Return each action with its goals."""
-        return ", ".join(f"{server.name} ({server.goals} at once)" for server in self.servers)
+    def ends(self) -> tuple[ActionServer, ...]:
+        """Return the servers."""
+        return self.servers
 
     @property
     def storage_headers(self) -> tuple[str, ...]:

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Protocol
+
 from microros_gen.application.kinds import NAMES
 from microros_gen.client.plan.declared import declarations, type_name
 from microros_gen.client.plan.features import PlanContext
@@ -23,6 +26,39 @@ class ActionType:
     dds_type: str
     send_goal: str
     get_result: str
+
+
+class ActionEnd(Protocol):
+    """A server or client of an action."""
+
+    @property
+    def name(self) -> str: ...  # noqa: D102
+    @property
+    def goals(self) -> int: ...  # noqa: D102
+
+
+class ActionEnds:
+    """What is counted of the servers, or of the clients, of a plan."""
+
+    @property
+    def ends(self) -> Sequence[ActionEnd]:
+        """Return them in the order of the file."""
+        raise NotImplementedError
+
+    @property
+    def count(self) -> int:
+        """Return their number."""
+        return len(self.ends)
+
+    @property
+    def goals(self) -> int:
+        """Return the number of goals of all of them."""
+        return sum(end.goals for end in self.ends)
+
+    @property
+    def shown(self) -> str:
+        """Return each action with its goals."""
+        return ", ".join(f"{end.name} ({end.goals} at once)" for end in self.ends)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,11 +3,10 @@
  * Callbacks that change their executor: one of each kind removes, ends or adds a handle of each kind that is its own, before
  * it or after it. All that is left has its turn once, and every request its reply.
  */
-#include "microros/message_type.h"
-#include "microros/service_type.h"
 #include "port_agent.h"
 #include "types.h"
 #include "unit.h"
+#include "unit_service.h"
 
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
@@ -44,11 +43,6 @@ static uint32_t calls[KINDS][ROLES];
 static uint32_t number; /* of the last request */
 static kind_t actor_kind;
 static void (*act)(void); /* what the actor's callback does, once */
-
-static microros_message_type_t request_type;
-static microros_message_type_t response_type;
-static const microros_service_type_t service_type = {"test::srv::dds_::Ask_", &request_type, &response_type};
-static const rosidl_service_type_support_t ask = {"microros", &service_type};
 
 static void called(kind_t kind, size_t role)
 {
@@ -576,12 +570,7 @@ static void test_a_copied_executor_keeps_and_frees_its_place(void)
 
 int main(void)
 {
-  const microros_message_type_t * int32 = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32)->data;
-
-  request_type = *int32;
-  request_type.dds_type_name = "test::srv::dds_::Ask_Request_";
-  response_type = *int32;
-  response_type.dds_type_name = "test::srv::dds_::Ask_Response_";
+  ask_begin();
   allocator = rcl_get_default_allocator();
   CHECK(rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK);
   CHECK(rclc_node_init_default(&node, "runner", "", &support) == RCL_RET_OK);

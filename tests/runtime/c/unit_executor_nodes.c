@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Nodes of executors, as a table of calls: each row is a call, its result, and what rounds of both executors call after it. */
-#include "microros/message_type.h"
-#include "microros/service_type.h"
 #include "port_agent.h"
 #include "types.h"
 #include "unit.h"
+#include "unit_service.h"
 
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
@@ -36,11 +35,6 @@ static uint32_t asked;
 static char notes[NOTES];
 static bool only_once;    /* one round */
 static void (*act)(void); /* what the next callback of a does, once */
-
-static microros_message_type_t request_type;
-static microros_message_type_t response_type;
-static const microros_service_type_t service_type = {"test::srv::dds_::Ask_", &request_type, &response_type};
-static const rosidl_service_type_support_t ask = {"microros", &service_type};
 
 static void note(char letter)
 {
@@ -341,12 +335,7 @@ static void open_entities(void)
 
 int main(void)
 {
-  const microros_message_type_t * int32 = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32)->data;
-
-  request_type = *int32;
-  request_type.dds_type_name = "test::srv::dds_::Ask_Request_";
-  response_type = *int32;
-  response_type.dds_type_name = "test::srv::dds_::Ask_Response_";
+  ask_begin();
   allocator = rcl_get_default_allocator();
   none = rcl_get_zero_initialized_node();
   CHECK(rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK);

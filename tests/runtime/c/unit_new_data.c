@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Callbacks for what arrives: how often, how many, in whose place, and what is never told. */
-#include "microros/message_type.h"
-#include "microros/service_type.h"
 #include "port_agent.h"
 #include "types.h"
 #include "unit.h"
+#include "unit_service.h"
 
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
@@ -26,11 +25,6 @@ static rcl_guard_condition_t guard;
 static rclc_executor_t executor;
 static std_msgs__msg__Int32 message;
 static int guarded;
-
-static microros_message_type_t request_type;
-static microros_message_type_t response_type;
-static const microros_service_type_t service_type = {"test::srv::dds_::Ask_", &request_type, &response_type};
-static const rosidl_service_type_support_t ask = {"microros", &service_type};
 
 /* What one callback was told. */
 typedef struct told_t {
@@ -206,12 +200,8 @@ static void test_a_lost_session(void)
 int main(void)
 {
   const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
-  const microros_message_type_t * int32 = type->data;
 
-  request_type = *int32;
-  request_type.dds_type_name = "test::srv::dds_::Ask_Request_";
-  response_type = *int32;
-  response_type.dds_type_name = "test::srv::dds_::Ask_Response_";
+  ask_begin();
   allocator = rcl_get_default_allocator();
   CHECK(rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK);
   CHECK(rclc_node_init_default(&node, "told", "", &support) == RCL_RET_OK);

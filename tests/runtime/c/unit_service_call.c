@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Calls of a service that wait: answered in time, late, never; refused in callbacks; the clock wraps; the session is lost. */
-#include "microros/message_type.h"
-#include "microros/service_type.h"
 #include "port_agent.h"
 #include "types.h"
 #include "unit.h"
+#include "unit_service.h"
 
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
@@ -31,11 +30,6 @@ static std_msgs__msg__Int32 response;
 static std_msgs__msg__Int32 reply_of_callback;
 static int replies;
 static rcl_ret_t result_in_callback;
-
-static microros_message_type_t request_type;
-static microros_message_type_t response_type;
-static const microros_service_type_t service_type = {"test::srv::dds_::Ask_", &request_type, &response_type};
-static const rosidl_service_type_support_t ask = {"microros", &service_type};
 
 static void on_reply(const void * message)
 {
@@ -192,12 +186,7 @@ static void test_a_lost_session(void)
 
 int main(void)
 {
-  const microros_message_type_t * int32 = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32)->data;
-
-  request_type = *int32;
-  request_type.dds_type_name = "test::srv::dds_::Ask_Request_";
-  response_type = *int32;
-  response_type.dds_type_name = "test::srv::dds_::Ask_Response_";
+  ask_begin();
   allocator = rcl_get_default_allocator();
   CHECK(rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK);
   CHECK(rclc_node_init_default(&node, "caller", "", &support) == RCL_RET_OK);

@@ -11,6 +11,7 @@
 #include "microros/rcl_names_take.h"
 #include "microros/rclc_action_client.h"
 #include "microros/rmw_action_client.h"
+#include "microros/rmw_client.h"
 #include "microros/rmw_names.h"
 #include "microros/rmw_node.h"
 #include "microros/text.h"
@@ -113,7 +114,7 @@ static rcl_ret_t client_open(
     (void)client_close(client, node); /* the first error is the one to report */
     return result;
   }
-  client->session = rmw_action_client_session(client->rcl_handle.goal_client.impl);
+  client->session = (uint8_t)rmw_client_reconnects();
   client->drops = rmw_action_client_drops(client->rcl_handle.goal_client.impl);
   return RCL_RET_OK;
 }

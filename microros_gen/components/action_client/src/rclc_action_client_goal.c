@@ -2,7 +2,7 @@
 /* Places of goals. All functions are called with the lock. */
 #include "microros/port.h"
 #include "microros/rclc_action_client.h"
-#include "microros/rmw_action_client.h"
+#include "microros/rmw_client.h"
 
 #include <string.h>
 
@@ -30,13 +30,13 @@ static void goal_put_4(uint8_t * to, uint32_t number)
  * Device, time of day, time since the start, and number of the goal. A server refuses an id that it still knows: a board
  * without the time of day would have to send a goal in the same millisecond after its start.
  */
-static void goal_identify(const rclc_action_client_t * client, uint8_t * uuid)
+static void goal_identify(uint8_t * uuid)
 {
   static uint32_t goals_sent; /* of all clients */
   const uint64_t epoch_ns = (uint64_t)port_time_epoch_ns();
 
   ++goals_sent;
-  goal_put_4(&uuid[0], rmw_action_client_key(client->rcl_handle.goal_client.impl));
+  goal_put_4(&uuid[0], rmw_client_key());
   goal_put_4(&uuid[4], (uint32_t)(epoch_ns >> 16 & UINT32_MAX));
   goal_put_4(&uuid[8], port_time_ms());
   goal_put_4(&uuid[12], goals_sent);
@@ -51,7 +51,7 @@ rclc_action_goal_handle_t * rclc_action_client_take_place(rclc_action_client_t *
       (void)memset(goal, 0, sizeof(*goal));
       goal->action_client = client;
       goal->is_used = true;
-      goal_identify(client, goal->goal_id.uuid);
+      goal_identify(goal->goal_id.uuid);
       return goal;
     }
   }

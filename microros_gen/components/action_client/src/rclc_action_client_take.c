@@ -4,6 +4,7 @@
 #include "microros/lock.h"
 #include "microros/rclc_action_client.h"
 #include "microros/rmw_action_client.h"
+#include "microros/rmw_client.h"
 #include "microros/rmw_service.h"
 #include "microros/rmw_subscription.h"
 
@@ -21,13 +22,14 @@ void rclc_action_client_note(rclc_action_client_t * client, rcl_ret_t result)
 static void take_session(rclc_action_client_t * client)
 {
   const rmw_client_t * results = client->rcl_handle.result_client.impl;
-  const bool is_new = rmw_action_client_session(results) != client->session;
+  const uint8_t session = (uint8_t)rmw_client_reconnects();
+  const bool is_new = session != client->session;
   const uint32_t drops = rmw_action_client_drops(results);
 
   if (!is_new && drops == client->drops) {
     return;
   }
-  client->session = rmw_action_client_session(results);
+  client->session = session;
   client->drops = drops;
   for (size_t i = 0; i < client->goal_handles_memory_size; ++i) {
     rclc_action_goal_handle_t * goal = &client->declared->goals[i];

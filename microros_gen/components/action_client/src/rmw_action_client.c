@@ -16,17 +16,6 @@ bool rmw_action_client_may_send(const rmw_client_t * client)
   return xrce_write_has_room(client->data);
 }
 
-uint8_t rmw_action_client_session(const rmw_client_t * client)
-{
-  const xrce_endpoint_t * endpoint = client->data;
-  uint8_t result;
-
-  microros_lock();
-  result = endpoint->client->action_client_sessions;
-  microros_unlock();
-  return result;
-}
-
 uint32_t rmw_action_client_drops(const rmw_client_t * client)
 {
   const xrce_endpoint_t * endpoint = client->data;
@@ -44,17 +33,6 @@ bool rmw_action_client_expects(const rmw_client_t * client, int64_t sequence_num
 
   microros_lock();
   result = xrce_action_client_expects(client->data, sequence_number);
-  microros_unlock();
-  return result;
-}
-
-uint32_t rmw_action_client_key(const rmw_client_t * client)
-{
-  const xrce_endpoint_t * endpoint = client->data;
-  uint32_t result;
-
-  microros_lock();
-  result = endpoint->client->session.key;
   microros_unlock();
   return result;
 }

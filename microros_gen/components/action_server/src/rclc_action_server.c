@@ -11,6 +11,7 @@
 #include "microros/rcl_names_take.h"
 #include "microros/rclc_action_server.h"
 #include "microros/rmw_action_server.h"
+#include "microros/rmw_client.h"
 #include "microros/rmw_names.h"
 #include "microros/rmw_node.h"
 #include "microros/text.h"
@@ -122,7 +123,7 @@ static rcl_ret_t action_open(rclc_action_server_t * server, rcl_node_t * node)
     return result;
   }
   rmw_action_server_answer_large(server->rcl_handle.goal_service.impl);
-  server->session = rmw_action_server_session(server->rcl_handle.goal_service.impl);
+  server->session = (uint8_t)rmw_client_reconnects();
   server->status_due = true;
   return RCL_RET_OK;
 }

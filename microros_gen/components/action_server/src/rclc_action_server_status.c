@@ -3,11 +3,11 @@
 #include "microros/lock.h"
 #include "microros/rclc_action_server.h"
 #include "microros/rmw_action_server.h"
+#include "microros/rmw_client.h"
 
 bool rclc_action_has_status(const rclc_action_server_t * server)
 {
-  const bool is_due =
-    server->status_due || server->session != rmw_action_server_session(server->rcl_handle.goal_service.impl);
+  const bool is_due = server->status_due || server->session != (uint8_t)rmw_client_reconnects();
 
   return is_due && rmw_action_server_may_publish(server->rcl_handle.status_publisher.impl);
 }
@@ -39,7 +39,7 @@ rcl_ret_t rclc_action_publish_status(rclc_action_server_t * server)
   message.status_list.data = server->declared->statuses;
   message.status_list.size = action_status_fill(server);
   message.status_list.capacity = server->declared->goals_max;
-  server->session = rmw_action_server_session(server->rcl_handle.goal_service.impl);
+  server->session = (uint8_t)rmw_client_reconnects();
   result = rcl_publish(&server->rcl_handle.status_publisher, &message, NULL);
   server->status_due = result != RCL_RET_OK;
   microros_unlock();

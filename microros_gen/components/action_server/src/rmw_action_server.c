@@ -18,17 +18,6 @@ bool rmw_action_server_may_publish(const rmw_publisher_t * publisher)
   return xrce_write_has_room(publisher->data);
 }
 
-uint8_t rmw_action_server_session(const rmw_service_t * service)
-{
-  const xrce_endpoint_t * endpoint = service->data;
-  uint8_t result;
-
-  microros_lock();
-  result = endpoint->client->action_sessions;
-  microros_unlock();
-  return result;
-}
-
 void rmw_action_server_answer_large(const rmw_service_t * service)
 {
   microros_lock();

@@ -7,7 +7,7 @@
 #include "microros/rclc_parameter_held.h"
 #include "microros/rclc_parameter_reason.h"
 #include "microros/rclc_parameter_value.h"
-#include "microros/rmw_parameters_held.h"
+#include "microros/rmw_client.h"
 #include "microros/service_type.h"
 #include "microros/text.h"
 #include "microros_parameter_msgs/srv/exchange.h"
@@ -49,7 +49,7 @@ static uint8_t exchange_check(const rclc_parameter_server_t * server)
 {
   const rclc_parameter_held_t * const held = &server->held;
 
-  if (held->board != rmw_parameters_board(rcl_publisher_get_rmw_handle(&server->event_publisher))) {
+  if (held->board != rmw_client_key()) {
     return EXCHANGE_OTHER_BOARD;
   }
   if (held->what == (uint8_t)EXCHANGE_BEGIN && held->session != 0u) {
@@ -252,7 +252,7 @@ static uint32_t exchange_encode(const void * message, uint8_t * body, cdr_fault_
 
   (void)fault;
   rclc_parameter_out_1(&out, server->held.status);
-  rclc_parameter_out_4(&out, rmw_parameters_board(rcl_publisher_get_rmw_handle(&server->event_publisher)));
+  rclc_parameter_out_4(&out, rmw_client_key());
   rclc_parameter_out_4(&out, server->held.number);
   rclc_parameter_out_4(&out, server->held.own_revision);
   rclc_parameter_out_4(&out, microros_parameter_msgs__srv__Exchange_Request__MAX_ENCODED_SIZE);

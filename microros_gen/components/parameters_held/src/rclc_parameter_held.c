@@ -9,8 +9,8 @@
 #include "microros/port.h"
 #include "microros/rclc_parameter_descriptor.h"
 #include "microros/rclc_parameter_held_log.h"
+#include "microros/rmw_client.h"
 #include "microros/rmw_parameters.h"
-#include "microros/rmw_parameters_held.h"
 #include "rclc/publisher.h"
 #include "microros_parameter_msgs/msg/notice.h"
 #include "rclc_parameter/held_parameters.h"
@@ -23,7 +23,7 @@ static uint32_t held_encode(const void * message, uint8_t * body, cdr_fault_t * 
   parameter_out_t out = {body, 0, microros_parameter_msgs__msg__Notice__MAX_ENCODED_SIZE, false};
 
   rclc_parameter_out_node(&out, server->node);
-  rclc_parameter_out_4(&out, rmw_parameters_board(rcl_publisher_get_rmw_handle(&server->event_publisher)));
+  rclc_parameter_out_4(&out, rmw_client_key());
   rclc_parameter_out_4(&out, server->held.own_session);
   rclc_parameter_out_4(&out, server->held.own_revision);
   if (out.full) {
@@ -93,8 +93,7 @@ static uint32_t held_news(const rclc_parameter_server_t * server)
 /* An agent that was away or was replaced has no notice. */
 static void held_follow_session(rclc_parameter_server_t * server)
 {
-  const uint32_t reconnects =
-    rmw_parameters_reconnects(rcl_publisher_get_rmw_handle(&server->event_publisher));
+  const uint32_t reconnects = rmw_client_reconnects();
 
   if (reconnects != server->held.reconnects) {
     server->held.reconnects = reconnects;

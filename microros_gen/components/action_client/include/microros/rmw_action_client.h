@@ -17,17 +17,11 @@ extern "C" {
 /* Returns whether there is a session and room for a request. */
 bool rmw_action_client_may_send(const rmw_client_t * client);
 
-/* Returns a number that is another one in each session. */
-uint8_t rmw_action_client_session(const rmw_client_t * client);
-
 /* Returns a number that is another one when requests were dropped. */
 uint32_t rmw_action_client_drops(const rmw_client_t * client);
 
 /* Returns whether a reply to the request may come. */
 bool rmw_action_client_expects(const rmw_client_t * client, int64_t sequence_number);
-
-/* Returns the number of the device at its agent. */
-uint32_t rmw_action_client_key(const rmw_client_t * client);
 
 /* Discards the reply to an outstanding request. */
 void rmw_action_client_abandon(const rmw_client_t * client, int64_t sequence_number);

@@ -9,12 +9,6 @@
 extern "C" {
 #endif
 
-/* The agent's requesters are new: what they had asked for gets no reply. */
-static inline void xrce_action_client_renew(xrce_client_t * client)
-{
-  ++client->action_client_sessions;
-}
-
 /* A WRITE_DATA submessage was removed from the stream. The request in it is not outstanding any more. */
 void xrce_action_client_drop(xrce_client_t * client, const uint8_t * dropped);
 

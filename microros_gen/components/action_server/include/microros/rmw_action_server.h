@@ -16,9 +16,6 @@ extern "C" {
 bool rmw_action_server_may_reply(const rmw_service_t * service);
 bool rmw_action_server_may_publish(const rmw_publisher_t * publisher);
 
-/* Returns a number that is another one in each session. */
-uint8_t rmw_action_server_session(const rmw_service_t * service);
-
 /* Lets a request that is too large for an open service reach it with its first bytes, so that it is answered. */
 void rmw_action_server_answer_large(const rmw_service_t * service);
 
