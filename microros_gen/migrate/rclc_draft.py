@@ -12,6 +12,7 @@ from microros_gen.migrate.c_program import Call, CFile, read_program
 from microros_gen.migrate.c_tokens import read_c
 from microros_gen.migrate.c_values import Values, handle_of
 from microros_gen.migrate.capacities import Fact, find_capacities
+from microros_gen.migrate.diagnosis_checks import find_checks
 from microros_gen.migrate.draft import Draft, DraftNode, DraftValue, Remark, place
 from microros_gen.migrate.missing import find_missing, selected_by
 from microros_gen.migrate.parameter_clients import find_clients, owner, watches
@@ -89,7 +90,8 @@ def rclc_draft(
     settings, more = find_settings(calls, values)
     pools = {**settings.get("pools", {}), **_executors(calls), **server_pools(calls, values)}
     limits, guesses = server_limits(calls, values)
-    groups = {**settings, **({"pools": pools} if pools else {})}
+    checks, unlimited = find_checks(calls)
+    groups = {**settings, **{k: v for k, v in (("pools", pools), ("diagnosis", checks)) if v}}
     draft = Draft(
         profiles=profiles.names,
         components=_components(
@@ -101,7 +103,7 @@ def rclc_draft(
         nodes=nodes,
         groups=groups,
         limits=limits,
-        remarks=(*remarks, *more, *guesses),
+        remarks=(*remarks, *more, *guesses, *unlimited),
     )
     if not nodes and not called:
         diagnostics.error(

@@ -3,11 +3,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from microros_gen.components.diagnosis.plan import DiagnosisPlan
 from microros_gen.migrate.draft import DraftEndpoint
+from tests.support.components.rendered import planned
 from tests.support.examples import examples
 from tests.support.migrate.rclc import NODE, adopted, program, reasons
 
@@ -481,3 +485,32 @@ def test_guard_conditions_of_the_application_have_places() -> None:
     draft = adopted(program(counts)).draft
     assert "+graph" in draft.components
     assert not draft.groups.keys() & {"pools", "memory"}
+
+
+def test_checks_of_a_diagnosis_are_declared(tmp_path: Path) -> None:
+    """Each constant once; the tool reads the proposal, and somebody has to write the limits."""
+    text = program(
+        "(void)rclc_diagnosis_set(DIAGNOSIS_BATTERY, 5);\n"
+        "(void)rclc_diagnosis_set((uint8_t)DIAGNOSIS_MOTOR_HEAT, 5);\n"
+        "rclc_diagnosis_set(i, 1);\n"
+        "while (rclc_diagnosis_level(DIAGNOSIS_BATTERY) == 2u) {}"
+    )
+    draft = adopted(text).draft
+    assert "+diagnosis" in draft.components
+    checks = draft.groups["diagnosis"]["checks"]
+    assert checks.note == "rclc_diagnosis_set (0.c:5)"
+    never = "with `above: {error: 2147483647}` it is never a fault"
+    assert reasons(text) == [
+        "0.c:7:1: rclc_diagnosis_set: the check `i` is worked out when the program runs",
+        f"0.c:5:9: the limits of the check 'battery' are not in these sources: {never}",
+        f"0.c:6:7: the limits of the check 'motor_heat' are not in these sources: {never}",
+    ]
+    base = "version: 1\nprofiles: [pure_sender]\ncomponents: [+diagnosis]\nnodes: [{name: n}]\n"
+    planned_file = planned(tmp_path, f"{base}diagnosis: {{checks: {checks.value}}}\n")
+    part = planned_file.project.runtime.features.of("diagnosis")
+    assert isinstance(part, DiagnosisPlan)
+    assert part.declared == ("battery", "motor_heat")
+
+
+def test_without_calls_of_a_diagnosis_none_is_proposed() -> None:
+    assert "diagnosis" not in adopted(program("rclc_other(DIAGNOSIS_BATTERY, 5);")).draft.groups
