@@ -131,6 +131,12 @@ def test_the_schema_files_are_tidy() -> None:
 
 
 PROFILE_CASES: dict[str, tuple[str, Any, str, str]] = {
+    "order": (
+        "order: 3",
+        3,
+        "order: 0",
+        "2:8: error: 'order' must be a whole number between 1 and 1000; it is 0",
+    ),
     "profile": (
         "",
         "p",
