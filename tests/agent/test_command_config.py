@@ -82,7 +82,6 @@ def test_everything_that_a_file_can_say(tmp_path: Path) -> None:
             SerialChoice(str(tmp_path / "tty"), 9600),
             SerialChoice("/dev/ttyUSB0"),
             CanChoice("can0"),
-            CanChoice("can0"),
             PtyChoice(str(tmp_path / "board")),
         ),
         discovery=7401,

@@ -70,7 +70,8 @@ int main(int argc, char ** argv)
   begin_session(argv, &allocator);
   check(rclc_node_init_default(&node, argv[4], "", &support), "node");
   check(
-    rclc_publisher_init_default(&publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32), argv[4]),
+    rclc_publisher_init_default(
+      &publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32), argv[4]),
     "publisher");
   while (poll(&input, 1, 10) == 0) {
     ++number.data;
