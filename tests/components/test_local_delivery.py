@@ -71,7 +71,7 @@ def program(out: Path, sources: list[Path], units: list[str], flags: tuple[str, 
 
 def test_what_waits_and_where_it_goes(tmp_path: Path) -> None:
     part = local(tmp_path, APPLICATION)
-    assert [(q.subscription, q.topic, q.slots) for q in part.queues] == [
+    assert [(q.receiver, q.topic, q.slots) for q in part.queues] == [
         (0, "/count", 3),
         (1, "/joints", 2),
         (2, "/wide", 1),

@@ -32,6 +32,21 @@ nodes:
       - {topic: inside, type: std_msgs/msg/Int32, local: only}
 """
 FROM_ROS, COUNT = 100_000, 5
+SERVED = """\
+version: 1
+profiles: [pure_sender, pure_reader]
+components: [+services, +executor]
+nodes:
+  - name: server
+    namespace: /local
+    domain_id: DOMAIN
+    services: [{name: sum, type: example_interfaces/srv/AddTwoInts, local: also}]
+  - name: caller
+    namespace: /local
+    domain_id: DOMAIN
+    clients: [{name: sum, type: example_interfaces/srv/AddTwoInts, local: only}]
+"""
+PAIRS = [[FROM_ROS + i, i] for i in range(COUNT)]
 
 
 def test_besides_rclpy(
@@ -55,3 +70,20 @@ def test_besides_rclpy(
         observer.ask(**request, values=[{"data": FROM_ROS + i} for i in range(COUNT)])
         ends_well(process, 30)
     assert values == list(range(values[0], values[0] + len(values)))
+
+
+def test_a_service_besides_rclpy(
+    images: Images, shared_agent: AgentProcess, observer: Observer, domain: int, tmp_path: Path
+) -> None:
+    """The server answers the client of its image and clients of ROS; only the server exists in ROS."""
+    image = images.build(shared_agent.port, SERVED.replace("DOMAIN", str(domain)))
+    program = image.application(
+        C_FILES / "local_services.c", tmp_path / "local", "-std=c99", "-Wall", "-Werror"
+    )
+    with started(program) as process:
+        observer.ask(do="ask_sums", service="/local/sum", pairs=PAIRS)
+        ends_well(process, 60)
+        end = deadline(15)
+        while observer.ask(do="sums") != [sum(pair) for pair in PAIRS]:
+            assert time.monotonic() < end, observer.ask(do="sums")
+            time.sleep(0.05)

@@ -47,7 +47,7 @@ def check_topics(context: PlanContext, diagnostics: Diagnostics) -> None:
     for kind in ("publisher", "subscription"):
         for index, (_, node, endpoint) in enumerate(declarations(context.application, kind)):
             topics.setdefault((node.domain_id, full_name(node, endpoint)), []).append(End(index, endpoint))
-    if all(end.endpoint.local == "never" for ends in topics.values() for end in ends):
+    if all(end.local == "never" for node in context.application.nodes for end in node.endpoints):
         diagnostics.error(
             "the component 'local_delivery' is for endpoints with `local:`",
             context.application.spans.get("components"),
@@ -66,21 +66,45 @@ def check_topics(context: PlanContext, diagnostics: Diagnostics) -> None:
 def _check_ends(topic: str, ends: list[End], local: End, diagnostics: Diagnostics) -> None:
     """Report ends of the image that are not local, and a topic that has only publishers or only subscriptions."""
     for end in ends:
-        if end.endpoint.local == "never":
-            diagnostics.error(
-                f"the {end.endpoint.kind} of '{topic}' is not local, the {local.endpoint.kind}{local.line} is",
-                end.endpoint.span,
-                "Write `local:` at both, or at neither",
-                id="MG-7170",
-            )
+        report_not_local(topic, end.endpoint, local.endpoint, diagnostics)
     for publishes, missing in ((True, "publishes"), (False, "subscribes to")):
         if not any(end.publishes == publishes for end in ends):
-            diagnostics.error(
-                f"`local: {local.endpoint.local}` needs two ends: nothing in the image {missing} '{topic}'",
-                local.endpoint.span,
-                "Remove `local`, or declare the other end",
-                id="MG-7171",
-            )
+            report_missing(topic, missing, local.endpoint, diagnostics)
+
+
+def _line(endpoint: EndpointDecl) -> str:
+    return f" in line {endpoint.span.line}" if endpoint.span else ""
+
+
+def report_not_local(name: str, end: EndpointDecl, local: EndpointDecl, diagnostics: Diagnostics) -> None:
+    """Report an end that is not local, although the end `local` is."""
+    if end.local == "never":
+        diagnostics.error(
+            f"the {end.kind} of '{name}' is not local, the {local.kind}{_line(local)} is",
+            end.span,
+            "Write `local:` at both, or at neither",
+            id="MG-7170",
+        )
+
+
+def report_missing(name: str, missing: str, local: EndpointDecl, diagnostics: Diagnostics) -> None:
+    """Report a name with only one kind of ends: nothing `missing` it, for example `publishes`."""
+    diagnostics.error(
+        f"`local: {local.local}` needs two ends: nothing in the image {missing} '{name}'",
+        local.span,
+        "Remove `local`, or declare the other end",
+        id="MG-7171",
+    )
+
+
+def report_limits(name: str, end: EndpointDecl, other: EndpointDecl, diagnostics: Diagnostics) -> None:
+    """Report an end whose limits are not those of the other one."""
+    diagnostics.error(
+        f"the limits of '{name}' differ from those of the {other.kind}{_line(other)}",
+        end.span,
+        "Write the same `limits:` at both, or by the type",
+        id="MG-7175",
+    )
 
 
 def _check_qos(topic: str, end: End, diagnostics: Diagnostics) -> None:
@@ -137,9 +161,4 @@ def _check_pairs(
                     id="MG-7174",
                 )
             if reader.limits(types) != writer.limits(types):
-                diagnostics.error(
-                    f"the limits of '{topic}' differ from those of the publisher{writer.line}",
-                    span,
-                    "Write the same `limits:` at both, or by the type",
-                    id="MG-7175",
-                )
+                report_limits(topic, reader.endpoint, writer.endpoint, diagnostics)

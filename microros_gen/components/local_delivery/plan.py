@@ -3,15 +3,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 
+from microros_gen.application.kinds import RECEIVING, EntityKind
 from microros_gen.application.model import Application, EndpointDecl, NodeDecl
 from microros_gen.client.plan.declared import declarations, full_name, type_name
 from microros_gen.client.plan.features import PlanContext
 from microros_gen.components.agentless.plan import in_c, is_alone
 from microros_gen.components.local_delivery.check import MOST_SLOTS, check_topics
+from microros_gen.components.local_delivery.check_services import SERVICE_SLOTS, check_services
 from microros_gen.components.local_delivery.copies import copy_lines, get_body, put_body
 from microros_gen.diagnostics import Diagnostics
+from microros_gen.interfaces.derived import derived_name
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.names import include_path
@@ -23,14 +26,15 @@ _NONE = "RMW_LOCAL_NONE"
 
 @dataclass(frozen=True)
 class LocalQueue:
-    """The queue of a subscription: `slots` messages, `only` (as C writes it) those of the image.
+    """The queue of an endpoint that receives: `slots` messages, `only` (as C writes it) those of the image.
 
     `storage` begins the names of that of its type; empty: it needs none. `put` and `get`: how a
     message is copied to a slot and from it, as C.
     """
 
     index: int
-    subscription: int
+    kind: str
+    receiver: int
     topic: str
     type: TypeName
     c_type: str
@@ -56,6 +60,18 @@ class LocalQueue:
             "  }",
             "}",
         )
+
+    @property
+    def origins(self) -> str:
+        """What C calls the origins of waiting requests or replies: NULL for a subscription."""
+        return "NULL" if self.kind == "subscription" else f"local_origins_{self.index}"
+
+    @property
+    def origin_lines(self) -> tuple[str, ...]:
+        """Their memory, as lines of C."""
+        if self.kind == "subscription":
+            return ()
+        return (f"static rmw_local_origin_t local_origins_{self.index}[{self.slots}];",)
 
     @property
     def bind(self) -> str:
@@ -102,20 +118,21 @@ class LocalRoute:
         if not self.queues:
             return "{NULL, NULL, 0, false, false}"
         i = self.index
-        return (
-            f"{{local_deliver_{i}, local_route_{i}, {len(self.queues)}, {in_c(self.only)}, {in_c(self.checks)}}}"
-        )
+        return f"{{local_deliver_{i}, local_route_{i}, {len(self.queues)}, {in_c(self.only)}, {in_c(self.checks)}}}"
 
 
 @dataclass(frozen=True, kw_only=True)
 class LocalPlan:
-    """`queue_of`: of each subscription, as C.
+    """`queue_of`: of each receiver, as C.
 
+    `server_of`: the queue of each client's server, as C, and an end. `services`: there is such a server.
     `copies` are functions that the queues call, as lines of C; `headers`: of the types and of their storage.
     """
 
     queues: tuple[LocalQueue, ...]
     queue_of: tuple[str, ...]
+    server_of: tuple[str, ...]
+    services: bool
     routes: tuple[LocalRoute, ...]
     copies: tuple[str, ...]
     headers: tuple[str, ...]
@@ -131,16 +148,19 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LocalPlan:
     """Return the queues and routes; ends of a topic that do not agree are reported."""
     application = context.application
     check_topics(context, diagnostics)
-    queues = tuple(_queues(application, context.types))
-    places = context.runtime.entities
-    subscriptions = [_NONE] * places.subscriptions.max
+    check_services(context, diagnostics)
+    queues = tuple(_queues(context))
+    receivers = [_NONE] * sum(context.runtime.entities.places(kind.name).max for kind in RECEIVING)
     for queue in queues:
-        subscriptions[queue.subscription] = str(queue.index)
+        receivers[queue.receiver] = str(queue.index)
+    servers = tuple(_servers(context, queues))
     types = [queue.type for queue in queues]
     messages = {name: known.message for name, known in context.types.items()}
     return LocalPlan(
         queues=queues,
-        queue_of=tuple(subscriptions),
+        queue_of=tuple(receivers),
+        server_of=(*servers, _NONE),
+        services=any(server != _NONE for server in servers),
         routes=tuple(_routes(context, queues)),
         copies=copy_lines(types, messages),
         headers=tuple(sorted({h for name in types for h in _headers(context.types[name])})),
@@ -151,8 +171,9 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LocalPlan:
 def record(part: LocalPlan) -> object:
     """Return what the plan id is made of."""
     return {
-        "queues": [[q.subscription, q.slots] for q in part.queues],
+        "queues": [[q.receiver, q.slots] for q in part.queues],
         "routes": [[list(r.queues), r.only] for r in part.routes],
+        "servers": list(part.server_of),
     }
 
 
@@ -161,21 +182,50 @@ def slots_of(endpoint: EndpointDecl) -> int:
     return min(endpoint.queue or max(endpoint.qos.depth, 1), MOST_SLOTS)
 
 
-def _queues(application: Application, types: Mapping[TypeName, TypePlan]) -> Iterable[LocalQueue]:
+def _queues(context: PlanContext) -> Iterable[LocalQueue]:
+    """Yield the queues in the order of the places: of subscriptions, of services and of clients."""
+    types = context.types
     messages = {name: known.message for name, known in types.items()}
-    index = 0
-    for subscription, (_, node, endpoint) in enumerate(declarations(application, "subscription")):
-        if endpoint.local == "never":
-            continue
-        name, topic = type_name(endpoint.type), full_name(node, endpoint)
-        storage = types[name].storage_name(topic) if types[name].storage else ""
-        yield LocalQueue(
-            *(index, subscription, topic, name, types[name].c_name, slots_of(endpoint), storage),
-            put_body(name, messages, f"local_messages_{index}[index]"),
-            get_body(name, messages, f"local_messages_{index}[index]"),
-            in_c(endpoint.local == "only"),
-        )
-        index += 1
+    index = first = 0
+    for kind in RECEIVING:
+        for place, (_, node, endpoint) in enumerate(declarations(context.application, kind.name), first):
+            if endpoint.local == "never":
+                continue
+            name, topic = _received(kind, endpoint), full_name(node, endpoint)
+            storage = types[name].storage_name(topic) if types[name].storage else ""
+            slot = f"local_messages_{index}[index]"
+            yield LocalQueue(
+                *(index, kind.name, place, topic, name, types[name].c_name),
+                *(_slots(kind, endpoint), storage, put_body(name, messages, slot)),
+                *(get_body(name, messages, slot), in_c(endpoint.local == "only")),
+            )
+            index += 1
+        first += context.runtime.entities.places(kind.name).max
+
+
+def _received(kind: EntityKind, endpoint: EndpointDecl) -> TypeName:
+    """Return the type of what an endpoint receives."""
+    name = type_name(endpoint.type, kind.type_kind)
+    return derived_name(name, kind.receives[0]) if kind.service_type else name
+
+
+def _slots(kind: EntityKind, endpoint: EndpointDecl) -> int:
+    return endpoint.queue or SERVICE_SLOTS if kind.service_type else slots_of(endpoint)
+
+
+def _servers(context: PlanContext, queues: tuple[LocalQueue, ...]) -> Iterable[str]:
+    """Yield for each place of a client the queue of its server in the image, as C."""
+    subscriptions = context.runtime.entities.subscriptions.max
+    queue_of = {queue.receiver - subscriptions: queue.index for queue in queues if queue.kind == "service"}
+    services = {
+        _key(node, endpoint): index
+        for index, (_, node, endpoint) in enumerate(declarations(context.application, "service"))
+    }
+    declared = declarations(context.application, "client")
+    for _, node, endpoint in declared:
+        server = services.get(_key(node, endpoint)) if endpoint.local != "never" else None
+        yield _NONE if server is None else str(queue_of.get(server, _NONE))
+    yield from (_NONE for _ in range(context.runtime.entities.clients.max - len(declared)))
 
 
 def _key(node: NodeDecl, endpoint: EndpointDecl) -> tuple[int, str]:
@@ -187,14 +237,16 @@ def _routes(context: PlanContext, queues: tuple[LocalQueue, ...]) -> Iterable[Lo
     messages = {name: known.message for name, known in context.types.items()}
     by_topic: dict[tuple[int, str], list[int]] = {}
     for queue in queues:
-        _, node, endpoint = readers[queue.subscription]
+        if queue.kind != "subscription":
+            continue
+        _, node, endpoint = readers[queue.receiver]
         by_topic.setdefault(_key(node, endpoint), []).append(queue.index)
     index = 0
     for index, (_, node, endpoint) in enumerate(declarations(context.application, "publisher"), 1):
         found = tuple(by_topic.get(_key(node, endpoint), ())) if endpoint.local != "never" else ()
         checks = not is_fixed(messages[type_name(endpoint.type)], messages)
         yield LocalRoute(index - 1, found, endpoint.local == "only", checks)
-    for other in range(index, context.runtime.entities.publisher_places):
+    for other in range(index, context.runtime.entities.publisher_places or 1):
         yield LocalRoute(other, (), False, False)
 
 
@@ -208,7 +260,7 @@ def _shown(application: Application, alone: bool) -> str:
     """Return what a report says: the topics, and of each whether its messages leave the image."""
     words = {
         full_name(node, endpoint): f"{full_name(node, endpoint)} ({endpoint.local})"
-        for _, node, endpoint in declarations(application, "subscription")
+        for _, node, endpoint in declarations(application, "subscription", "service")
         if endpoint.local != "never"
     }
     return ", ".join(words.values()) + ("; no agent is needed" if alone else "")

@@ -112,16 +112,15 @@ def _endpoint_cases(
             f"'nodes[0].{key}[0].limits' must be a mapping such as {{string: 32, sequence: 8}}",
         ),
     }
-    if kind in ("publisher", "subscription"):
-        for word in ("local", "peer"):
-            cases[f"{path}.{word}"] = KeyCase(
-                one(f"{entry}, {word}: also"),
-                partial(_member, word),
-                "also",
-                one(f"{name_key}: a, type: {type_name}, {word}: yes"),
-                f"3:{start + 16 + len(word) + len(name_key) + len(type_name)}",
-                f"'nodes[0].{key}[0].{word}' must be ",
-            )
+    for word in ("local", "peer") if kind in ("publisher", "subscription") else ("local",):
+        cases[f"{path}.{word}"] = KeyCase(
+            one(f"{entry}, {word}: also"),
+            partial(_member, word),
+            "also",
+            one(f"{name_key}: a, type: {type_name}, {word}: yes"),
+            f"3:{start + 16 + len(word) + len(name_key) + len(type_name)}",
+            f"'nodes[0].{key}[0].{word}' must be ",
+        )
     if kind == "publisher":
         cases[f"{path}.managed"] = KeyCase(
             one(f"{entry}, managed: true"),

@@ -92,6 +92,12 @@ _LOCAL = (
     "      - {topic: tree, type: quality_msgs/msg/Tree, local: only, queue: 2}\n"
     "      - {topic: count, type: std_msgs/msg/Int32, local: only}\n"
 )
+_LOCAL_SERVICES = (
+    "version: 1\nprofiles: [pure_sender, pure_reader]\ncomponents: [+services, +executor, +graph]\n"
+    "nodes:\n  - name: probe\n"
+    "    services: [{name: count, type: std_srvs/srv/Trigger, local: also, queue: 2}]\n"
+    "    clients: [{name: count, type: std_srvs/srv/Trigger, local: only}]\n"
+)
 _SERIAL = "transport: {type: serial, device: /dev/ttyACM0, baud: 115200}\n"
 _PEER = (
     "version: 1\nprofiles: [pure_sender, pure_reader]\nsystem: {file: system.yaml, board: own}\n"
@@ -256,7 +262,8 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "components: [+action_server, +multithread]\nlimits: {'*': {string: 20}}\n",
         "action_client": _NODES.replace("    publishers:\n", "")
         + "    action_clients:\n      - {name: walk, type: tf2_msgs/action/LookupTransform, goals: 2}\n"
-        + "components: [+action_client, +graph, +multithread]\non_full: drop_oldest\nmemory: {arena: 4096}\nlimits: {'*': {string: 20}}\n",
+        + "components: [+action_client, +graph, +multithread]\non_full: drop_oldest\n"
+        + "memory: {arena: 4096}\nlimits: {'*': {string: 20}}\n",
         "diagnosis": _NODES.replace("    publishers:\n", "")
         + _MODES
         + "    timers: [{name: tick, period: 50 ms}]\ncomponents: [+timers, +executor, +diagnosis]\n"
@@ -277,6 +284,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "executor_events": _BOTH + "components: [+qos_events, +clock_stamp]\n",
         "lifecycle": _NODES + _SURE + "components: [+lifecycle, +multithread]\n",
         "local": _LOCAL,
+        "local_services": _LOCAL_SERVICES,
         "local_also": _LOCAL.replace("local: only", "local: also", 1)
         + "components: [+multithread]\nerrors: code\n",
         "peer": _PEER,

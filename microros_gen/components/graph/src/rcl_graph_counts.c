@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
 #include "microros/rcl_graph.h"
+#include "microros/rmw_local_service.h"
 #include "microros/rmw_publisher.h"
 #include "microros/rmw_service.h"
 #include "microros/rmw_subscription.h"
@@ -76,6 +77,9 @@ rcl_ret_t rcl_service_server_is_available(
   }
   if (!rcl_client_is_valid(client) || is_available == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "client or is_available");
+  }
+  if (rmw_local_server(client->impl->data, is_available)) {
+    return RCL_RET_OK;
   }
   result = rcl_count_services(node, client->impl->service_name, &servers);
   if (result == RCL_RET_OK) {

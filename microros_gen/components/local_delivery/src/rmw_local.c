@@ -19,12 +19,8 @@ bool xrce_local_fresh;
 
 void rmw_local_open(const xrce_endpoint_t * reader)
 {
-  const uint16_t subscription = (uint16_t)(reader->index - MICROROS_PUBLISHERS_MAX);
-  uint8_t queue = RMW_LOCAL_NONE;
+  const uint8_t queue = rmw_local_queue_of[reader->index - MICROROS_PUBLISHERS_MAX];
 
-  if (subscription < MICROROS_SUBSCRIPTIONS_MAX) { /* services and clients follow */
-    queue = rmw_local_queue_of[subscription];
-  }
   if (queue != (uint8_t)RMW_LOCAL_NONE) {
     rmw_local_states[queue].head = 0;
     rmw_local_states[queue].count = 0;
@@ -89,7 +85,7 @@ bool rmw_local_publish_body(
 
     if (rmw_local_is_open(client, queue)) {
       const microros_message_type_t * type =
-        client->endpoints[MICROROS_PUBLISHERS_MAX + queue->subscription].type;
+        client->endpoints[MICROROS_PUBLISHERS_MAX + queue->receiver].type;
       const uint8_t slot = rmw_local_begin(client, queue, state);
 
       *result = rmw_decode(type, body, (uint32_t)size, false, queue->slot(slot));

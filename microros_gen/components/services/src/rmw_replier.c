@@ -4,6 +4,7 @@
  * stores nothing. */
 #include "microros/lock.h"
 #include "microros/rmw_client.h"
+#include "microros/rmw_local_service.h"
 #include "microros/rmw_node.h"
 #include "microros/rmw_service.h"
 #include "microros/xrce_client.h"
@@ -92,7 +93,8 @@ bool rmw_replier_is_open(const rmw_service_t * service)
 
 static bool replier_is_ready(const rmw_service_t * service)
 {
-  return xrce_read_is_ready(service->data) && xrce_write_reserve(service->data) != NULL;
+  return rmw_local_waits(service->data) ||
+         (xrce_read_is_ready(service->data) && xrce_write_reserve(service->data) != NULL);
 }
 
 bool rmw_replier_is_ready(const rmw_service_t * service)
@@ -123,6 +125,10 @@ static rmw_ret_t replier_take(
   rmw_ret_t result;
 
   *taken = false;
+  if (rmw_local_take_request(endpoint, request, sample, ros_request, &result)) {
+    *taken = result == RMW_RET_OK;
+    return result;
+  }
   if (rmw_receiver_report(endpoint)) {
     return RMW_RET_ERROR;
   }
@@ -181,6 +187,9 @@ static rmw_ret_t replier_respond(
   uint8_t identity[XRCE_IDENTITY_SIZE];
   xrce_write_t outcome;
 
+  if (rmw_local_is_request(request)) {
+    return rmw_local_respond(endpoint, xrce_service_of(endpoint)->sent, request, ros_response);
+  }
   (void)memcpy(identity, request->writer_guid, RMW_GID_STORAGE_SIZE);
   replier_put_u32(&identity[HIGH_AT], (uint32_t)(sequence >> 32));
   replier_put_u32(&identity[LOW_AT], (uint32_t)(sequence & UINT32_MAX));

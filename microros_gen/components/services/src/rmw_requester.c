@@ -2,6 +2,7 @@
 /* Service clients. */
 #include "microros/lock.h"
 #include "microros/rmw_client.h"
+#include "microros/rmw_local_service.h"
 #include "microros/rmw_node.h"
 #include "microros/rmw_service.h"
 #include "microros/xrce_client.h"
@@ -67,7 +68,8 @@ bool rmw_requester_is_open(const rmw_client_t * client)
 
 static bool requester_is_ready(const rmw_client_t * client)
 {
-  return xrce_read_is_ready(client->data) || xrce_requests_of(client->data)->unreported != 0u;
+  return rmw_local_waits(client->data) || xrce_read_is_ready(client->data) ||
+         xrce_requests_of(client->data)->unreported != 0u;
 }
 
 bool rmw_requester_is_ready(const rmw_client_t * client)
@@ -89,6 +91,13 @@ void rmw_requester_pump(const rmw_client_t * client)
   microros_unlock();
 }
 
+/* XRCE does not carry the GUID that DDS assigned. */
+static void requester_identify(const xrce_endpoint_t * endpoint, rmw_request_id_t * request)
+{
+  (void)memset(request->writer_guid, 0, sizeof(request->writer_guid));
+  xrce_put_be16(request->writer_guid, xrce_object_id(endpoint->index, XRCE_KIND_REQUESTER));
+}
+
 /* Finds the request of a reply; false if it is not outstanding or the sample is not a reply. */
 static bool requester_match(
   const xrce_endpoint_t * endpoint, const xrce_sample_t * sample, rmw_request_id_t * request)
@@ -100,8 +109,7 @@ static bool requester_match(
     !xrce_requests_take(endpoint, xrce_get_be16(sample->data), &request->sequence_number)) {
     return false;
   }
-  (void)memset(request->writer_guid, 0, sizeof(request->writer_guid));
-  xrce_put_be16(request->writer_guid, object); /* XRCE does not carry the GUID that DDS assigned */
+  requester_identify(endpoint, request);
   return true;
 }
 
@@ -123,9 +131,20 @@ static rmw_ret_t requester_take(
 {
   const xrce_endpoint_t * endpoint = client->data;
   xrce_sample_t sample;
+  uint16_t number;
   rmw_ret_t result;
 
   *taken = false;
+  while (rmw_local_find_reply(endpoint, &number)) {
+    if (xrce_requests_take(endpoint, number, &info->request_id.sequence_number)) {
+      requester_identify(endpoint, &info->request_id);
+      result = rmw_local_take_reply(endpoint, &sample, ros_response);
+      rmw_service_describe(&sample, info);
+      *taken = result == RMW_RET_OK;
+      return result;
+    }
+    rmw_local_discard_reply(endpoint); /* a second one, or one to a request that newer ones replaced */
+  }
   if (requester_report(endpoint)) {
     return RMW_RET_ERROR;
   }
@@ -152,14 +171,34 @@ rmw_ret_t rmw_requester_take(
   return result;
 }
 
+static rmw_ret_t requester_send_local(
+  const xrce_endpoint_t * endpoint, const void * ros_request, int64_t * sequence_number)
+{
+  const rmw_local_number_t number = {
+    xrce_requests_of(endpoint)->sequence + 1, xrce_session_next_request(&endpoint->client->session)};
+  const rmw_ret_t result =
+    rmw_local_send_request(endpoint, xrce_service_of(endpoint)->sent, &number, ros_request);
+
+  if (result == RMW_RET_OK) {
+    *sequence_number = xrce_requests_add(endpoint, number.request);
+  }
+  return result;
+}
+
 static rmw_ret_t requester_send(
   const rmw_client_t * client, const void * ros_request, int64_t * sequence_number)
 {
   cdr_fault_t fault; /* set if the message is refused */
   xrce_endpoint_t * endpoint = client->data;
-  const uint16_t request = xrce_session_next_request(&endpoint->client->session);
-  const xrce_write_t outcome = xrce_service_write(endpoint, request, NULL, ros_request, &fault);
+  xrce_write_t outcome;
+  uint16_t request;
+  bool is_open;
 
+  if (rmw_local_server(endpoint, &is_open)) {
+    return requester_send_local(endpoint, ros_request, sequence_number);
+  }
+  request = xrce_session_next_request(&endpoint->client->session);
+  outcome = xrce_service_write(endpoint, request, NULL, ros_request, &fault);
   if (outcome == XRCE_WRITTEN) {
     *sequence_number = xrce_requests_add(endpoint, request);
   }

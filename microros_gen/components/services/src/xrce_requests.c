@@ -91,7 +91,9 @@ void xrce_requests_renew(xrce_client_t * client)
     const xrce_request_t * entries = requests_first(client, index);
 
     for (uint8_t i = 0; i < requests_queue(index)->slots; ++i) {
-      if (entries[i].request != XRCE_REQUEST_NONE) {
+      if (
+        entries[i].request != XRCE_REQUEST_NONE &&
+        !xrce_place_is_local((uint16_t)(XRCE_REQUESTERS_AT + index))) {
         ++requester->interrupted;
         ++requester->unreported;
       }

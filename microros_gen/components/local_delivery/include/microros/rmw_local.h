@@ -18,7 +18,14 @@ extern "C" {
 /* No queue. */
 enum { RMW_LOCAL_NONE = 0xff };
 
-/* The queue of a subscription, from the plan. */
+/* Where a local request is from; a reply has that of its request. */
+typedef struct rmw_local_origin_t {
+  int64_t sequence;
+  uint16_t client; /* its index among the clients */
+  uint16_t number; /* of the request among those of all clients, as on the wire */
+} rmw_local_origin_t;
+
+/* The queue of a subscription, service or client, from the plan. */
 typedef struct rmw_local_queue_t {
   void * (*slot)(uint8_t index); /* the message of a slot */
   bool (*put)(
@@ -26,9 +33,10 @@ typedef struct rmw_local_queue_t {
   bool (*get)(uint8_t index, void * message); /* copies a slot to it; false: it has too little memory */
   void (*bind)(void);                         /* gives each slot its storage; NULL: the type needs none */
   uint32_t * published_ms;                    /* one for each slot, port_time_ms() */
-  uint16_t subscription;                      /* its index among the subscriptions */
+  rmw_local_origin_t * origins;               /* one for each slot; NULL for a subscription */
+  uint16_t receiver;                          /* its index among the endpoints that receive */
   uint8_t slots;
-  bool only; /* no samples of the agent */
+  bool only; /* nothing of the agent */
 } rmw_local_queue_t;
 
 /* Where the messages of a publisher go, from the plan. */
@@ -51,11 +59,17 @@ extern const rmw_local_queue_t rmw_local_queues[MICROROS_LOCAL_QUEUES];
 /* Outside of the client, whose state is cleared with each session. */
 extern rmw_local_state_t rmw_local_states[MICROROS_LOCAL_QUEUES];
 
-/* Of each publisher. */
-extern const rmw_local_route_t rmw_local_routes[MICROROS_PUBLISHERS_MAX];
+/* A table needs a row. */
+enum { RMW_LOCAL_ROUTES = MICROROS_PUBLISHERS_MAX == 0u ? 1u : MICROROS_PUBLISHERS_MAX };
 
-/* The queue of each subscription, or RMW_LOCAL_NONE. */
-extern const uint8_t rmw_local_queue_of[MICROROS_SUBSCRIPTIONS_MAX];
+/* Of each publisher. */
+extern const rmw_local_route_t rmw_local_routes[RMW_LOCAL_ROUTES];
+
+/* The queue of each endpoint that receives, or RMW_LOCAL_NONE. */
+extern const uint8_t rmw_local_queue_of[XRCE_RECEIVERS];
+
+/* The queue of the server that each client calls, or RMW_LOCAL_NONE: over the agent. One more than there are clients. */
+extern const uint8_t rmw_local_server_of[MICROROS_CLIENTS_MAX + 1u];
 
 /* Called when the application opens an endpoint that receives: what a former owner left is discarded. */
 void rmw_local_open(const xrce_endpoint_t * reader);

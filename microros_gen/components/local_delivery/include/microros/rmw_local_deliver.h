@@ -18,12 +18,12 @@ extern "C" {
 
 static inline bool rmw_local_is_open(const xrce_client_t * client, const rmw_local_queue_t * queue)
 {
-  return client->states[XRCE_READERS_AT + queue->subscription].wanted;
+  return client->states[XRCE_READERS_AT + queue->receiver].wanted;
 }
 
-static inline void rmw_local_drop(xrce_client_t * client, uint16_t subscription)
+static inline void rmw_local_drop(xrce_client_t * client, uint16_t receiver)
 {
-  ++client->receivers[subscription].dropped;
+  ++client->receivers[receiver].dropped;
   ++client->session.statistics.dropped;
 }
 
@@ -35,7 +35,7 @@ static inline uint8_t rmw_local_begin(
 
   if (state->count == queue->slots) {
     rmw_local_pop(queue, state);
-    rmw_local_drop(client, queue->subscription);
+    rmw_local_drop(client, queue->receiver);
   }
   slot = (uint32_t)state->head + state->count;
   return (uint8_t)(slot < queue->slots ? slot : slot - queue->slots);
@@ -53,7 +53,7 @@ static inline void rmw_local_deliver(
       queue->published_ms[slot] = now;
       ++state->count;
     } else {
-      rmw_local_drop(client, queue->subscription); /* never: its limits are those of the publisher */
+      rmw_local_drop(client, queue->receiver); /* never: its limits are those of the publisher */
     }
   }
 }
