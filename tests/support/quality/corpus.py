@@ -94,6 +94,7 @@ _LOCAL = (
 )
 _LOCAL_SERVICES = (
     "version: 1\nprofiles: [pure_sender, pure_reader]\ncomponents: [+services, +executor, +graph]\n"
+    "limits: {'*': {string: 12, sequence: 3}}\n"
     "nodes:\n  - name: probe\n"
     "    services: [{name: count, type: std_srvs/srv/Trigger, local: also, queue: 2}]\n"
     "    clients: [{name: count, type: std_srvs/srv/Trigger, local: only}]\n"
