@@ -76,7 +76,7 @@ static rmw_ret_t local_get(
 }
 
 /* Returns whether a request of the agent is older, and can be answered now. */
-static bool local_agent_first(const xrce_endpoint_t * service, uint8_t index)
+static bool service_agent_first(const xrce_endpoint_t * service, uint8_t index)
 {
   const uint32_t sent_ms = rmw_local_queues[index].published_ms[rmw_local_states[index].head];
   xrce_sample_t sample;
@@ -92,7 +92,7 @@ bool rmw_local_take_request(
   const uint8_t index = local_queue(service);
   const rmw_local_origin_t * origin;
 
-  if (!rmw_local_waits(service) || local_agent_first(service, index)) {
+  if (!rmw_local_waits(service) || service_agent_first(service, index)) {
     return false;
   }
   origin = &rmw_local_queues[index].origins[rmw_local_states[index].head];
