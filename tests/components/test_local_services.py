@@ -67,7 +67,6 @@ def test_its_queues_and_servers(tmp_path: Path) -> None:
         ("client", "/sum", 4, "example_interfaces/srv/AddTwoInts_Response"),
     ]
     assert part.server_of == ("1", "0", "RMW_LOCAL_NONE")
-    assert part.alone
     assert part.services
     assert part.shown == "/sum (only), /trigger (only); no agent is needed"
 
