@@ -78,6 +78,8 @@ def expectation(schema: dict[str, Any]) -> str:
     words = " or ".join(_TYPES[kind] for kind in ([kinds] if isinstance(kinds, str) else kinds))
     if words == "a list" and schema.get("minItems") == 1:
         return "a list with at least one item"
+    if words == "a text" and schema.get("minLength") == 1:
+        return "a text with at least one character"
     low, high = schema.get("minimum"), schema.get("maximum")
     if low is not None and high is not None:
         return f"{words} between {low} and {high}"
@@ -124,6 +126,8 @@ def _scalar_hint(node: ScalarNode, kinds: list[str], schema: dict[str, Any]) -> 
         return "Remove the quotes"
     if numeric and _OLD_NUMBER.fullmatch(text):
         return f"'{text}' is a text in YAML 1.2; write the number in decimal, or in hex with 0x"
+    if kinds == ["string"] and node.value == "" and schema.get("minLength"):
+        return "Write a text, or remove the key"
     if kinds == ["string"] and not isinstance(node.value, str) and node.value is not None:
         return f'Put it into quotes: "{text}"' if "pattern" not in schema else None
     if kinds == ["object"] and key_without_space(text, schema) is not None:

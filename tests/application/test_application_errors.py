@@ -276,6 +276,11 @@ ERRORS: dict[str, tuple[str, str]] = {
         "f:3:51: error: 'nodes[0].parameters[0].one_of' must be a list with at least one item; "
         "it is an empty list. Add an item, or remove the key",
     ),
+    "empty text": (
+        'version: 1\ntransport: {type: serial, device: ""}\n',
+        "f:2:35: error: 'transport.device' must be a text with at least one character; it is the text ''. "
+        "Write a text, or remove the key",
+    ),
     "empty list of writers": (
         "version: 1\nlogging: []\n",
         "f:2:10: error: 'logging' must be console, callback, rosout or ring, or a list of such writers; "

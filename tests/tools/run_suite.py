@@ -74,7 +74,8 @@ RUNS: Mapping[str, tuple[Run, ...]] = {
     ),
     # Each test of `test` and `system` once, compiled as in `test`. All sanitizers and examples take too long for CI.
     # Beside emulators, DDS and agents of other tests, on a slow machine, a test can fail that is right.
-    "check": (Run("not long and not lint", again=5),),
+    # Half of their time is waiting, for agents and DDS: more of them at once.
+    "check": (Run("not long and not lint", more_processes=4, again=5),),
     "lint": (Run("lint and not long", more_processes=1),),
 }
 
