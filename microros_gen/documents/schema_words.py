@@ -41,6 +41,8 @@ _OLD_NUMBER = re.compile(r"[-+]?([0-9][0-9_]*(:[0-5]?[0-9])+|[0-9]+(_[0-9]+)+|0b
 def describe_mismatch(node: YamlNode, label: str, schema: dict[str, Any]) -> tuple[str, str | None]:
     """Return message and hint for a value that is not what `schema` asks for."""
     what = f"'{label}'" if label else "the file"
+    if isinstance(node, ScalarNode) and node.value == "" and schema.get("minLength"):
+        return f"{what} must not be empty", "Write a text, or remove the key"
     return f"{what} must be {expectation(schema)}; it is {found(node)}", _hint(node, schema)
 
 
@@ -78,8 +80,6 @@ def expectation(schema: dict[str, Any]) -> str:
     words = " or ".join(_TYPES[kind] for kind in ([kinds] if isinstance(kinds, str) else kinds))
     if words == "a list" and schema.get("minItems") == 1:
         return "a list with at least one item"
-    if words == "a text" and schema.get("minLength") == 1:
-        return "a text with at least one character"
     low, high = schema.get("minimum"), schema.get("maximum")
     if low is not None and high is not None:
         return f"{words} between {low} and {high}"
@@ -126,8 +126,6 @@ def _scalar_hint(node: ScalarNode, kinds: list[str], schema: dict[str, Any]) -> 
         return "Remove the quotes"
     if numeric and _OLD_NUMBER.fullmatch(text):
         return f"'{text}' is a text in YAML 1.2; write the number in decimal, or in hex with 0x"
-    if kinds == ["string"] and node.value == "" and schema.get("minLength"):
-        return "Write a text, or remove the key"
     if kinds == ["string"] and not isinstance(node.value, str) and node.value is not None:
         return f'Put it into quotes: "{text}"' if "pattern" not in schema else None
     if kinds == ["object"] and key_without_space(text, schema) is not None:

@@ -278,8 +278,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "empty text": (
         'version: 1\ntransport: {type: serial, device: ""}\n',
-        "f:2:35: error: 'transport.device' must be a text with at least one character; it is the text ''. "
-        "Write a text, or remove the key",
+        "f:2:35: error: 'transport.device' must not be empty. Write a text, or remove the key",
     ),
     "empty list of writers": (
         "version: 1\nlogging: []\n",
