@@ -208,7 +208,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "agents": _INT32
         + "transport: {agents: ['10.0.0.1:8888', '10.0.0.2:8888']}\ncomponents: [+executor, +time_sync]\n",
         "discovery": "version: 1\nprofiles: [ad_hoc_discoverable_sender]\ninterfaces: [std_msgs/msg/Int32]\n",
-        "canfd": _BOTH + "transport: {type: canfd, id: 0x7f}\ncomponents: [+executor]\n",
+        "canfd": _BOTH + "transport: {type: canfd, id: 0x7f}\ncomponents: [+executor, +sleep_cycles]\n",
         "custom": _INT32 + "transport: {type: custom}\n",
         "cortex_m": _BOTH + "target: {name: qemu-microbit}\nsession: {key: device}\n",
         "cortex_m_cmsdk": _BOTH + "target: {name: qemu-mps2-an385}\n",

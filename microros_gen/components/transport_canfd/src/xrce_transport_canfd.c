@@ -37,7 +37,7 @@ bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, 
 {
   uint8_t data[PORT_CAN_DATA];
 
-  if (size > PORT_CAN_DATA - LENGTH_SIZE) {
+  if (size > sizeof(data) - LENGTH_SIZE) {
     return false;
   }
   (void)memset(data, 0, sizeof(data));

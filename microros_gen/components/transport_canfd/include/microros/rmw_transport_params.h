@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 /* Size of a device's name including its NUL. */
-#define RMW_UXRCE_MAX_CAN_DEVICE_SIZE 64
+#define RMW_UXRCE_MAX_CAN_DEVICE_SIZE 64u
 
 /* 0 or empty: the plan's value. */
 typedef struct rmw_uxrce_transport_params_t {
