@@ -8,7 +8,16 @@ from collections.abc import Sequence
 from microros_gen.application.diagnosis_decl import CheckDecl, DiagnosisDecl, LevelLimits
 from microros_gen.application.model import NodeDecl
 from microros_gen.diagnostics import Diagnostics, Span, nearest
-from microros_gen.documents.tree_values import child, entries, int_of, items, span_of, text_of, time_of
+from microros_gen.documents.tree_values import (
+    bool_of,
+    child,
+    entries,
+    int_of,
+    items,
+    span_of,
+    text_of,
+    time_of,
+)
 from microros_gen.documents.yaml_tree import YamlNode
 
 PERIOD_US = (100_000, 3_600_000_000)
@@ -30,6 +39,7 @@ def parse_diagnosis(
         period_ms=default.period_ms if period is None else period // _US_PER_MS,
         hardware_id=text_of(child(tree, "hardware_id")) or "",
         deadline_us=_time(child(tree, "deadline"), "deadline", DEADLINE_US, "10 ms", diagnostics) or 0,
+        timers=bool_of(child(tree, "timers")) is True,
         stack=_limits(child(tree, "stack"), "stack", True, diagnostics) or default.stack,
         cpu=_limits(child(tree, "cpu"), "cpu", True, diagnostics) or default.cpu,
         supply=_limits(child(tree, "supply"), "supply", False, diagnostics) or default.supply,
@@ -37,6 +47,7 @@ def parse_diagnosis(
         span=tree.span,
         hardware_span=span_of(child(tree, "hardware_id")),
         deadline_span=span_of(child(tree, "deadline")),
+        timers_span=span_of(child(tree, "timers")),
     )
 
 

@@ -37,11 +37,15 @@ class CheckDecl:
 
 @dataclass(frozen=True)
 class DiagnosisDecl:
-    """Everything below `diagnosis:`; `deadline_us` of the callbacks of a round, 0: none."""
+    """Everything below `diagnosis:`; `deadline_us` of the callbacks of a round, 0: none.
+
+    `timers`: the longest lateness of each declared timer is reported as well.
+    """
 
     period_ms: int = 1000
     hardware_id: str = ""
     deadline_us: int = 0
+    timers: bool = False
     stack: LevelLimits = LevelLimits(warn=90)
     cpu: LevelLimits = LevelLimits(warn=95)
     supply: LevelLimits = LevelLimits()
@@ -49,3 +53,4 @@ class DiagnosisDecl:
     span: Span | None = None
     hardware_span: Span | None = None
     deadline_span: Span | None = None
+    timers_span: Span | None = None

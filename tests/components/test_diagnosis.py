@@ -20,6 +20,7 @@ diagnosis:
   period: 2 s
   hardware_id: board-7
   deadline: 50 ms
+  timers: true
   checks:
     - {name: heat, above: {warn: 80, error: 90}, timeout: 5 s, mode: SAFE}
     - {name: battery, unit: mV, below: {error: -5}, node: other}
@@ -213,3 +214,74 @@ def test_a_name_that_several_nodes_have(tmp_path: Path) -> None:
     assert [(d.id, d.hint) for d in error.value.diagnostics] == [
         ("MG-3117", "Write one of /left/motor, /right/motor")
     ]
+
+
+TIMERS = """\
+version: 1
+profiles: [pure_sender]
+components: [+diagnosis, +timers, +executor]
+nodes:
+  - name: device
+    timers: [{name: fast, period: 10 ms}, {name: twin, period: 10 ms}, {name: slow, period: 1 s}]
+"""
+
+
+def test_each_timer_is_reported_where_that_is_wanted(tmp_path: Path) -> None:
+    """By name, in a message that has room for it; with the node where several have timers."""
+    usual = slice_of(planned(tmp_path, TIMERS))
+    assert [row.key for row in usual.rows if row.group == "timers"] == ["overruns", "latest_us"]
+    each = slice_of(planned(tmp_path, f"{TIMERS}diagnosis: {{timers: true}}\n"))
+    assert [row.key for row in each.rows if row.group == "timers"][2:] == ["fast_us", "twin_us", "slow_us"]
+    more = f"{TIMERS}  - {{name: other, timers: [{{name: fast, period: 3 us}}]}}\n"
+    both = slice_of(planned(tmp_path, f"{more}diagnosis: {{timers: true}}\n"))
+    assert [row.key for row in both.rows if row.group == "timers"][2::3] == [
+        "device/fast_us",
+        "other/fast_us",
+    ]
+    assert both.tables[-1].endswith(
+        "{INT64_C(10000000), INT64_C(10000000), INT64_C(1000000000), INT64_C(3000)};"
+    )
+
+
+def test_a_report_of_many_timers_has_room(tmp_path: Path) -> None:
+    """More values than other statuses have, with longer keys."""
+    timers = ", ".join(f"{{name: a_timer_with_a_long_name_{i}, period: {i + 1} ms}}" for i in range(12))
+    base = "version: 1\nprofiles: [pure_sender]\ncomponents: [+diagnosis, +timers]\n"
+    found = planned(
+        tmp_path, f"{base}nodes: [{{name: n, timers: [{timers}]}}]\ndiagnosis: {{timers: true}}\n"
+    )
+    part = slice_of(found)
+    assert part.timer_count == 12
+    assert part.size > 12 * len("a_timer_with_a_long_name_0_us")
+
+
+def test_without_declared_timers_none_is_reported(tmp_path: Path) -> None:
+    text = f"{BARE}components: [+diagnosis, +timers]\nnodes: [{{name: n}}]\ndiagnosis: {{timers: true}}\n"
+    with pytest.raises(UserError) as error:
+        planned(tmp_path, text)
+    assert [d.id for d in error.value.diagnostics] == ["MG-7189"]
+
+
+def test_lateness_of_each_timer(tmp_path: Path) -> None:
+    """Found by its period, those of one period by their order; gcc with sanitizers."""
+    out = rendered(tmp_path, f"{TIMERS}diagnosis: {{timers: true}}\n")
+    (table,) = slice_of(planned(tmp_path, f"{TIMERS}diagnosis: {{timers: true}}\n")).tables
+    (tmp_path / "tables.c").write_text(f'#include "microros/rcl_diagnosis.h"\n{table}\n')
+    sources = [
+        UNITS / "unit_diagnosis_timers.c",
+        out / "src" / "diagnosis" / "rcl_diagnosis_timers.c",
+        out / "src" / "support" / "microros_time_math.c",
+        tmp_path / "tables.c",
+    ]
+    flags = (
+        "-std=c99",
+        "-Wall",
+        "-Wextra",
+        "-Wpedantic",
+        "-Wconversion",
+        "-Werror",
+        "-fsanitize=address,undefined",
+    )
+    program = tmp_path / "unit"
+    run("gcc", *flags, f"-I{out / 'include'}", *sources, "-o", program)
+    assert run(program) == "ok\n"

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from microros_gen.application.diagnosis_decl import DiagnosisDecl, LevelLimits
 from microros_gen.application.model import Application, LimitRule
@@ -35,6 +35,9 @@ _MOST_VALUES = 10
 _LONGEST_GROUP = 32
 _LONGEST_MESSAGE = 40
 _LONGEST_KEY = 12
+_OTHER_VALUES = 2
+"""Of the status of timers, besides those of each timer."""
+_NS_PER_US = 1000
 _LONGEST_NUMBER = 11
 
 
@@ -42,7 +45,8 @@ _LONGEST_NUMBER = 11
 class DiagnosisPlan:
     """What the device reports. `times`: rounds are measured, `cpu`: waits as well; `stack`, `reset`, `supply` likewise.
 
-    `missing` are parts that nothing measures here, as a report names them. `size`: bytes of the largest message.
+    `missing` are parts that nothing measures here, as a report names them. `periods` are those of the timers that are
+    reported one by one, microseconds. `size`: bytes of the largest message.
     """
 
     period_ms: int
@@ -58,6 +62,7 @@ class DiagnosisPlan:
     rows: tuple[CounterRow, ...]
     checks: tuple[CheckRow, ...]
     declared: tuple[str, ...]
+    periods: tuple[int, ...]
     missing: str
     size: int
 
@@ -82,6 +87,11 @@ class DiagnosisPlan:
         return len(self.declared)
 
     @property
+    def timer_count(self) -> int:
+        """Return the number of timers that are reported one by one."""
+        return len(self.periods)
+
+    @property
     def shown(self) -> str:
         """Return what a report says: the period and the names of all statuses."""
         names = ", ".join(status.name.partition(": ")[2] for status in self.statuses)
@@ -95,9 +105,12 @@ class DiagnosisPlan:
 
     @property
     def tables(self) -> tuple[str, ...]:
-        """Return the lists of words as C."""
+        """Return the lists of words, and of periods, as C."""
         words = ", ".join(f'"{word}"' for word in _RESETS)
-        return (f"static const char * const diagnosis_resets[] = {{{words}}};",) if self.reset else ()
+        resets = f"static const char * const diagnosis_resets[] = {{{words}}};"
+        numbers = ", ".join(f"INT64_C({period * _NS_PER_US})" for period in self.periods)
+        periods = f"const int64_t rcl_diagnosis_periods[] = {{{numbers}}};"
+        return (*((resets,) if self.reset else ()), *((periods,) if self.periods else ()))
 
     @property
     def checks_table(self) -> tuple[str, ...]:
@@ -152,7 +165,12 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> DiagnosisPlan:
     has = {name: _offered(context, name) for name in ("stack_peak", "reset_cause", "supply_voltage")}
     supply = has["supply_voltage"]
     _check_measured(context, declared, times, supply, diagnostics)
-    rows = [*_own_rows(context, times, has), *_contributed(context)]
+    timers = _timers(application) if declared.timers else ()
+    if declared.timers and not timers:
+        message = "'timers' of a diagnosis is for declared timers, and no node has one"
+        hint = "Add to a node: `timers: [{name: tick, period: 100 ms}]`"
+        diagnostics.error(message, declared.timers_span, hint, id="MG-7189")
+    rows = [*_own_rows(context, times, has, [name for name, _ in timers]), *_contributed(context)]
     checks = [*_own_checks(declared, cpu, has["stack_peak"], supply)]
     statuses, rows_in_order, checks_in_order = statuses_of(application, declared, rows, checks, diagnostics)
     if len(statuses) > MOST_STATUSES:
@@ -180,6 +198,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> DiagnosisPlan:
         rows=rows_in_order,
         checks=checks_in_order,
         declared=tuple(check.name for check in declared.checks),
+        periods=tuple(period for _, period in timers),
         missing=", ".join(missing),
         size=size,
     )
@@ -222,7 +241,19 @@ def _check_size(context: PlanContext, size: int, declared: DiagnosisDecl, diagno
         diagnostics.error(message, declared.span, hint, id="MG-7098")
 
 
-def _own_rows(context: PlanContext, times: bool, has: dict[str, bool]) -> Iterator[CounterRow]:
+def _timers(application: Application) -> tuple[tuple[str, int], ...]:
+    """Return the name of each declared timer in a report, with its node where several have timers, and its period."""
+    nodes = [node for node in application.nodes if node.timers]
+    return tuple(
+        (timer.name if len(nodes) == 1 else f"{node.name}/{timer.name}", timer.period_us)
+        for node in nodes
+        for timer in node.timers
+    )
+
+
+def _own_rows(
+    context: PlanContext, times: bool, has: dict[str, bool], timers: Sequence[str]
+) -> Iterator[CounterRow]:
     """Yield the counters of this component itself."""
     if times:
         yield CounterRow("executor", "rounds", "rcl_diagnosis_rounds()")
@@ -231,6 +262,8 @@ def _own_rows(context: PlanContext, times: bool, has: dict[str, bool]) -> Iterat
     if context.selection.has("timers"):
         yield CounterRow("timers", "overruns", "rcl_diagnosis_overruns()", warns=True)
         yield CounterRow("timers", "latest_us", "rcl_diagnosis_latest_us()")
+        for index, name in enumerate(timers):
+            yield CounterRow("timers", f"{name}_us", f"rcl_diagnosis_timer_us({index})")
     if has["stack_peak"]:
         yield CounterRow("stack", "peak", "port_stack_peak()", header=_PORT)
         yield CounterRow("stack", "size", "port_stack_size()", header=_PORT)
@@ -276,6 +309,7 @@ def record(part: DiagnosisPlan) -> object:
         "rows": [[row.entry, row.value] for row in part.rows],
         "checks": [check.entry for check in part.checks],
         "declared": list(part.declared),
+        "periods": list(part.periods),
     }
 
 
@@ -284,6 +318,9 @@ def limits(application: Application) -> tuple[LimitRule, ...]:
     declared = application.diagnosis or DiagnosisDecl()
     texts = [text for check in declared.checks for text in (check.name, check.unit, check.mode)]
     longest = max(_LONGEST_NUMBER, *(len(text.encode()) for text in texts), 0)
+    timers = _timers(application) if declared.timers else ()
+    values = max(_MOST_VALUES, _OTHER_VALUES + len(timers))
+    key = max([_LONGEST_KEY, *(len(f"{name}_us") for name, _ in timers)])
     nodes = max((len(node_prefix(node)) for node in application.nodes), default=0)
     name = nodes + max(_LONGEST_GROUP, longest)
     bounds: tuple[tuple[tuple[str, ...], int | None, int | None], ...] = (
@@ -292,8 +329,8 @@ def limits(application: Application) -> tuple[LimitRule, ...]:
         (("status", "name"), name, None),
         (("status", "message"), _LONGEST_MESSAGE, None),
         (("status", "hardware_id"), len(declared.hardware_id.encode()), None),
-        (("status", "values"), None, _MOST_VALUES),
-        (("status", "values", "key"), _LONGEST_KEY, None),
+        (("status", "values"), None, values),
+        (("status", "values", "key"), key, None),
         (("status", "values", "value"), longest, None),
     )
     rules = (LimitRule((str(TYPE), *path), text, count) for path, text, count in bounds)

@@ -268,7 +268,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "diagnosis": _NODES.replace("    publishers:\n", "")
         + _MODES
         + "    timers: [{name: tick, period: 50 ms}]\ncomponents: [+timers, +executor, +diagnosis]\n"
-        + "diagnosis: {deadline: 5 ms, checks: [{name: battery, below: {error: 11000}, mode: SLOW}]}\n",
+        + "diagnosis: {deadline: 5 ms, timers: true, checks: [{name: battery, below: {error: 11000}, mode: SLOW}]}\n",
         "diagnosis_threads": _NODES + _SURE + "components: [+diagnosis, +multithread]\n",
         "diagnosis_board": _NODES
         + _SURE

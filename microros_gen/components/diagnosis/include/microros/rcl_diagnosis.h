@@ -65,6 +65,8 @@ typedef struct rcl_diagnosis_measure_t {
 
 extern const rcl_diagnosis_status_t rcl_diagnosis_statuses[MICROROS_DIAGNOSIS_STATUSES];
 extern const rcl_diagnosis_row_t rcl_diagnosis_rows[];
+extern const int64_t
+  rcl_diagnosis_periods[]; /* of the declared timers, nanoseconds; without any it is not there */
 extern const rcl_diagnosis_check_t rcl_diagnosis_checks[];
 
 /* Returns the present number of a row. */
@@ -116,6 +118,7 @@ uint32_t rcl_diagnosis_longest_us(void);
 uint32_t rcl_diagnosis_missed(void);
 uint32_t rcl_diagnosis_overruns(void);
 uint32_t rcl_diagnosis_latest_us(void);
+uint32_t rcl_diagnosis_timer_us(uint8_t timer); /* of a declared timer: its longest lateness */
 uint32_t rcl_diagnosis_errors(void);
 
 #ifdef __cplusplus
