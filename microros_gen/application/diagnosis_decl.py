@@ -6,6 +6,9 @@ from __future__ import annotations
 from microros_gen.diagnostics import Span
 from microros_gen.records import dataclass
 
+KEY = "diagnosis"
+"""Its key in the application file."""
+
 
 @dataclass(frozen=True)
 class LevelLimits:

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Mapping, Set
 from dataclasses import replace
 
+from microros_gen.application import diagnosis_decl
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.migrate.c_program import Call, CFile, read_program
 from microros_gen.migrate.c_tokens import read_c
@@ -91,7 +92,7 @@ def rclc_draft(
     pools = {**settings.get("pools", {}), **_executors(calls), **server_pools(calls, values)}
     limits, guesses = server_limits(calls, values)
     checks, unlimited = find_checks(calls)
-    groups = {**settings, **{k: v for k, v in (("pools", pools), ("diagnosis", checks)) if v}}
+    groups = {**settings, **{k: v for k, v in (("pools", pools), (diagnosis_decl.KEY, checks)) if v}}
     draft = Draft(
         profiles=profiles.names,
         components=_components(
