@@ -395,6 +395,7 @@ TIMELESS = {
     "parameter_messages": "hands the time of arrival on",
     "parameters": "stamps events with the time of day, which has 64 bits",
     "port_cortex_m": "waits for one byte of a UART",
+    "port_freertos": "the kernel's count of ticks, with its wraps, has 64 bits",
     "port_posix": "the system's clocks have 64 bits",
     "port_riscv": "waits for one byte of a UART; its counter has 64 bits",
     "qos": "the deadline of a QoS is a number for the agent",

@@ -9,6 +9,7 @@
 #include "microros/rmw_local_deliver.h"
 #include "microros/rmw_local_wake.h"
 #include "microros/xrce_client.h"
+#include "microros/xrce_local_fresh.h"
 #include "microros/xrce_wire.h"
 #include "microros/xrce_write.h"
 
