@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 from pathlib import Path
 
@@ -285,3 +286,37 @@ def test_lateness_of_each_timer(tmp_path: Path) -> None:
     program = tmp_path / "unit"
     run("gcc", *flags, f"-I{out / 'include'}", *sources, "-o", program)
     assert run(program) == "ok\n"
+
+
+RESETS = {0x0: "POWER", 0x1: "PIN", 0x2: "WATCHDOG", 0x4: "SOFTWARE", 0x5: "SOFTWARE", 0x6: "WATCHDOG"}
+RESETS |= {0x8: "FAULT", 0xA: "FAULT", 0x10000: "UNKNOWN", 0x104: "FAULT"}
+"""Reasons of the nRF51 and what they mean; bit 8 is none of them and stands for a kept fault."""
+
+
+def test_reset_causes_of_the_microbit(tmp_path: Path) -> None:
+    """The file of the board's image, with a variable in place of the register: it is read once, and cleared."""
+    base = f"{BARE}components: [+diagnosis]\ntarget: qemu-microbit\nnodes: [{{name: n}}]\n"
+    out = rendered(tmp_path, base)
+    source = (out / "src" / "port_microbit" / "port_microbit_reset_cause.c").read_text()
+    register = "(volatile uint32_t *)RESET_REASONS"
+    assert source.count(register) == 1
+    assert "#define RESET_REASONS 0x40000400u\n" in source
+    (tmp_path / "reset.c").write_text(
+        "static volatile unsigned cell, fault;\n"
+        + source.replace(register, "&cell").replace(
+            '#include "microros/port_bare.h"\n',
+            "#include <stdio.h>\n"
+            "#include <stdlib.h>\n#include <stdbool.h>\n"
+            "static bool port_bare_fault_is_kept(void) { return fault != 0; }\n",
+        )
+        + "int main(int n, char ** v)\n{\n  cell = (unsigned)strtoul(v[n - 1], NULL, 0);\n"
+        "  fault = cell >> 8 & 1u;\n  cell &= ~0x100u;\n  port_reset_t first = port_reset_cause();\n"
+        "  cell = 2;\n  fault = 0;\n  if (port_reset_cause() != first) { return 1; }\n"
+        '  printf("%d", (int)first);\n  return 0;\n}\n'
+    )
+    header = (out / "include" / "microros" / "port_diagnosis.h").read_text()
+    names = re.findall(r"\bPORT_RESET_([A-Z_]+)\b", header)
+    program = tmp_path / "reset"
+    run("gcc", "-std=c99", "-Wall", "-Werror", f"-I{out / 'include'}", tmp_path / "reset.c", "-o", program)
+    found = {reasons: names[int(run(program, hex(reasons)))] for reasons in RESETS}
+    assert found == RESETS

@@ -268,7 +268,8 @@ def test_a_built_in_target_file_has_no_fact_about_a_board(path: Path) -> None:
 def test_built_in_boards_hold_to_the_schema_and_repeat_nothing() -> None:
     schema = board_schema(json.loads(SCHEMA.read_text()))
     boards = {
-        p.parent.name: yaml.safe_load(p.read_text()) for p in (PACKAGE / "platform").glob("board/*/*.yaml")
+        p.parent.name: yaml.safe_load(p.read_text())
+        for p in (PACKAGE / "platform").glob("board/*/board.yaml")
     }
     assert set(boards) == set(builtin_parts("board")) != set()
     for name, facts in boards.items():

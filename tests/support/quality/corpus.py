@@ -272,7 +272,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "diagnosis_threads": _NODES + _SURE + "components: [+diagnosis, +multithread]\n",
         "diagnosis_board": _NODES
         + _SURE
-        + "components: [+executor, +diagnosis]\ntarget: {name: qemu-mps2-an386}\n",
+        + "components: [+executor, +diagnosis]\ntarget: {name: qemu-microbit}\n",
         "diagnosis_riscv": _NODES
         + _SURE
         + "components: [+executor, +diagnosis]\ntarget: {name: qemu-riscv32-virt}\n",
