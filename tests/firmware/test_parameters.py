@@ -109,7 +109,7 @@ def test_its_instructions(builds: Builds) -> None:
     """Goals: 15,000, 4,000 and 6,000 for init, get and set; not met for init and the request of set."""
     need(NAME, emulator=True)
     found = work(builds, NAME)
-    assert found.init <= 24_553
+    assert found.init <= 24_525
     assert found.get <= 3_457
     assert found.set <= 6_270
     assert found.get_call <= 288

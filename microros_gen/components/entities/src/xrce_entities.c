@@ -126,7 +126,9 @@ static void entities_refuse(xrce_client_t * client, uint8_t status, uint32_t now
    * Other places first; then try again after growing pauses, since the cause (a mistake, missing memory)
    * may persist. */
   entities->due_ms = now + xrce_session_pause((uint32_t)MICROROS_RETRY_FIRST_MS << entities->refusals);
-  entities->refusals = (uint8_t)(entities->refusals + (entities->refusals < MOST_REFUSALS ? 1u : 0u));
+  if (entities->refusals < MOST_REFUSALS) {
+    ++entities->refusals;
+  }
   entities->resting = true;
   entities->pending = XRCE_PENDING_ANY;
   entities_next_place(entities);
@@ -301,15 +303,17 @@ void xrce_entities_add(xrce_client_t * client, uint16_t place)
   xrce_entities_t * entities = &client->entities;
   xrce_object_state_t * state = &client->states[place];
 
-  /* Also if the request of a former owner is still outstanding: its result is no longer wanted. */
-  state->stale = state->level != 0u || (entities->outstanding && entities->cursor == place);
   state->wanted = true;
-  if (NOTES_ONE && entities->pending == (uint8_t)XRCE_PENDING_NONE && !state->stale) {
-    entities->cursor = place; /* creating it makes no work for another place: nothing is searched */
+  if (NOTES_ONE && (entities->pending | state->level) == 0u) {
+    entities->cursor = place; /* nothing else is due, and creating it makes no work for another place */
     entities->pending = XRCE_PENDING_ONE;
-  } else {
-    entities_wake(entities);
+    return;
   }
+  /* Also if the request of a former owner is still outstanding: its result is no longer wanted. */
+  if (state->level != 0u || (entities->outstanding && entities->cursor == place)) {
+    state->stale = true;
+  }
+  entities_wake(entities);
 }
 
 void xrce_entities_remove(xrce_client_t * client, uint16_t place)
