@@ -290,7 +290,7 @@ def test_lateness_of_each_timer(tmp_path: Path) -> None:
 
 RESETS = {0x0: "POWER", 0x1: "PIN", 0x2: "WATCHDOG", 0x4: "SOFTWARE", 0x5: "SOFTWARE", 0x6: "WATCHDOG"}
 RESETS |= {0x8: "FAULT", 0xA: "FAULT", 0x10000: "UNKNOWN", 0x104: "FAULT"}
-"""Reasons of the nRF51 and what they mean; bit 8 is none of them and stands for a kept fault."""
+"""Reasons of the nRF51 and what they mean; bit 8 is none of them, but means a kept fault."""
 
 
 def test_reset_causes_of_the_microbit(tmp_path: Path) -> None:
