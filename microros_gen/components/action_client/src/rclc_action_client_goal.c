@@ -2,6 +2,7 @@
 /* Places of goals. All functions are called with the lock. */
 #include "microros/port.h"
 #include "microros/rclc_action_client.h"
+#include "microros/rmw_action_client.h"
 #include "microros/rmw_client.h"
 
 #include <string.h>
