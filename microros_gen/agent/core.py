@@ -20,7 +20,7 @@ from microros_gen.agent.fairness import Account, Fairness
 from microros_gen.agent.graph_work import GraphWork
 from microros_gen.agent.input_pool import InputPool
 from microros_gen.agent.limits import Limits
-from microros_gen.agent.liveliness import Verdict, ask, judge
+from microros_gen.agent.liveliness import Verdict, ask, judge, say_farewell
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.memory import MemoryGuard, Relief
@@ -208,6 +208,7 @@ class Agent:
 
         Before that, pending samples are published, and readers have at most `stop_s` seconds to acknowledge them: the
         clients were told that they arrived, and DDS drops undelivered samples together with their writer.
+        A client that has another agent learns that it may go there: nothing more is taken from it here.
         """
         self._guarded(partial(self._settle, self._clock() + self._limits.stop_s))
         for client in self.clients:
@@ -218,6 +219,8 @@ class Agent:
     def _settle(self, end: float) -> None:
         self._turns.drain(end)
         self.flush()
+        for client in self.clients:
+            self._guarded(partial(say_farewell, client))
         late = sum(
             not writer.settled(max(0.0, end - self._clock()))
             for client in self.clients

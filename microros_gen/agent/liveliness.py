@@ -13,6 +13,8 @@ from enum import Enum
 
 from microros_gen.agent.clients import Client
 from microros_gen.agent.limits import PROBES
+from microros_gen.agent.wire.constants import OBJECT_CLIENT, Status
+from microros_gen.agent.wire.entity_messages import StatusReply
 
 MOST_PROBES = 15
 """Number of unanswered probes after which a client on the worst line is considered gone."""
@@ -20,6 +22,10 @@ WRONG = 1e-4
 """Accepted probability of removing a client that answers every probe it receives."""
 LOST, ANSWERED = 0.2, 0.05
 """Weight of the newest probe in the estimated loss; losses come in bursts, so they are remembered longer."""
+
+
+_LOGOUT = 2
+"""The request with which clients close their session (the public client's number, and this project's)."""
 
 
 class Verdict(Enum):
@@ -48,6 +54,15 @@ def ask(client: Client, now: float) -> None:
     client.probed = now
     client.probes += 1
     client.send(client.session.probe())
+
+
+def say_farewell(client: Client) -> None:
+    """Tell an awake client that its session ends: the answer to a DELETE of it, which it has not sent.
+
+    Clients with a list of agents go to the next one; others, the public ones too, ignore it.
+    """
+    if not client.asleep:
+        client.send(client.session.unnumbered(StatusReply(_LOGOUT, OBJECT_CLIENT, Status.OK)))
 
 
 def loss_of(client: Client) -> float:

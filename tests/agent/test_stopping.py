@@ -39,7 +39,11 @@ def test_what_was_accepted_is_published_and_acknowledged() -> None:
     del bench.transport.sent[:]
     bench.agent.close()
     assert values(bench) == list(range(20))
-    assert acknacks([data.hex() for _, data in bench.transport.sent]) == [(1, 0)]
+    sent = [data.hex() for _, data in bench.transport.sent]
+    assert acknacks(sent) == [(1, 0)]
+    assert sent[-1] == "81000000" + "05010600" + "0002fffe" + "0000", (
+        "after the last acknowledgement, a farewell"
+    )
     assert bench.bridge.graph == []
 
 

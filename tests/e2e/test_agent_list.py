@@ -161,6 +161,21 @@ def test_unacknowledged_samples_go_to_the_next_agent(live: Live, agents: Agents)
     assert not agents.scripted[0].connected
 
 
+def test_an_agent_that_says_that_it_ends_is_left_at_once(live: Live, agents: Agents) -> None:
+    """What it has not acknowledged goes to the next one. It answers all that it gets, so no ping fails."""
+    agents.start(0, 1)
+    talk(live)
+    live.ok("flush 2000")
+    agents.scripted[0].leaving = True
+    taken = [s.value for s in live.burst(0, 3, 1) if s.code == 0]
+    wait_for_agent(live, 1)
+    live.ok("flush 2000")
+    assert agents.scripted[1].values() == taken
+    assert agent_of(live) == (agents.ports[1], 1, 1)
+    agents.scripted[0].leaving = False
+    live.ok("close")
+
+
 def test_an_agent_that_has_restarted_is_kept(live: Live, agents: Agents) -> None:
     agents.start(0, 1)
     talk(live)

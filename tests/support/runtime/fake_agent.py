@@ -18,7 +18,7 @@ WINDOW = 16
 
 @dataclass
 class FakeAgent:
-    """State of one agent; `receive` returns the datagrams that it answers with.
+    """State of one agent; `receive` returns the datagrams that it answers with. `leaving`: it says that it ends.
 
     `drop` is asked for each datagram that comes in: true loses it. `refuse` maps an object kind to the status
     that its creation gets. `chunks` of fragments outlive a gap and a session, as in the public agent; `spoiled` counts
@@ -26,6 +26,7 @@ class FakeAgent:
     """
 
     silent: bool = False
+    leaving: bool = False
     session_status: int = 0
     refuse: dict[str, int] = field(default_factory=dict)
     drop: Callable[[bytes], bool] = lambda datagram: False
@@ -58,6 +59,8 @@ class FakeAgent:
 
     def receive(self, datagram: bytes) -> list[bytes]:
         self.log.append(datagram)
+        if self.leaving:
+            return [bytes.fromhex("81000000 05010600 0002fffe 0000")]
         if self.silent or self.drop(datagram):
             return []
         return [answer for answer in self._answers(datagram) if not self.drop_answer(answer)]

@@ -4,6 +4,8 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_wire.h"
 
+enum { FAREWELL_SIZE = 6 };
+
 /* Tries the current agent until the next one is due. */
 static void agents_begin_try(xrce_agents_t * agents, uint32_t now)
 {
@@ -32,19 +34,37 @@ static void agents_try_next(xrce_client_t * client, uint32_t now)
   agents_begin_try(agents, now);
 }
 
+static void agents_begin_round(xrce_agents_t * agents, uint32_t now)
+{
+  agents->state = XRCE_AGENTS_TRYING;
+  agents->since_ms = now;
+  agents->tried = 0;
+}
+
 /* Starts a search: with the agent that the session was opened for, after a loss with the next one. */
 static void agents_begin_search(xrce_client_t * client, uint32_t now)
 {
   xrce_agents_t * agents = &client->agents;
 
-  agents->state = XRCE_AGENTS_TRYING;
-  agents->since_ms = now;
-  agents->tried = 0;
+  agents_begin_round(agents, now);
   /* An agent that has just answered, but not within the session, has restarted: it is there. */
   if (agents->used != 0u && client->session.received_ms != now) {
     agents_try_next(client, now);
   } else {
     agents_begin_try(agents, now);
+  }
+}
+
+void xrce_agents_on_status(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now)
+{
+  const uint8_t * payload = xrce_payload_of(submessage);
+
+  if (
+    client->session.state == (uint8_t)XRCE_READY && client->agents.state == (uint8_t)XRCE_AGENTS_SETTLED &&
+    size >= FAREWELL_SIZE && xrce_get_be16(&payload[0]) == XRCE_REQUEST_LOGOUT &&
+    xrce_get_be16(&payload[2]) == XRCE_OBJECT_CLIENT) {
+    agents_begin_round(&client->agents, now);
+    agents_try_next(client, now);
   }
 }
 

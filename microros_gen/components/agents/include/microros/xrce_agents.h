@@ -8,6 +8,7 @@
 #define MICROROS_XRCE_AGENTS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "microros/xrce_session.h"
@@ -42,6 +43,11 @@ void xrce_agents_limit(xrce_client_t * client);
 
 /* Called when an agent granted a session. */
 void xrce_agents_connected(xrce_client_t * client);
+
+/*
+ * Handles a STATUS. An agent that is stopped sends the answer to a DELETE of the client that nobody asked for: the
+ * session continues with the next agent at once. */
+void xrce_agents_on_status(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
 /* Writes an agent of the list, `index` below MICROROS_AGENTS, to a transport that is not open. */
 void xrce_agents_set(xrce_transport_t * transport, uint8_t index);
