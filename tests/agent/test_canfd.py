@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import errno
 import io
 import socket
 import subprocess
@@ -217,6 +218,33 @@ def test_a_kernel_without_can_is_named(log: io.StringIO) -> None:
         CanFd("can0", EventLog(log, False))
     (found,) = raised.value.diagnostics
     assert (found.id, found.message) == ("MG-9441", "this kernel has no CAN sockets")
+
+
+class Interface(socket.socket):
+    """A socket of an interface that is down, as the kernel has it: it can be bound, and then reports that."""
+
+    def __init__(self, *_: object) -> None:
+        super().__init__(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+
+    def setsockopt(self, *_: object) -> None:
+        """Accept the options of CAN."""
+
+    def bind(self, address: object) -> None:
+        """Accept every name."""
+
+    def getsockopt(self, level: int, option: int) -> int:  # type: ignore[override]
+        """Return the pending error."""
+        return errno.ENETDOWN if option == socket.SO_ERROR else 0
+
+
+def test_an_interface_that_is_down_is_waited_for(log: io.StringIO, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(socket, "socket", Interface)
+    can = CanFd("can0", EventLog(log, False))
+    assert not can.ready
+    can.tick(time.monotonic())
+    assert not can.ready
+    assert log.getvalue().splitlines() == ["canfd can0 cannot be opened (Network is down); waiting for it"]
+    can.close()
 
 
 @pytest.fixture

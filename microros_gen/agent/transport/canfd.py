@@ -9,6 +9,7 @@ reached at `unix:PATH` (SOCK_SEQPACKET); it exchanges the same records, struct c
 from __future__ import annotations
 
 import errno
+import os
 import select
 import socket
 import struct
@@ -248,6 +249,9 @@ def _open(device: str) -> socket.socket:
             opened.setsockopt(_SOL_CAN_RAW, _RAW_FD_FRAMES, 1)
             opened.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER)
             opened.bind((device,))
+            down = opened.getsockopt(socket.SOL_SOCKET, socket.SO_ERROR)
+            if down:  # such an interface can be bound
+                raise OSError(down, os.strerror(down))
     except OSError:
         opened.close()
         raise
