@@ -86,17 +86,19 @@ def _write(handle: int, data: bytes) -> None:
 
 
 class Relay:
-    """Joins a board's line to its own pseudo-terminal, `device`; used as a context manager."""
+    """Joins a board's line to its own pseudo-terminal, `device`, or to that of another board; a context manager."""
 
-    def __init__(self, board_device: str) -> None:
+    def __init__(self, board_device: str, other_device: str = "") -> None:
         self.fault: Fault = clean
         self.stopped = False  # nothing that the board sends is taken: its line stands still
         self.lost = 0
         self.spoiled = 0
         self._board = open_raw(board_device)
-        self._master, self._slave = pty.openpty()
-        tty.setraw(self._slave)
-        self.device = os.ttyname(self._slave)
+        self._handles = (open_raw(other_device),) if other_device else pty.openpty()
+        self._master = self._handles[0]  # the end that the relay has
+        if not other_device:
+            tty.setraw(self._handles[1])
+        self.device = other_device or os.ttyname(self._handles[1])
         self._ends = threading.Event()
         self._thread = threading.Thread(target=self._serve, daemon=True)
 
@@ -107,7 +109,7 @@ class Relay:
     def __exit__(self, *_: object) -> None:
         self._ends.set()
         self._thread.join(10)
-        for handle in (self._board, self._master, self._slave):
+        for handle in (self._board, *self._handles):
             os.close(handle)
 
     def _serve(self) -> None:
