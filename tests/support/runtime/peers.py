@@ -69,9 +69,14 @@ def written(folder: Path, system_text: str, text: str = APPLICATION) -> Path:
     return folder
 
 
-def board_program(folder: Path, own: str, system_text: str, text: str = APPLICATION) -> Path:
-    """Build the program of a board, with a separate system file: the relay is the other end of its link."""
-    home = written(folder / f"of_{own}", system_text, text)
+def board_program(
+    folder: Path, own: str, system_text: str, text: str = APPLICATION, others: str = APPLICATION
+) -> Path:
+    """Build the program of a board, with a separate system file: the relay may be the other end of its link.
+
+    `others`: what the other board has.
+    """
+    home = written(folder / f"of_{own}", system_text, others)
     out = rendered(home / own, application(own, text))
     flags = (f'-DOWN="{own}"', f'-DOTHER="{PAIR[1 - PAIR.index(own)]}"')
     return program_of(out, "peer_board.c", without=("port_posix_time.c",), more=flags)
