@@ -108,10 +108,10 @@ def test_besides_an_agent_that_is_killed(observer: Observer, domain: int, tmp_pa
     program_a, program_b = programs(tmp_path, port, domain)
     observer.subscribe("/a/sure", INT32)
     with agent_at(port, domain) as agent, started(program_a) as a, started(program_b) as b:
-        boards, numbers, said = (a, b), Numbers(a), Numbers(b)
+        boards, numbers, numbers_of_b = (a, b), Numbers(a), Numbers(b)
         until(lambda: not a.publish(BEST, 0), *boards)
         until(lambda: not b.publish(BEST, 0), *boards)
-        assert said.publish() == ""
+        assert numbers_of_b.publish() == ""
         first = of_ros(observer, numbers, boards, 3)
         assert first == sorted(set(first))
         hear_ros(observer, FROM_ROS, boards)
@@ -123,8 +123,8 @@ def test_besides_an_agent_that_is_killed(observer: Observer, domain: int, tmp_pa
         while time.monotonic() < end:
             errors.add(numbers.publish())
             until(lambda: len(b.values[SURE]) == numbers.count, *boards)
-            assert said.publish() == ""
-            until(lambda: len(of_b(a)) == said.count, *boards)
+            assert numbers_of_b.publish() == ""
+            until(lambda: len(of_b(a)) == numbers_of_b.count, *boards)
         assert any("session" in error or "acknowledged" in error for error in errors), errors
         assert not any("board b" in error for error in errors), errors
 
@@ -133,4 +133,4 @@ def test_besides_an_agent_that_is_killed(observer: Observer, domain: int, tmp_pa
             hear_ros(observer, FROM_ROS + 1, boards)
         assert again == sorted(set(again))
         assert b.values[SURE] == [*range(numbers.count)]
-        assert of_b(a) == [*range(said.count)]
+        assert of_b(a) == [*range(numbers_of_b.count)]

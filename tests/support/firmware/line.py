@@ -94,7 +94,7 @@ class Relay:
         self.lost = 0
         self.spoiled = 0
         self._board = open_raw(board_device)
-        self._handles = (open_raw(other_device),) if other_device else pty.openpty()
+        self._handles: tuple[int, ...] = (open_raw(other_device),) if other_device else pty.openpty()
         self._master = self._handles[0]  # the end that the relay has
         if not other_device:
             tty.setraw(self._handles[1])
