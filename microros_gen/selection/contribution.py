@@ -67,6 +67,7 @@ HOOK_POINTS: Mapping[str, HookPoint] = MappingProxyType(
         "dropped": HookPoint(("client", "dropped")),
         # for waiting functions: xrce_wait_left.h
         "due": HookPoint(("client", "left", "now"), value=True),
+        "due_always": HookPoint(("client", "left", "now"), value=True),
         # rcl and rclc
         "support_opened": HookPoint(("support", "allocator"), value=True),
         "support_closed": HookPoint(("support",)),

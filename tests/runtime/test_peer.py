@@ -193,6 +193,22 @@ def test_a_repeated_request_for_a_session_ends_none(programs: tuple[Path, Path],
     assert kept
 
 
+def test_a_wait_ends_when_a_message_of_the_other_board_arrives_and_not_before(
+    programs: tuple[Path, Path], relay: Relay
+) -> None:
+    with pair(programs) as (first, second):
+        first.spin(50)
+        first.begin("rest 1000")
+        assert first.heard() < 100  # with a look at the link in each millisecond, thousands
+        start = time.monotonic()
+        first.begin("rest 30000")
+        time.sleep(0.2)
+        assert not second.publish(BEST, 5)
+        first.heard()
+        assert first.values[BEST] == [5]
+        assert time.monotonic() - start < 15
+
+
 @pytest.mark.parametrize("clock", [SHORTLY_BEFORE_WRAP, HALF_BEFORE_WRAP])
 def test_the_clock_wraps(programs: tuple[Path, Path], relay: Relay, clock: int) -> None:
     with pair(programs, clock) as (first, second):

@@ -47,7 +47,7 @@ _LONGEST_RETURNED = 100
 """Characters of an expression that `return` has in one line."""
 _ELSEWHERE: Mapping[str, tuple[str, ...]] = {
     "session": ("received", "handled"),
-    "due": ("due",),
+    "due": ("due", "due_always"),
     "woken": ("woken",),
     "support": ("support_opened", "support_closed"),
     "node": ("node_opened", "node_closing"),

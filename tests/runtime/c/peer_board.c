@@ -4,6 +4,8 @@
  * Takes commands by lines, and answers each with lines and `ret CODE ERROR`:
  *   publish TOPIC VALUE    TOPIC 0: best, 1: sure
  *   spin MS                prints `got TOPIC VALUE` for each message
+ *   rest MS                waits once, at most so long; prints `got` as well, and `times COUNT`: how often the time
+ *                          was read
  *   end
  * The first argument is what port_time_ms starts with. */
 #define _POSIX_C_SOURCE 200809L
@@ -26,12 +28,14 @@ enum { TOPICS = 2, LINE = 80 };
 static const char * const out_names[TOPICS] = {"/" OWN "/best", "/" OWN "/sure"};
 static const char * const in_names[TOPICS] = {"/" OTHER "/best", "/" OTHER "/sure"};
 static uint32_t offset_ms;
+static unsigned times; /* that the time was read */
 
 /* Instead of port_posix_time.c. */
 uint32_t port_time_ms(void)
 {
   struct timespec now = {0, 0};
 
+  ++times;
   (void)clock_gettime(CLOCK_MONOTONIC, &now);
   return offset_ms + (uint32_t)((uint64_t)now.tv_sec * 1000u + (uint64_t)now.tv_nsec / 1000000u);
 }
@@ -115,6 +119,10 @@ int main(int argc, char ** argv)
       code = rcl_publish(&publishers[topic], &message, NULL);
     } else if (sscanf(line, "spin %d", &value) == 1) {
       spin(&executor, (uint32_t)value);
+    } else if (sscanf(line, "rest %d", &value) == 1) {
+      times = 0;
+      (void)rclc_executor_spin_some(&executor, RCL_MS_TO_NS(value));
+      (void)printf("times %u\n", times);
     } else if (strcmp(line, "end\n") == 0) {
       break;
     } else {

@@ -94,10 +94,18 @@ class Board(CommandedProgram):
 
     def spin(self, milliseconds: int = 2) -> None:
         """Let it run."""
-        _, _, lines = self.call(f"spin {milliseconds}")
+        self.begin(f"spin {milliseconds}")
+        self.heard()
+
+    def heard(self) -> int:
+        """Note what came during a command; return the number that it printed last, 0 without one."""
+        _, _, lines = self.result()
+        numbers = [int(line.split()[1]) for line in lines if line.startswith("times ")]
         for line in lines:
-            _, topic, value = line.split()
-            self.values[int(topic)].append(int(value))
+            if line.startswith("got "):
+                _, topic, value = line.split()
+                self.values[int(topic)].append(int(value))
+        return numbers[-1] if numbers else 0
 
     def publish(self, topic: int, value: int) -> str:
         """Publish; return the error text, empty for none."""

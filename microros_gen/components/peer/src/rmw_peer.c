@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
+#include "microros/links.h"
+#include "microros/lock.h"
 #include "microros/port.h"
+#include "microros/rmw_client.h"
 #include "microros/rmw_encode.h"
 #include "microros/rmw_peer_publish.h"
 #include "microros/xrce_client.h"
@@ -19,6 +22,17 @@ typedef struct peer_sample_t {
   const uint8_t * body;
   size_t size;
 } peer_sample_t;
+
+intptr_t microros_link_handle(int link)
+{
+  const xrce_peer_t * peer = &rmw_client_instance()->peers[link];
+  intptr_t handle;
+
+  microros_lock();
+  handle = peer->open ? xrce_transport_handle(&peer->transport) : -1;
+  microros_unlock();
+  return handle;
+}
 
 bool rmw_peer_has_route(const xrce_endpoint_t * writer)
 {

@@ -208,10 +208,12 @@ static void peer_receive(xrce_client_t * client, uint8_t index, uint32_t now)
   static uint8_t peer_input[MICROROS_PEERS][MICROROS_PEER_MTU]; /* a line keeps a partial message in it */
   xrce_peer_t * peer = &client->peers[index];
 
+  peer->more = peer->open;
   for (uint8_t i = 0; i < MESSAGES_PER_PUMP && peer->open; ++i) {
     const int32_t size = xrce_transport_receive(&peer->transport, peer_input[index], MICROROS_PEER_MTU);
 
     if (size == 0) {
+      peer->more = false;
       return;
     }
     ++client->session.statistics.received;
@@ -229,12 +231,32 @@ void xrce_peer_step(xrce_client_t * client, uint32_t now)
   if (client->session.state == XRCE_CLOSED) {
     return;
   }
+  /* cppcheck-suppress knownConditionTrueFalse ; a constant of the plan */
+  if (!xrce_peer_looks_for_agent()) {
+    client->session.due_ms = now + MICROROS_RETRY_MOST_MS; /* so that it wakes nobody */
+  }
   for (uint8_t i = 0; i < MICROROS_PEERS; ++i) {
     xrce_transport_begin_turn(&client->peers[i].transport);
     peer_receive(client, i, now);
     peer_connect(client, i, now);
     xrce_peer_flow(client, i, now);
   }
+}
+
+uint32_t xrce_peer_left(const xrce_client_t * client, uint32_t left, uint32_t now)
+{
+  for (uint8_t i = 0; i < MICROROS_PEERS; ++i) {
+    const xrce_peer_t * peer = &client->peers[i];
+
+    if (peer->key == 0u || peer->more || (peer->ready && peer->unsent != 0u)) {
+      left = xrce_sooner(left, now, now);
+    } else if (!peer->ready || peer->count != 0u) {
+      left = xrce_sooner(left, peer->due_ms, now);
+    } else {
+      /* what arrives ends the wait */
+    }
+  }
+  return left;
 }
 
 /* Returns whether a link has sent everything, and all of it was acknowledged. */

@@ -44,7 +44,8 @@ void port_unlock(void);
 /*
  * Blocks until data may have arrived on the transport with this handle (of port_udp_t, port_serial_t; -1:
  * no handle), until port_wake, or for `timeout_ms`; may return early. A port_wake since the previous wait
- * ends this one at once. The processor may sleep meanwhile.
+ * ends this one at once. What arrives on a link with another board (microros/links.h) ends it, too. The
+ * processor may sleep meanwhile.
  */
 void port_wait(intptr_t handle, uint32_t timeout_ms);
 

@@ -67,6 +67,7 @@ typedef struct xrce_peer_t {
   bool open : 1;       /* the transport */
   bool ready : 1;      /* the own session */
   bool received : 1;   /* something arrived in the other board's session */
+  bool more : 1;       /* more may have arrived than a pump takes */
 } xrce_peer_t;
 
 /* The part of a key that counts sessions; the rest identifies the table. */
@@ -110,11 +111,8 @@ static inline bool xrce_peer_looks_for_agent(void)
   return !xrce_image_is_local();
 }
 
-/* Returns when to look again: a wait ends for the transport of the agent only. */
-static inline uint32_t xrce_peer_left(uint32_t left)
-{
-  return left != 0u ? 1u : 0u;
-}
+/* Returns the time until a link has work to do, at most `left`. */
+uint32_t xrce_peer_left(const xrce_client_t * client, uint32_t left, uint32_t now);
 
 /* --- output; `index` is that of the link --- */
 
