@@ -94,11 +94,12 @@ class Relay:
         self.lost = 0
         self.spoiled = 0
         self._board = open_raw(board_device)
-        self._handles: tuple[int, ...] = (open_raw(other_device),) if other_device else pty.openpty()
-        self._master = self._handles[0]  # the end that the relay has
+        handles = [open_raw(other_device)] if other_device else list(pty.openpty())
         if not other_device:
-            tty.setraw(self._handles[1])
-        self.device = other_device or os.ttyname(self._handles[1])
+            tty.setraw(handles[1])
+        self.device = other_device or os.ttyname(handles[1])
+        self._handles = handles
+        self._master = handles[0]  # the end that the relay has
         self._ends = threading.Event()
         self._thread = threading.Thread(target=self._serve, daemon=True)
 
