@@ -18,6 +18,7 @@ extern "C" {
  * defined. Functions of other transports are not declared: a call fails to compile with a name that says
  * what to set in microros.yaml.
  */
+#define rmw_uros_options_set_can_device rmw_uros_options_set_can_device__needs__transport_type_canfd
 #define rmw_uros_options_set_serial_device rmw_uros_options_set_serial_device__the_board_has_one
 #define rmw_uros_options_set_tcp_address rmw_uros_options_set_tcp_address__needs__transport_type_tcp
 #define rmw_uros_options_set_udp_address rmw_uros_options_set_udp_address__needs__transport_type_udp

@@ -25,6 +25,7 @@ extern "C" {
  */
 rmw_ret_t rmw_uros_options_set_udp_address(
   const char * ip, const char * port, rmw_init_options_t * rmw_options);
+#define rmw_uros_options_set_can_device rmw_uros_options_set_can_device__needs__transport_type_canfd
 #define rmw_uros_options_set_serial_device rmw_uros_options_set_serial_device__needs__transport_type_serial
 #define rmw_uros_options_set_tcp_address rmw_uros_options_set_tcp_address__needs__transport_type_tcp
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
-#include "microros/port.h"
+#include "microros/lock.h"
 #include "microros/rcl_guard_condition.h"
+#include "microros/wake.h"
 #include "microros_config.h"
 
 #include <stddef.h>
@@ -57,7 +58,9 @@ rcl_ret_t rcl_guard_condition_init(
   if (!rcl_context_is_valid(context)) {
     return microros_error_refuse(RCL_RET_NOT_INIT, "context");
   }
+  microros_lock();
   guard_condition->impl = guard_condition_take();
+  microros_unlock();
   if (guard_condition->impl == NULL) {
     return RCL_RET_BAD_ALLOC;
   }
@@ -71,7 +74,9 @@ rcl_ret_t rcl_guard_condition_fini(rcl_guard_condition_t * guard_condition)
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "guard_condition");
   }
   if (guard_condition->impl != NULL) {
+    microros_lock();
     guard_condition->impl->taken = false;
+    microros_unlock();
     guard_condition->impl = NULL;
   }
   return RCL_RET_OK;
@@ -83,6 +88,6 @@ rcl_ret_t rcl_trigger_guard_condition(rcl_guard_condition_t * guard_condition)
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "guard_condition");
   }
   guard_condition->impl->triggered = guard_condition->impl->triggered + 1u;
-  port_wake();
+  microros_wake();
   return RCL_RET_OK;
 }

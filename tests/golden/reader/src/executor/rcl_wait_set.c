@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/rcl_wait_events.h"
 #include "microros/rcl_wait_set.h"
 
@@ -108,7 +109,9 @@ rcl_ret_t rcl_wait_set_init(
     return microros_error_refuse(RCL_RET_NOT_INIT, "context");
   }
   *wait_set = rcl_get_zero_initialized_wait_set();
+  microros_lock();
   wait_set->impl = set_take();
+  microros_unlock();
   if (wait_set->impl == NULL) {
     return RCL_RET_BAD_ALLOC;
   }
@@ -127,7 +130,9 @@ rcl_ret_t rcl_wait_set_fini(rcl_wait_set_t * wait_set)
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "wait_set");
   }
   if (wait_set->impl != NULL) {
+    microros_lock();
     wait_set->impl->taken = false;
+    microros_unlock();
     *wait_set = rcl_get_zero_initialized_wait_set();
   }
   return RCL_RET_OK;

@@ -34,9 +34,7 @@ static uint32_t waiting_ms(int64_t duration_ns)
 
 rcl_waiting_t rcl_waiting_begin(int64_t timeout_ns)
 {
-  const rcl_waiting_t waiting = {port_time_ms(), waiting_ms(timeout_ns)};
-
-  return waiting;
+  return rcl_waiting_of(port_time_ms(), waiting_ms(timeout_ns));
 }
 
 void rcl_waiting_receive(void)
@@ -49,7 +47,7 @@ bool rcl_waiting_is_over(const rcl_waiting_t * waiting)
   return waiting->timeout_ms != UINT32_MAX && port_time_ms() - waiting->start_ms >= waiting->timeout_ms;
 }
 
-void rcl_waiting_rest(const rcl_waiting_t * waiting, int64_t look_again_ns)
+void rcl_waiting_rest(rcl_waiting_t * waiting, int64_t look_again_ns)
 {
   const uint32_t passed_ms = port_time_ms() - waiting->start_ms;
   uint32_t rest_ms = waiting_ms(look_again_ns);
@@ -60,6 +58,6 @@ void rcl_waiting_rest(const rcl_waiting_t * waiting, int64_t look_again_ns)
     rest_ms = left_ms < rest_ms ? left_ms : rest_ms;
   }
   if (rest_ms != 0u) {
-    rmw_client_wait(rest_ms);
+    rcl_waiting_sleep(waiting, rest_ms);
   }
 }

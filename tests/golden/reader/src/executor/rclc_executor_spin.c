@@ -34,7 +34,7 @@ static rcl_ret_t executor_look(const rclc_executor_t * executor, bool * changed,
 
 static rcl_ret_t executor_wait(const rclc_executor_t * executor, int64_t timeout_ns)
 {
-  const rcl_waiting_t waiting = rcl_waiting_begin(timeout_ns);
+  rcl_waiting_t waiting = rcl_waiting_begin(timeout_ns);
 
   for (;;) {
     bool changed = false;
@@ -152,7 +152,7 @@ static bool executor_continues(const rclc_executor_t * executor, rcl_ret_t resul
 
 static void executor_rest(int64_t duration_ns)
 {
-  const rcl_waiting_t waiting = rcl_waiting_begin(duration_ns > 0 ? duration_ns : 0);
+  rcl_waiting_t waiting = rcl_waiting_begin(duration_ns > 0 ? duration_ns : 0);
 
   while (!rcl_waiting_is_over(&waiting)) {
     rcl_waiting_rest(&waiting, INT64_MAX);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A pipe wakes the waiting thread: any thread may write to it, and a signal handler after the first wait. */
 #define _POSIX_C_SOURCE 200809L
+#include "microros/links.h"
 #include "microros/port.h"
 
 #include <fcntl.h>
@@ -62,8 +63,12 @@ void port_wait(intptr_t handle, uint32_t timeout_ms)
 {
   const int most_ms = timeout_ms > (uint32_t)INT_MAX ? INT_MAX : (int)timeout_ms;
   const int wake = wake_end(OUT);
-  struct pollfd ends[ENDS] = { {wake, POLLIN, 0}, {(int)handle, POLLIN, 0} }; /* poll ignores negative descriptors */
+  struct pollfd ends[ENDS + MICROROS_LINKS] = { {wake, POLLIN, 0}, {(int)handle, POLLIN, 0} };
 
+  for (int i = 0; i < MICROROS_LINKS; ++i) {
+    ends[ENDS + i].fd = (int)microros_link_handle(i); /* poll ignores negative descriptors */
+    ends[ENDS + i].events = POLLIN;
+  }
   (void)poll(ends, sizeof(ends) / sizeof(ends[0]), most_ms); /* a signal may end it early */
   if (wake >= 0) {
     wake_drain(wake);

@@ -21,6 +21,7 @@ extern "C" {
 
 /* Copies the name of a line. RMW_RET_INVALID_ARGUMENT: NULL, empty or too long. */
 rmw_ret_t rmw_uros_options_set_serial_device(const char * dev, rmw_init_options_t * rmw_options);
+#define rmw_uros_options_set_can_device rmw_uros_options_set_can_device__needs__transport_type_canfd
 #define rmw_uros_options_set_tcp_address rmw_uros_options_set_tcp_address__needs__transport_type_tcp
 #define rmw_uros_options_set_udp_address rmw_uros_options_set_udp_address__needs__transport_type_udp
 

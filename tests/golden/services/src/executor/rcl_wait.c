@@ -70,7 +70,7 @@ static rcl_ret_t wait_look(const rcl_wait_set_t * wait_set, wait_look_t * look)
 
 rcl_ret_t rcl_wait(rcl_wait_set_t * wait_set, int64_t timeout)
 {
-  const rcl_waiting_t waiting = rcl_waiting_begin(timeout);
+  rcl_waiting_t waiting = rcl_waiting_begin(timeout);
   wait_look_t look = {0, false, false};
   rcl_ret_t result;
 
