@@ -20,8 +20,9 @@ SAME = GOLDEN / "same.txt"
 DURATION_MS = 2000
 _LEFT_OUT = ("timers_ticked",)
 """The application itself drives its hardware timer."""
-_ELSEWHERE = ("target:", "{type: custom")
-"""Images of boards, and those whose transport is functions of the application."""
+_ELSEWHERE = ("target:", "{type: custom", "{type: canfd", "system:")
+"""Images of boards, those whose transport is functions of the application, those on a bus, whose frames
+tests/e2e/test_canfd.py sees, and those with links to other boards, whose messages tests/runtime/test_peer.py sees."""
 
 
 def recorded() -> tuple[str, ...]:
