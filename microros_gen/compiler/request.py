@@ -22,6 +22,7 @@ from microros_gen.compiler.options import Options
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, Span
 from microros_gen.documents.named import Named
 from microros_gen.platform.find import FoundTarget, builtin_targets, read_target
+from microros_gen.platform.part_file import builtin_parts
 from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
 from microros_gen.selection.extension import INSTALLED, Extensions, take_extensions
@@ -98,9 +99,11 @@ def request_of(source: Source | None, near: Path, options: Options, diagnostics:
 def _refuse_rtos(target: TargetRef, diagnostics: Diagnostics) -> None:
     if target.rtos not in (None, "none"):
         diagnostics.error(
-            f"the RTOS {target.rtos!r} is not supported yet",
+            f"the RTOS {target.rtos!r} is not chosen by `rtos`",
             target.rtos_span,
-            "Remove `rtos` and implement port_time_ms, port_sleep_ms and the other functions of the port with your "
+            f"Write a target file with `extends: {target.name}` and `os: {target.rtos}`, and name it here"
+            if target.rtos in builtin_parts("os")
+            else "Remove `rtos` and implement port_time_ms, port_sleep_ms and the other functions of the port with your "
             "RTOS: they replace those of the library (microros/port.h)",
             id="MG-8606",
         )

@@ -95,7 +95,7 @@ IN_THE_FILE = {
     "an RTOS without a port": (
         "profiles: [pure_sender]",
         "profiles: [pure_sender]\ntarget: {name: cortex-m4, rtos: freertos}",
-        r"microros\.yaml:3:\d+: error: the RTOS 'freertos' is not supported yet.*Remove `rtos`",
+        r"microros\.yaml:3:\d+: error: the RTOS 'freertos' is not chosen by `rtos`.*`os: freertos`",
     ),
     "contradictory components": (
         "profiles: [pure_sender]",

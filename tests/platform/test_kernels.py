@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Ports to kernels and networks: a syntax check against the declarations that they call, in tests/platform/kernels.
 
-What they do is seen by hand with the public sources (docs/verification/ports.md).
+What they do is seen by hand with the public sources (docs/howto/port.md).
 """
 
 from __future__ import annotations
