@@ -103,8 +103,8 @@ def _refuse_rtos(target: TargetRef, diagnostics: Diagnostics) -> None:
             target.rtos_span,
             f"Write a target file with `extends: {target.name}` and `os: {target.rtos}`, and name it here"
             if target.rtos in builtin_parts("os")
-            else "Remove `rtos` and implement port_time_ms, port_sleep_ms and the other functions of the port with your "
-            "RTOS: they replace those of the library (microros/port.h)",
+            else "Remove `rtos` and implement port_time_ms, port_sleep_ms and the other functions of the port "
+            "with your RTOS: they replace those of the library (microros/port.h)",
             id="MG-8606",
         )
 
