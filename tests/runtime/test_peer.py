@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -16,6 +16,8 @@ from microros_gen.agent.wire.session_messages import CreateClient, StatusAgent
 from tests.support.patience import deadline
 from tests.support.runtime.peers import HOST, Board, Relay, board_program, started, system, unreliable
 
+BEST_EFFORT = 1
+"""The stream."""
 BEST, SURE = 0, 1
 SHORTLY_BEFORE_WRAP = 0xFFFFFFFF - 300
 HALF_BEFORE_WRAP = 0x7FFFFFFF - 300
@@ -103,6 +105,24 @@ def test_both_ways_on_both_streams(programs: tuple[Path, Path], relay: Relay) ->
         assert second.values == ([*range(10)], [*range(10)])
         first.end()
         second.end()
+
+
+def test_one_number_far_ahead_stops_no_messages(programs: tuple[Path, Path], relay: Relay) -> None:
+    """Forged, or after a silence of minutes: the numbers between are not older ones."""
+    with pair(programs) as (first, second):
+        meet(first, second)
+
+        def forged(data: bytes) -> Sequence[bytes]:
+            if data[1] != BEST_EFFORT:
+                return (data,)
+            relay.fate = lambda other: (other,)
+            number = int.from_bytes(data[2:4], "little") + 0x7FFE
+            return (data[:2] + (number & 0xFFFF).to_bytes(2, "little") + data[4:],)
+
+        relay.fate = forged
+        send(first, second, BEST, range(5))
+        until(partial(received, second, BEST, 5), first, second)
+        assert second.values[BEST] == [*range(5)]
 
 
 def test_what_a_sniffer_sees(programs: tuple[Path, Path], relay: Relay) -> None:

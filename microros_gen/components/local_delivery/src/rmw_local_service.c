@@ -128,6 +128,8 @@ rmw_ret_t rmw_local_respond(
 
   if (
     result == RMW_RET_OK && index != (uint8_t)RMW_LOCAL_NONE &&
+    rmw_local_server_of[origin.client] ==
+      local_queue(service) && /* an identity from outside may name any client */
     rmw_local_is_open(service->client, &rmw_local_queues[index])) {
     local_put(service->client, index, ros_response, &origin);
   }

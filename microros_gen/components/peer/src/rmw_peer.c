@@ -10,6 +10,7 @@
 #include "microros/xrce_drops.h"
 #include "microros/xrce_gate.h"
 #include "microros/xrce_peer.h"
+#include "microros/xrce_session.h"
 #include "microros/xrce_wire.h"
 #include "rmw/types.h"
 
@@ -25,11 +26,11 @@ typedef struct peer_sample_t {
 
 intptr_t microros_link_handle(int link)
 {
-  const xrce_peer_t * peer = &rmw_client_instance()->peers[link];
+  const xrce_peer_port_t * port = &xrce_peer_ports[link];
   intptr_t handle;
 
   microros_lock();
-  handle = peer->open ? xrce_transport_handle(&peer->transport) : -1;
+  handle = port->is_open ? xrce_transport_handle(&port->transport) : -1;
   microros_unlock();
   return handle;
 }
@@ -122,7 +123,7 @@ static bool peer_publish(const xrce_endpoint_t * writer, const peer_sample_t * s
     }
     return apart;
   }
-  xrce_peer_step(writer->client, now);
+  xrce_session_step_all(writer->client); /* what arrives may be for a task that waits */
   for (uint8_t link = 0; link < MICROROS_PEERS; ++link) {
     const xrce_peer_line_t * line = &xrce_peer_lines[link];
 

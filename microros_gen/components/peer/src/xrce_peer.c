@@ -9,6 +9,8 @@
 
 #include <string.h>
 
+xrce_peer_port_t xrce_peer_ports[MICROROS_PEERS];
+
 /* Positions in CREATE_CLIENT and STATUS_AGENT (OMG DDS-XRCE 1.0, 8.3.5.1 and 8.3.5.5). */
 enum {
   CREATE_COOKIE_AT = 8,
@@ -61,8 +63,9 @@ static void peer_connect(xrce_client_t * client, uint8_t index, uint32_t now)
     peer->key = xrce_peer_lines[index].key;
     peer->since_ms = now;
   }
-  if (!peer->open) {
-    peer->open = xrce_peer_open(&peer->transport, &xrce_peer_lines[index]);
+  if (!xrce_peer_ports[index].is_open) {
+    xrce_peer_ports[index].is_open =
+      xrce_peer_open(&xrce_peer_ports[index].transport, &xrce_peer_lines[index]);
   }
   peer_send_create(client, index);
   peer->due_ms = now + xrce_session_pause(now - peer->since_ms);
@@ -207,10 +210,11 @@ static void peer_receive(xrce_client_t * client, uint8_t index, uint32_t now)
 {
   static uint8_t peer_input[MICROROS_PEERS][MICROROS_PEER_MTU]; /* a line keeps a partial message in it */
   xrce_peer_t * peer = &client->peers[index];
+  xrce_peer_port_t * port = &xrce_peer_ports[index];
 
-  peer->more = peer->open;
-  for (uint8_t i = 0; i < MESSAGES_PER_PUMP && peer->open; ++i) {
-    const int32_t size = xrce_transport_receive(&peer->transport, peer_input[index], MICROROS_PEER_MTU);
+  peer->more = port->is_open;
+  for (uint8_t i = 0; i < MESSAGES_PER_PUMP && port->is_open; ++i) {
+    const int32_t size = xrce_transport_receive(&port->transport, peer_input[index], MICROROS_PEER_MTU);
 
     if (size == 0) {
       peer->more = false;
@@ -226,20 +230,24 @@ static void peer_receive(xrce_client_t * client, uint8_t index, uint32_t now)
   }
 }
 
-void xrce_peer_step(xrce_client_t * client, uint32_t now)
+static void peer_step(xrce_client_t * client, uint32_t now)
 {
-  if (client->session.state == XRCE_CLOSED) {
-    return;
-  }
   /* cppcheck-suppress knownConditionTrueFalse ; a constant of the plan */
   if (!xrce_peer_looks_for_agent()) {
     client->session.due_ms = now + MICROROS_RETRY_MOST_MS; /* so that it wakes nobody */
   }
   for (uint8_t i = 0; i < MICROROS_PEERS; ++i) {
-    xrce_transport_begin_turn(&client->peers[i].transport);
+    xrce_transport_begin_turn(&xrce_peer_ports[i].transport);
     peer_receive(client, i, now);
     peer_connect(client, i, now);
     xrce_peer_flow(client, i, now);
+  }
+}
+
+void xrce_peer_step(xrce_client_t * client, uint32_t now)
+{
+  if (client->session.state != (uint8_t)XRCE_CLOSED) {
+    peer_step(client, now);
   }
 }
 
@@ -259,10 +267,15 @@ uint32_t xrce_peer_left(const xrce_client_t * client, uint32_t left, uint32_t no
   return left;
 }
 
-/* Returns whether a link has sent everything, and all of it was acknowledged. */
-static bool peer_is_done(xrce_peer_t * peer)
+void xrce_peer_wake(xrce_client_t * client)
 {
-  return !peer->ready || (peer->count == 0u && xrce_transport_is_idle(&peer->transport));
+  (void)memset(client->peers, 0, sizeof(client->peers));
+}
+
+/* Returns whether a link has sent everything, and all of it was acknowledged. */
+static bool peer_is_done(const xrce_peer_t * peer, xrce_peer_port_t * port)
+{
+  return peer->count == 0u && (!peer->ready || xrce_transport_is_idle(&port->transport));
 }
 
 void xrce_peer_leave(xrce_client_t * client)
@@ -271,10 +284,10 @@ void xrce_peer_leave(xrce_client_t * client)
   bool done = false;
 
   while (!done && port_time_ms() - start < client->close_timeout_ms) {
-    xrce_peer_step(client, port_time_ms());
+    peer_step(client, port_time_ms()); /* the session with an agent has ended already */
     done = true;
     for (uint8_t i = 0; i < MICROROS_PEERS; ++i) {
-      done = done && peer_is_done(&client->peers[i]);
+      done = done && peer_is_done(&client->peers[i], &xrce_peer_ports[i]);
     }
     if (!done) {
       microros_pause();
@@ -282,14 +295,12 @@ void xrce_peer_leave(xrce_client_t * client)
   }
 }
 
-void xrce_peer_close(xrce_client_t * client)
+void xrce_peer_close(void)
 {
   for (uint8_t i = 0; i < MICROROS_PEERS; ++i) {
-    xrce_peer_t * peer = &client->peers[i];
-
-    if (peer->open) {
-      xrce_transport_close(&peer->transport);
-      peer->open = false;
+    if (xrce_peer_ports[i].is_open) {
+      xrce_transport_close(&xrce_peer_ports[i].transport);
+      xrce_peer_ports[i].is_open = false;
     }
   }
 }

@@ -11,7 +11,7 @@ enum {
 };
 
 /* An ACKNACK has this many bits, and nobody sends more messages ahead. Numbers from half of 2^16 on are old. */
-enum { WINDOW = 16, HALF = 0x8000 };
+enum { WINDOW = 16, HALF = 0x8000, OLD = 64 };
 
 void xrce_peer_in_reset(xrce_peer_t * peer)
 {
@@ -165,7 +165,8 @@ void xrce_peer_in_take(
   } else if (message[1] == XRCE_STREAM_NONE) {
     in_deliver(client, index, message, size, now);
   } else if (message[1] == XRCE_STREAM_BEST_EFFORT) {
-    if ((uint16_t)(number - peer->newest - 1u) < (uint16_t)HALF - 1u) {
+    /* A number further behind is a new one after a long silence: neither that nor a forged one may block half of them. */
+    if ((uint16_t)(peer->newest - number) >= (uint16_t)OLD) {
       peer->newest = number;
       in_deliver(client, index, message, size, now);
     }

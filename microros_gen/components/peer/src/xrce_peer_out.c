@@ -23,9 +23,9 @@ static uint8_t peer_slot(const xrce_peer_t * peer, uint8_t i)
 
 bool xrce_peer_send(xrce_client_t * client, uint8_t index, const uint8_t * message, size_t size)
 {
-  xrce_peer_t * peer = &client->peers[index];
+  xrce_peer_port_t * port = &xrce_peer_ports[index];
 
-  if (!peer->open || !xrce_transport_send(&peer->transport, message, size)) {
+  if (!port->is_open || !xrce_transport_send(&port->transport, message, size)) {
     return false;
   }
   ++client->session.statistics.sent;

@@ -49,9 +49,16 @@ typedef struct xrce_peer_line_t {
 
 extern const xrce_peer_line_t xrce_peer_lines[MICROROS_PEERS];
 
-/* State of a link. Zero-initialized: not open. */
-typedef struct xrce_peer_t {
+/* The transport of a link. It stays open when a session with an agent is opened again, and does not survive a sleep. */
+typedef struct xrce_peer_port_t {
   xrce_transport_t transport;
+  bool is_open;
+} xrce_peer_port_t;
+
+extern xrce_peer_port_t xrce_peer_ports[MICROROS_PEERS];
+
+/* State of a link. Zero-initialized: no session. */
+typedef struct xrce_peer_t {
   uint32_t due_ms;     /* when to send CREATE_CLIENT, or a HEARTBEAT */
   uint32_t since_ms;   /* start of connecting */
   uint32_t key;        /* of the own session; 0: none was asked for */
@@ -64,7 +71,6 @@ typedef struct xrce_peer_t {
   uint16_t next;       /* of its next reliable message */
   uint8_t head;        /* slot of the oldest message */
   uint8_t count;       /* messages that are not acknowledged */
-  bool open : 1;       /* the transport */
   bool ready : 1;      /* the own session */
   bool received : 1;   /* something arrived in the other board's session */
   bool more : 1;       /* more may have arrived than a pump takes */
@@ -96,13 +102,16 @@ static inline bool xrce_peer_is_own(uint8_t session, const xrce_peer_line_t * li
   return ((uint32_t)session - XRCE_SESSION_ID) % 2u == line->position;
 }
 
+/* After a sleep: the messages of a link are gone, its sessions begin anew. */
+void xrce_peer_wake(xrce_client_t * client);
+
 /* Receives, and sends what is due. Never blocks. */
 void xrce_peer_step(xrce_client_t * client, uint32_t now);
 
 /* Waits until all messages are acknowledged and sent, at most client->close_timeout_ms. */
 void xrce_peer_leave(xrce_client_t * client);
 
-void xrce_peer_close(xrce_client_t * client);
+void xrce_peer_close(void);
 
 /* Returns whether the client looks for an agent: not if it has nothing there, and the line may be that of a link. */
 static inline bool xrce_peer_looks_for_agent(void)
