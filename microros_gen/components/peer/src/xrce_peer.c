@@ -253,18 +253,20 @@ void xrce_peer_step(xrce_client_t * client, uint32_t now)
 
 uint32_t xrce_peer_left(const xrce_client_t * client, uint32_t left, uint32_t now)
 {
+  uint32_t soonest = left;
+
   for (uint8_t i = 0; i < MICROROS_PEERS; ++i) {
     const xrce_peer_t * peer = &client->peers[i];
 
     if (peer->key == 0u || peer->more || (peer->ready && peer->unsent != 0u)) {
-      left = xrce_sooner(left, now, now);
+      soonest = xrce_sooner(soonest, now, now);
     } else if (!peer->ready || peer->count != 0u) {
-      left = xrce_sooner(left, peer->due_ms, now);
+      soonest = xrce_sooner(soonest, peer->due_ms, now);
     } else {
       /* what arrives ends the wait */
     }
   }
-  return left;
+  return soonest;
 }
 
 void xrce_peer_wake(xrce_client_t * client)
