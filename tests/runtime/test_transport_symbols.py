@@ -80,6 +80,7 @@ OPTIONS = {
     "udp": "rmw_uros_options_set_udp_address",
     "tcp": "rmw_uros_options_set_tcp_address",
     "serial": "rmw_uros_options_set_serial_device",
+    "canfd": "rmw_uros_options_set_can_device",
 }
 MISSING = re.compile(r"^#define (\w+) \w+?__(\w+)$", re.MULTILINE)
 

@@ -165,7 +165,8 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "profiles: [pure_sender]\ncomponents: [+action_server]\nerrors: code\n",
         "action-client": _BUSY
         + "    action_clients: [{name: walk, type: tf2_msgs/action/LookupTransform, goals: 2}]\n"
-        + "profiles: [pure_sender]\ncomponents: [+action_client, +graph]\nmemory: {arena: 4096}\nerrors: code\n",
+        + "profiles: [pure_sender]\ncomponents: [+action_client, +graph]\nmemory: {arena: 4096}\nerrors: code\n"
+        + "on_full: drop_oldest\n",
         "executor-all": _BUSY
         + _SERVES
         + _ASKS

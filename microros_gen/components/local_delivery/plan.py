@@ -215,17 +215,18 @@ def _slots(kind: EntityKind, endpoint: EndpointDecl) -> int:
 
 def _servers(context: PlanContext, queues: tuple[LocalQueue, ...]) -> Iterable[str]:
     """Yield for each place of a client the queue of its server in the image, as C."""
+    requesting = RECEIVING[-1]
     subscriptions = context.runtime.entities.subscriptions.max
     queue_of = {queue.receiver - subscriptions: queue.index for queue in queues if queue.kind == "service"}
     services = {
         _key(node, endpoint): index
         for index, (_, node, endpoint) in enumerate(declarations(context.application, "service"))
     }
-    declared = declarations(context.application, "client")
+    declared = declarations(context.application, requesting.name)
     for _, node, endpoint in declared:
         server = services.get(_key(node, endpoint)) if endpoint.local != "never" else None
         yield _NONE if server is None else str(queue_of.get(server, _NONE))
-    yield from (_NONE for _ in range(context.runtime.entities.clients.max - len(declared)))
+    yield from (_NONE for _ in range(context.runtime.entities.places(requesting.name).max - len(declared)))
 
 
 def _key(node: NodeDecl, endpoint: EndpointDecl) -> tuple[int, str]:

@@ -197,8 +197,8 @@ uint32_t rclc_action_client_left(const rclc_action_client_t * client)
 bool rclc_action_client_has_due(const rclc_action_client_t * client)
 {
   const rmw_client_t * results = client->rcl_handle.result_client.impl;
-  bool is_due = (uint8_t)rmw_client_reconnects() != client->session ||
-                rmw_action_client_drops(results) != client->drops;
+  bool is_due =
+    (uint8_t)rmw_client_reconnects() != client->session || rmw_action_client_drops(results) != client->drops;
 
   for (size_t i = 0; i < client->goal_handles_memory_size; ++i) {
     const rclc_action_goal_handle_t * goal = &client->declared->goals[i];
