@@ -58,7 +58,7 @@ ELSEWHERE = (
     "src/port_posix/port_posix_can.c",
     "src/local_delivery/rmw_local_service.c",
 )
-"""Files of links between boards, of a CAN bus and of local services: tests/runtime/test_peer.py, tests/e2e/test_canfd.py
+"""Files of links between boards, a CAN bus and local services: tests/runtime/test_peer.py, tests/e2e/test_canfd.py
 and tests/components/test_local_services.py compile them, and `make lint` does so with all warnings."""
 CPP_FLAGS = ("-std=c++11", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror", "-x", "c++")
 
