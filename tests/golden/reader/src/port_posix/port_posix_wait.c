@@ -63,11 +63,15 @@ void port_wait(intptr_t handle, uint32_t timeout_ms)
 {
   const int most_ms = timeout_ms > (uint32_t)INT_MAX ? INT_MAX : (int)timeout_ms;
   const int wake = wake_end(OUT);
-  struct pollfd ends[ENDS + MICROROS_LINKS] = { {wake, POLLIN, 0}, {(int)handle, POLLIN, 0} };
+  struct pollfd ends[(int)ENDS + (int)MICROROS_LINKS];
 
-  for (int i = 0; i < MICROROS_LINKS; ++i) {
-    ends[ENDS + i].fd = (int)microros_link_handle(i); /* poll ignores negative descriptors */
-    ends[ENDS + i].events = POLLIN;
+  ends[0].fd = wake;
+  ends[1].fd = (int)handle; /* poll ignores negative descriptors */
+  for (int i = 0; i < (int)MICROROS_LINKS; ++i) {
+    ends[(int)ENDS + i].fd = (int)microros_link_handle(i);
+  }
+  for (size_t i = 0; i < sizeof(ends) / sizeof(ends[0]); ++i) {
+    ends[i].events = POLLIN;
   }
   (void)poll(ends, sizeof(ends) / sizeof(ends[0]), most_ms); /* a signal may end it early */
   if (wake >= 0) {
