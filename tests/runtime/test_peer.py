@@ -90,7 +90,7 @@ def meet(first: Board, second: Board) -> None:
 
 
 def send(board: Board, other: Board, topic: int, values: range) -> None:
-    """Publish each value, again while there is no room for it."""
+    """Publish each value; repeat a call that finds no room."""
     for value in values:
         until(partial(published, board, topic, value), board, other)
 

@@ -102,7 +102,7 @@ static inline bool xrce_peer_is_own(uint8_t session, const xrce_peer_line_t * li
   return ((uint32_t)session - XRCE_SESSION_ID) % 2u == line->position;
 }
 
-/* After a sleep: the messages of a link are gone, its sessions begin anew. */
+/* After a sleep: the messages of a link are gone, its sessions begin again. */
 void xrce_peer_wake(xrce_client_t * client);
 
 /* Receives, and sends what is due. Never blocks. */
