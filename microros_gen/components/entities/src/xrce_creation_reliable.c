@@ -9,20 +9,6 @@
 #include "microros/xrce_creation.h"
 #include "microros/xrce_wire.h"
 
-bool xrce_creation_begin(xrce_client_t * client, uint32_t now)
-{
-  xrce_stream_reliable_t * stream = &client->reliable;
-
-  if (!stream->held) {
-    if (!xrce_stream_reliable_is_idle(stream)) {
-      return false; /* the agent has to acknowledge earlier messages first */
-    }
-    stream->held = true;
-    stream->due_ms = now;
-  }
-  return true;
-}
-
 uint8_t * xrce_creation_room(xrce_client_t * client)
 {
   return &client->creation[XRCE_MESSAGE_HEADER];
