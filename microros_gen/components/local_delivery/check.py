@@ -29,11 +29,6 @@ class End:
         """Return whether it is a publisher."""
         return self.endpoint.kind == "publisher"
 
-    @property
-    def line(self) -> str:
-        """Return ` in line 12`, or nothing where there is no place."""
-        return f" in line {self.endpoint.span.line}" if self.endpoint.span else ""
-
     def limits(self, types: Mapping[TypeName, TypePlan]) -> TypeLimits | None:
         """Return the limits of its messages."""
         type_ = types[type_name(self.endpoint.type)]
@@ -73,6 +68,7 @@ def _check_ends(topic: str, ends: list[End], local: End, diagnostics: Diagnostic
 
 
 def _line(endpoint: EndpointDecl) -> str:
+    """Return ` in line 12`, or nothing where there is no place."""
     return f" in line {endpoint.span.line}" if endpoint.span else ""
 
 
@@ -141,9 +137,10 @@ def _check_pairs(
     for reader in (end for end in ends if not end.publishes):
         span = reader.endpoint.span
         for writer in (end for end in ends if end.publishes):
+            place = _line(writer.endpoint)
             if reader.endpoint.local == writer.endpoint.local == "also":
                 diagnostics.error(
-                    f"the messages of '{topic}' would arrive twice: the publisher{writer.line} sends them to ROS, "
+                    f"the messages of '{topic}' would arrive twice: the publisher{place} sends them to ROS, "
                     "where this subscription gets them, too",
                     span,
                     "Write `local: only` at the subscription or at the publisher",
@@ -155,7 +152,7 @@ def _check_pairs(
             ):
                 diagnostics.error(
                     f"the subscription of '{topic}' is reliable and never matches the best effort publisher"
-                    f"{writer.line}",
+                    f"{place}",
                     reader.endpoint.qos.span or span,
                     "Write `qos: {reliability: best_effort}` at the subscription",
                     id="MG-7174",
