@@ -63,7 +63,7 @@ HOOK_POINTS: Mapping[str, HookPoint] = MappingProxyType(
         # the output streams, in xrce_routes.c
         "full": HookPoint(("client", "reliable"), value=True),
         "committing": HookPoint(("client", "reliable")),
-        # xrce_on_full_drop_oldest.c: the WRITE_DATA submessage
+        # the WRITE_DATA submessage
         "dropped": HookPoint(("client", "dropped")),
         # for waiting functions: xrce_wait_left.h
         "due": HookPoint(("client", "left", "now"), value=True),

@@ -54,7 +54,6 @@ _ELSEWHERE: Mapping[str, tuple[str, ...]] = {
     "receiver": ("receiver_opened",),
     "waiting": ("pumped", "rests", "rested"),
     "round": ("round_begins", "round_ends"),
-    "dropping": ("dropped",),
     "contingency": ("contingency",),
     "clock_jump": ("clock_jump",),
 }

@@ -5,9 +5,6 @@
  */
 #include "microros/xrce_drops.h"
 #include "microros/xrce_routes.h"
-{% for header in contributed.hook_headers.dropping %}
-#include "{{ header }}"
-{% endfor %}
 #include "microros/xrce_wire.h"
 #include "microros/xrce_write.h"
 
@@ -25,9 +22,6 @@ xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room)
 
     if (dropped != NULL) {
       xrce_drops_add(client, xrce_object_index(xrce_get_be16(&dropped[XRCE_SUBMESSAGE_HEADER + 2])));
-{% for hook in contributed.hooks.dropped.calls %}
-      {{ hook.call }};
-{% endfor %}
       *room = xrce_route_reserve(client, true);
     }
   }
