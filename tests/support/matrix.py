@@ -14,7 +14,7 @@ from microros_gen import compiler
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.toolchain.toolchain import WARNINGS
 from tests.support.paths import ROOT
-from tests.support.quality.corpus import EVERY_PARAMETER
+from tests.support.quality.corpus import APPLICATIONS, EVERY_PARAMETER, OTHER_BOARD, SYSTEMS
 
 DEMO = ROOT / "examples" / "demo" / "microros.yaml"
 
@@ -87,6 +87,12 @@ busy:
   gains: {type: double_array_fixed_2, default_value: [0.5], validation: {element_bounds<>: [0.0, 1.0]}}
 """
 """A parameter file with validations, for the variant that reads it."""
+
+
+def _of_numbers(application: str) -> str:
+    """Return a board of the corpus with the messages that other variants here have, too."""
+    return application.replace("UInt8", "Int32")
+
 
 VARIANTS: Mapping[str, str] = MappingProxyType(
     {
@@ -177,7 +183,14 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         "local": _BUSY
         + "    publishers: [{topic: near, type: std_msgs/msg/String, local: only}]\n"
         + "    subscriptions: [{topic: near, type: std_msgs/msg/String, local: only, queue: 2}]\n"
-        + "profiles: [pure_sender, pure_reader]\nerrors: code\n",
+        + _SERVES.replace("}]", ", local: only}]")
+        + _ASKS.replace("/far/sum", "sum").replace("}]", ", local: only}]")
+        + "profiles: [pure_sender, pure_reader]\ncomponents: [+services]\nerrors: code\n",
+        "canfd": _BUSY
+        + "    publishers: [{topic: far, type: std_msgs/msg/Int32}]\n"
+        + "profiles: [pure_sender]\ncomponents: [+sleep_cycles]\ncreation: reliable\ntransport: {type: canfd, id: 7}\n"
+        + "errors: code\n",
+        **{name: _of_numbers(APPLICATIONS[name]) for name in ("peer", "peer_serial")},
         "diagnosis": _BUSY
         + "    parameters: [{name: speed, type: double}]\n    modes: {SLOW: {speed: 0.5}}\n"
         + "    timers: [{name: tick, period: 50 ms}]\nprofiles: [managed_service]\n"
@@ -279,6 +292,9 @@ def make_tree(name: str, text: str, folder: Path) -> Tree:
     config = folder / "microros.yaml"
     config.write_text(text, encoding="utf-8")
     (folder / "rules.yaml").write_text(_RULES, encoding="utf-8")
+    if name in SYSTEMS:
+        (folder / "system.yaml").write_text(SYSTEMS[name], encoding="utf-8")
+        (folder / "other.yaml").write_text(_of_numbers(OTHER_BOARD), encoding="utf-8")
     options = compiler.Options(config=config, interface_paths=(shipped_folder(),))
     out = compiler.generate(options, folder / "out").out
     return Tree(name, out)

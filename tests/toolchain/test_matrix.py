@@ -50,16 +50,6 @@ CORTEX_M = {
 }
 OF_A_BOARD = frozenset({("transport.keeps_output", True), ("transport.device", False)})
 """Conditions of files for the line of a board, which has no path, and whose interrupt takes messages where they are."""
-ELSEWHERE = (
-    "src/peer/",
-    "src/transport_canfd/",
-    "src/entities/xrce_creation_fragments.c",
-    "src/sleep_cycles/xrce_sleep_canfd.c",
-    "src/port_posix/port_posix_can.c",
-    "src/local_delivery/rmw_local_service.c",
-)
-"""Files of links between boards, a CAN bus and local services: tests/runtime/test_peer.py, tests/e2e/test_canfd.py
-and tests/components/test_local_services.py compile them, and `make lint` does so with all warnings."""
 CPP_FLAGS = ("-std=c++11", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror", "-x", "c++")
 
 
@@ -88,7 +78,6 @@ def test_the_variants_select_every_file(tree_of: TreeOf) -> None:
         for source in c.files
         if OF_A_BOARD.isdisjoint(source.when)
     }
-    generated = {source for source in generated if not source.startswith(ELSEWHERE)}
     assert generated
     assert generated <= selected
 
