@@ -53,19 +53,18 @@ def test_every_test_that_is_not_long_runs_in_ci(folder: str) -> None:
     ],
 )
 def test_what_failed_with_others_runs_alone(
-    tmp_path: Path, again: int, body: str, status: int, runs_of_it: int
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, again: int, body: str, status: int, runs_of_it: int
 ) -> None:
     count = tmp_path / "count"
     count.touch()
+    # Without a folder of their own, the runs would delete what earlier runs of the whole suite have left.
+    monkeypatch.setenv("PYTEST_DEBUG_TEMPROOT", str(tmp_path))
     (tmp_path / "test_x.py").write_text(
         "from pathlib import Path\ndef test_x():\n"
         f"    count = Path({str(count)!r})\n    count.write_text(count.read_text() + 'x')\n"
         f"    runs = len(count.read_text())\n    {body}\n"
     )
-    assert (
-        carry_out(Run("not long", again=again), ["-n", "1", str(tmp_path), "--rootdir", str(tmp_path)])
-        == status
-    )
+    assert carry_out(Run("not long", again=again), ["-n", "1", str(tmp_path)], tmp_path) == status
     assert len(count.read_text()) == runs_of_it
 
 

@@ -58,6 +58,7 @@ class Run:
 DEFAULT = "not long and not lint and not system"
 SANITIZED = ("runtime", "components", "e2e")
 """Folders whose programs `make test` compiles without sanitizers."""
+PYTEST = (sys.executable, "-m", "pytest", "-q")
 TESTS_FAILED = 1
 """pytest's exit status: all tests ran, some failed."""
 EVERYTHING = {EXAMPLES: "all", EVERYWHERE: "all"}
@@ -83,7 +84,7 @@ RUNS: Mapping[str, tuple[Run, ...]] = {
 def command(run: Run, options: Sequence[str]) -> list[str]:
     """Return the call of pytest: two processes more than there are cores where tests wait for an agent or for DDS."""
     workers = str(max(1, os.cpu_count() or 1) + run.more_processes)
-    call = [sys.executable, "-m", "pytest", "-n", workers, "--dist", "worksteal", "-q", "--durations=10"]
+    call = [*PYTEST, "-n", workers, "--dist", "worksteal", "--durations=10"]
     chosen = run.folders
     if run.of_change and (paths := changed()):
         chosen = concerned(paths, imports(), run.folders)
@@ -124,21 +125,22 @@ def failed_tests(cache: Path) -> tuple[str, ...]:
     return tuple(sorted(json.loads(path.read_text("utf-8")))) if path.is_file() else ()
 
 
-def carry_out(run: Run, options: Sequence[str]) -> int:
-    """Run pytest, and once more for a few tests that failed; return its status and say which tests passed alone."""
+def carry_out(run: Run, options: Sequence[str], root: Path = ROOT) -> int:
+    """Run pytest in `root`, and once more for a few tests that failed; return the status, say which passed alone."""
     environment = {**os.environ, **run.environment}
 
     def status_of(call: Sequence[str]) -> int:
-        return subprocess.run(call, cwd=ROOT, env=environment, check=False).returncode
+        return subprocess.run(call, cwd=root, env=environment, check=False).returncode
 
     with tempfile.TemporaryDirectory() as folder:
-        call = [*command(run, options), "-o", f"cache_dir={folder}"]
-        status = status_of(call)
+        cache = ("-o", f"cache_dir={folder}")
+        status = status_of([*command(run, options), *cache])
         failed = failed_tests(Path(folder))
         if status != TESTS_FAILED or not 0 < len(failed) <= run.again:
             return status
         print(f"{len(failed)} tests failed beside others. Alone:", flush=True)
-        status = status_of([*call, "-n", "0", "--last-failed", "--last-failed-no-failures", "none"])
+        # By name: collecting all tests again takes minutes.
+        status = status_of([*PYTEST, *failed, *cache])
         again = failed_tests(Path(folder))
     for name in failed:
         print(f"{'failed' if name in again else 'passed'} alone: {name}", flush=True)
