@@ -11,10 +11,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tests.bench.selections import bench_selections
+from tests.support.firmware.actions import CLIENT, SERVER
 from tests.support.firmware.board import Builds, Built
 from tests.support.firmware.everything import APPLICATION as EVERYTHING
 from tests.support.firmware.footprint import SERVES, Sender, bounded_stack, image_sections
 from tests.support.firmware.lifecycle import APPLICATION as LIFE_CYCLE
+from tests.support.firmware.observed import APPLICATION as OBSERVED
 from tests.support.firmware.parameters import ADDED
 from tests.support.firmware.parameters import APPLICATION as PARAMETERS
 from tests.support.firmware.ticker import APPLICATION as TICKS
@@ -91,6 +93,9 @@ IMAGES = (
     ),
     Image("6 publisher of JointState, 6 joints", JOINTS, existing="54,340 + 3,604 / 13,048"),
     Image("the same with a history of two", f"{JOINTS}pools: {{history: 2}}\n"),
+    Image("action server of Fibonacci, two goals, executor", SERVER, "actions.c"),
+    Image("action client of Fibonacci, two goals, executor", CLIENT, "action_client.c"),
+    Image("publisher with events, transforms, time of the agent", OBSERVED, "observed.c"),
     Image(
         "two publishers, subscription, server, client, timer on ROS time",
         f"{EVERYTHING}errors: code\n",

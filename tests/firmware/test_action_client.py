@@ -8,23 +8,13 @@ import time
 import pytest
 
 from tests.support.e2e.action_server_peer import action_server_peer
+from tests.support.firmware.actions import CLIENT
 from tests.support.firmware.board import Builds, board, need
 from tests.support.firmware.footprint import bounded_stack, image_sections
 from tests.support.firmware.running import started
 from tests.support.patience import deadline
 
 NAME = "qemu-mps2-an386"
-APPLICATION = """\
-version: 1
-components: [+action_client]
-errors: code
-session: {connect_timeout: 20 s, create_timeout: 20 s, liveliness_timeout: 20 s}
-nodes:
-  - name: device
-    namespace: /arm
-    action_clients: [{name: fibonacci, type: test_msgs/action/Fibonacci, goals: 2, response_timeout: 1 s}]
-limits: {"*": {sequence: 16}}
-"""
 CANCELED = 5
 SIZE = (20_960, 3_112, 1_360)
 """Flash, RAM without the stack, worst stack, on the Cortex-M4."""
@@ -35,7 +25,7 @@ SIZE = (20_960, 3_112, 1_360)
 def test_goals_are_sent_to_rclpy(builds: Builds, domain: int) -> None:
     """A goal with feedback and result, and another one that is canceled."""
     need(NAME, emulator=True)
-    built = builds.build(NAME, APPLICATION)
+    built = builds.build(NAME, CLIENT)
     image = builds.application(built, "action_client.c")
     with (
         action_server_peer(domain) as peer,
@@ -58,7 +48,7 @@ def test_goals_are_sent_to_rclpy(builds: Builds, domain: int) -> None:
 def test_its_size(builds: Builds) -> None:
     """Three clients, a subscription, executor, two goals, over a serial line."""
     need(NAME)
-    built = builds.build(NAME, APPLICATION)
+    built = builds.build(NAME, CLIENT)
     image = builds.application(built, "action_client.c")
     size = image_sections(built, image)
     found = (size.text + size.data, size.ram, bounded_stack(built, image))

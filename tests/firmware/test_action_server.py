@@ -9,23 +9,13 @@ from typing import Any
 import pytest
 
 from tests.support.e2e.action_peer import DEVICE, action_peer
+from tests.support.firmware.actions import SERVER
 from tests.support.firmware.board import Builds, board, need
 from tests.support.firmware.footprint import bounded_stack, image_sections
 from tests.support.firmware.running import started
 from tests.support.patience import deadline, seconds
 
 NAME = "qemu-mps2-an386"
-APPLICATION = """\
-version: 1
-components: [+action_server]
-errors: code
-session: {connect_timeout: 20 s, create_timeout: 20 s, liveliness_timeout: 20 s}
-nodes:
-  - name: device
-    namespace: /arm
-    actions: [{name: fibonacci, type: test_msgs/action/Fibonacci, goals: 2}]
-limits: {"*": {sequence: 16}}
-"""
 SUCCEEDED, CANCELED = 4, 5
 SIZE = (22_500, 3_032, 1_264)
 """Flash, RAM without the stack, worst stack, on the Cortex-M4."""
@@ -36,7 +26,7 @@ SIZE = (22_500, 3_032, 1_264)
 def test_rclpy_sends_goals(builds: Builds, domain: int) -> None:
     """Two goals at once with feedback, one of which is canceled, and a third one that has no place."""
     need(NAME, emulator=True)
-    built = builds.build(NAME, APPLICATION)
+    built = builds.build(NAME, SERVER)
     image = builds.application(built, "actions.c")
     with (
         action_peer(domain) as peer,
@@ -69,7 +59,7 @@ def test_rclpy_sends_goals(builds: Builds, domain: int) -> None:
 def test_its_size(builds: Builds) -> None:
     """Three services, two publishers, executor, two goals, over a serial line."""
     need(NAME)
-    built = builds.build(NAME, APPLICATION)
+    built = builds.build(NAME, SERVER)
     image = builds.application(built, "actions.c")
     size = image_sections(built, image)
     found = (size.text + size.data, size.ram, bounded_stack(built, image))

@@ -13,21 +13,10 @@ from microros_gen.interfaces.type_hashes import type_hashes
 from tests.support.agent.observer import Observer
 from tests.support.e2e.event_peer import event_peer
 from tests.support.firmware.board import Board, Builds, board, need
+from tests.support.firmware.observed import APPLICATION
 from tests.support.firmware.running import BOARD, started
 from tests.support.patience import deadline
 
-APPLICATION = """\
-version: 1
-profiles: [pure_sender]
-components: [+graph_events, +tf_broadcaster, +clock_stamp, +time_sync]
-errors: code
-memory: {arena: 4096}
-session: {connect_timeout: 20 s, create_timeout: 20 s, liveliness_timeout: 20 s}
-nodes:
-  - name: device
-    namespace: /arm
-    publishers: [{topic: count, type: std_msgs/msg/Int32, qos: {reliability: best_effort}}]
-"""
 TRANSFORMS = "tf2_msgs/msg/TFMessage"
 NONE, RELIABILITY = 1, 16
 """Policies of rmw/qos_policy_kind.h."""
