@@ -142,6 +142,27 @@ def test_an_unread_terminal_blocks_nothing_and_gets_everything_later(tmp_path: P
     os.close(slave)
 
 
+def test_room_in_the_line_ends_a_wait_that_began_before_there_was_output(tmp_path: Path) -> None:
+    """One task waits for the line, another one writes more than the system has room for."""
+    plan = changed(SERIAL, executor__max=1, executor__handles_max=1, session__multithread=True)
+    tree = render(tmp_path, plan, components(plan))
+    wanted = ("port_posix_serial.c", "port_posix_wait.c", "port_posix_time.c", "port_posix_lock.c")
+    alone = Tree(tree.folder, tuple(s for s in tree.sources if s.name in wanted))
+    program = build(alone, ["waiting_line.c"], "waiting")
+    master, slave = os.openpty()
+    tty.setraw(slave)
+    running = subprocess.Popen([program, os.ttyname(slave)], stdout=subprocess.PIPE, text=True)
+    assert running.stdout is not None
+    size = int(running.stdout.readline())
+    arrived = 0
+    while arrived < size:
+        assert select.select([master], [], [], 20)[0], f"{arrived} of {size} bytes"
+        arrived += len(os.read(master, 4096))
+    assert running.wait(20) == 0
+    os.close(master)
+    os.close(slave)
+
+
 CLOSING_MS = {"soon": 20_000, "never": 400}
 
 

@@ -70,7 +70,7 @@ class PeerLinkPlan:
         return (
             f'  {{"{self.board}", "{self.remote}", {self.remote_port}, {self.local_port}, {writers}, {readers}, '
             f"{len(self.writers)}, {len(self.readers)},",
-            f"   0x{self.key:08x}u, {self.position}}},",
+            f"   0x{self.key:08x}u, {self.mtu}, {self.position}}},",
         )
 
 

@@ -6,16 +6,24 @@
  *   spin MS                prints `got TOPIC VALUE` for each message
  *   rest MS                waits once, at most so long; prints `got` as well, and `times COUNT`: how often the time
  *                          was read
- *   end
+ *   reconnects             prints `reconnects COUNT`
+ *   serialized TOPIC SIZE  publishes so many bytes of CDR
+ *   meanwhile TOPIC VALUE  publishes as another task would during the wait of an executor, and prints `wakes COUNT`:
+ *                          how often that woke it (with WAITS_HERE: without port_posix_wait.c)
+ *   end                    prints `sessions COUNT`: how many others could be opened while this one was closed
  * The first argument is what port_time_ms starts with. */
 #define _POSIX_C_SOURCE 200809L
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
 #include <rclc/executor.h>
 #include <rclc/rclc.h>
+#include <rmw/init.h>
+#include <rmw/serialized_message.h>
+#include <rmw_microros/rmw_microros.h>
 #include <std_msgs/msg/int32.h>
 
 #include <errno.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,11 +31,14 @@
 
 #include "microros/port.h"
 
-enum { TOPICS = 2, LINE = 80 };
+enum { TOPICS = 2, LINE = 80, BYTES = 1024 };
 
 static const char * const out_names[TOPICS] = {"/" OWN "/best", "/" OWN "/sure"};
 static const char * const in_names[TOPICS] = {"/" OTHER "/best", "/" OTHER "/sure"};
+static rcl_publisher_t publishers[TOPICS];
 static uint32_t offset_ms;
+static bool closes;
+static unsigned sessions;
 static unsigned times; /* that the time was read */
 
 /* Instead of port_posix_time.c. */
@@ -45,13 +56,75 @@ int64_t port_time_epoch_ns(void)
   return 0;
 }
 
+/* As another task while this one waits for the end of its session. */
+static void open_another(void)
+{
+  rmw_init_options_t options = rmw_get_zero_initialized_init_options();
+  rmw_context_t context = rmw_get_zero_initialized_context();
+
+  closes = false;
+  if (
+    rmw_init_options_init(&options, rcutils_get_default_allocator()) != RMW_RET_OK ||
+    rmw_init(&options, &context) == RMW_RET_OK) {
+    ++sessions;
+  }
+  closes = true;
+}
+
 void port_sleep_ms(uint32_t duration_ms)
 {
   struct timespec left = {0, (long)duration_ms * 1000000L};
 
+  if (closes) {
+    open_another();
+  }
   while (nanosleep(&left, &left) != 0 && errno == EINTR) {
   }
 }
+
+static rcl_ret_t publish(unsigned topic, int value)
+{
+  const std_msgs__msg__Int32 message = {.data = value};
+
+  return rcl_publish(&publishers[topic], &message, NULL);
+}
+
+#ifdef WAITS_HERE
+static unsigned wakes;
+static unsigned meanwhile_topic;
+static int meanwhile_value;
+static rcl_ret_t meanwhile_result;
+static bool meanwhile;
+
+void port_wait(intptr_t handle, uint32_t timeout_ms)
+{
+  (void)handle;
+  (void)timeout_ms;
+  if (meanwhile) {
+    wakes = 0;
+    meanwhile_result = publish(meanwhile_topic, meanwhile_value);
+    (void)printf("wakes %u\n", wakes);
+    meanwhile = false;
+  }
+  port_sleep_ms(1);
+}
+
+void port_wake(void)
+{
+  ++wakes;
+}
+
+static rcl_ret_t publish_meanwhile(rclc_executor_t * executor, unsigned topic, int value)
+{
+  meanwhile_topic = topic;
+  meanwhile_value = value;
+  meanwhile = true;
+  while (meanwhile) {
+    (void)rclc_executor_spin_some(executor, RCL_MS_TO_NS(5));
+  }
+  return meanwhile_result;
+}
+#endif
 
 static void hear(const void * message, void * context)
 {
@@ -74,6 +147,17 @@ static void spin(rclc_executor_t * executor, uint32_t duration_ms)
   } while (port_time_ms() - start < duration_ms);
 }
 
+static rcl_ret_t publish_bytes(const rcl_publisher_t * publisher, size_t size)
+{
+  static uint8_t bytes[BYTES] = {0, 1};
+  rcl_serialized_message_t message = rmw_get_zero_initialized_serialized_message();
+
+  message.buffer = bytes;
+  message.buffer_length = size;
+  message.buffer_capacity = sizeof(bytes);
+  return rcl_publish_serialized_message(publisher, &message, NULL);
+}
+
 int main(int argc, char ** argv)
 {
   static char topics[TOPICS][2] = {"0", "1"};
@@ -81,7 +165,6 @@ int main(int argc, char ** argv)
   const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
   rclc_support_t support;
   rcl_node_t node = rcl_get_zero_initialized_node();
-  rcl_publisher_t publishers[TOPICS];
   rcl_subscription_t subscriptions[TOPICS];
   std_msgs__msg__Int32 heard[TOPICS];
   rclc_executor_t executor = rclc_executor_get_zero_initialized_executor();
@@ -114,15 +197,24 @@ int main(int argc, char ** argv)
     rcl_ret_t code = RCL_RET_OK;
 
     if (sscanf(line, "publish %u %d", &topic, &value) == 2 && topic < TOPICS) {
-      const std_msgs__msg__Int32 message = {.data = value};
-
-      code = rcl_publish(&publishers[topic], &message, NULL);
+      code = publish(topic, value);
+#ifdef WAITS_HERE
+    } else if (sscanf(line, "meanwhile %u %d", &topic, &value) == 2 && topic < TOPICS) {
+      code = publish_meanwhile(&executor, topic, value);
+#endif
     } else if (sscanf(line, "spin %d", &value) == 1) {
       spin(&executor, (uint32_t)value);
     } else if (sscanf(line, "rest %d", &value) == 1) {
       times = 0;
       (void)rclc_executor_spin_some(&executor, RCL_MS_TO_NS(value));
       (void)printf("times %u\n", times);
+    } else if (sscanf(line, "serialized %u %d", &topic, &value) == 2 && topic < TOPICS) {
+      code = publish_bytes(&publishers[topic], (size_t)value);
+    } else if (strcmp(line, "reconnects\n") == 0) {
+      rmw_uros_statistics_t statistics;
+
+      code = rmw_uros_get_statistics(rcl_context_get_rmw_context(&support.context), &statistics);
+      (void)printf("reconnects %u\n", (unsigned)statistics.reconnects);
     } else if (strcmp(line, "end\n") == 0) {
       break;
     } else {
@@ -139,10 +231,13 @@ int main(int argc, char ** argv)
       return 6;
     }
   }
+  closes = true;
   if (
     rclc_executor_fini(&executor) != RCL_RET_OK || rcl_node_fini(&node) != RCL_RET_OK ||
     rclc_support_fini(&support) != RCL_RET_OK) {
     return 7;
   }
+  closes = false;
+  (void)printf("sessions %u\n", sessions);
   return answer(RCL_RET_OK);
 }

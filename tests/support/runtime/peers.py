@@ -37,6 +37,8 @@ nodes:
       - {topic: /OTHER/sure, type: std_msgs/msg/Int32, peer: only, queue: 40}
 """
 PAIR = ("a", "b")
+COUNTS = ("times ", "reconnects ", "wakes ", "sessions ")
+"""Lines of a board that are a number."""
 
 Fate = Callable[[bytes], Sequence[bytes]]
 """What becomes of a datagram: those that arrive instead of it, in order."""
@@ -70,16 +72,22 @@ def written(folder: Path, system_text: str, text: str = APPLICATION) -> Path:
 
 
 def board_program(
-    folder: Path, own: str, system_text: str, text: str = APPLICATION, others: str = APPLICATION
+    folder: Path,
+    own: str,
+    system_text: str,
+    text: str = APPLICATION,
+    others: str = APPLICATION,
+    waits_here: bool = False,
 ) -> Path:
     """Build the program of a board, with a separate system file: the relay may be the other end of its link.
 
-    `others`: what the other board has.
+    `others`: what the other board has. `waits_here`: without the wait of the port, for `Board.wakes`.
     """
     home = written(folder / f"of_{own}", system_text, others)
     out = rendered(home / own, application(own, text))
     flags = (f'-DOWN="{own}"', f'-DOTHER="{PAIR[1 - PAIR.index(own)]}"')
-    return program_of(out, "peer_board.c", without=("port_posix_time.c",), more=flags)
+    without = ("port_posix_time.c", *(("port_posix_wait.c",) if waits_here else ()))
+    return program_of(out, "peer_board.c", without, (*flags, *(("-DWAITS_HERE",) if waits_here else ())))
 
 
 class Board(CommandedProgram):
@@ -100,7 +108,7 @@ class Board(CommandedProgram):
     def heard(self) -> int:
         """Note what came during a command; return the number that it printed last, 0 without one."""
         _, _, lines = self.result()
-        numbers = [int(line.split()[1]) for line in lines if line.startswith("times ")]
+        numbers = [int(line.split()[1]) for line in lines if line.startswith(COUNTS)]
         for line in lines:
             if line.startswith("got "):
                 _, topic, value = line.split()
@@ -109,13 +117,31 @@ class Board(CommandedProgram):
 
     def publish(self, topic: int, value: int) -> str:
         """Publish; return the error text, empty for none."""
-        code, error, _ = self.call(f"publish {topic} {value}")
+        return self._error(f"publish {topic} {value}")
+
+    def publish_serialized(self, topic: int, size: int) -> str:
+        """Publish so many bytes of CDR, with their header; return the error text."""
+        return self._error(f"serialized {topic} {size}")
+
+    def reconnects(self) -> int:
+        """Return how often its line has returned."""
+        self.begin("reconnects")
+        return self.heard()
+
+    def _error(self, command: str) -> str:
+        code, error, _ = self.call(command)
         assert bool(code) == bool(error)
         return error
 
+    def wakes(self, topic: int, value: int) -> int:
+        """Publish as another task during a wait; return how often that ended the wait."""
+        self.begin(f"meanwhile {topic} {value}")
+        return self.heard()
+
     def end(self) -> None:
         """End it in order."""
-        assert self.call("end")[0] == 0
+        self.begin("end")
+        assert self.heard() == 0, "another session began before the end of this one"
         assert self.process.wait(10) == 0
 
     def kill(self) -> None:

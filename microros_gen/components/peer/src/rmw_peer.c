@@ -93,7 +93,7 @@ static rmw_ret_t peer_write(
     return RMW_RET_ERROR;
   }
   size = peer_put_body(
-    writer, sample, &room[XRCE_WRITE_PREFIX], xrce_peer_capacity(reliable) - (size_t)XRCE_WRITE_PREFIX,
+    writer, sample, &room[XRCE_WRITE_PREFIX], xrce_peer_capacity(link, reliable) - (size_t)XRCE_WRITE_PREFIX,
     &result);
   if (size == 0u) {
     return result;
@@ -102,7 +102,9 @@ static rmw_ret_t peer_write(
   xrce_put_be16(&room[4], xrce_session_next_request(&client->session));
   xrce_put_be16(&room[6], xrce_object_id(topic, XRCE_KIND_DATAWRITER));
   if (!xrce_peer_commit(client, link, reliable, XRCE_WRITE_PREFIX + size, now)) {
-    microros_error_set(microros_error_not_sent, writer->name, NULL, 0, 0);
+    microros_error_set(
+      client->peers[link].lost ? microros_error_peer_lost : microros_error_not_sent, writer->name,
+      xrce_peer_lines[link].board, 0, 0);
     return RMW_RET_ERROR;
   }
   return RMW_RET_OK;

@@ -48,7 +48,7 @@ static void peer_send_create(xrce_client_t * client, uint8_t index)
   xrce_put_be16(&message[CREATE_KEY_AT + 2], (uint16_t)(peer->key & 0xffffu));
   message[CREATE_SESSION_AT] = xrce_peer_own(peer, &xrce_peer_lines[index]);
   message[CREATE_PROPERTIES_AT] = 0;
-  xrce_put_le16(&message[CREATE_MTU_AT], MICROROS_PEER_MTU);
+  xrce_put_le16(&message[CREATE_MTU_AT], xrce_peer_lines[index].mtu);
   (void)xrce_peer_send(client, index, message, sizeof(message)); /* a lost message is repeated */
 }
 
@@ -230,6 +230,17 @@ static void peer_receive(xrce_client_t * client, uint8_t index, uint32_t now)
   }
 }
 
+/* Counts a line whose device has returned. A port without such lines never has this handle. */
+static void peer_look_at_line(xrce_client_t * client, uint8_t index)
+{
+  const bool lost = xrce_transport_handle(&xrce_peer_ports[index].transport) < -1;
+
+  if (client->peers[index].lost && !lost) {
+    ++client->session.statistics.reconnects;
+  }
+  client->peers[index].lost = lost;
+}
+
 static void peer_step(xrce_client_t * client, uint32_t now)
 {
   /* cppcheck-suppress knownConditionTrueFalse ; a constant of the plan */
@@ -239,6 +250,7 @@ static void peer_step(xrce_client_t * client, uint32_t now)
   for (uint8_t i = 0; i < MICROROS_PEERS; ++i) {
     xrce_transport_begin_turn(&xrce_peer_ports[i].transport);
     peer_receive(client, i, now);
+    peer_look_at_line(client, i);
     peer_connect(client, i, now);
     xrce_peer_flow(client, i, now);
   }
@@ -258,8 +270,12 @@ uint32_t xrce_peer_left(const xrce_client_t * client, uint32_t left, uint32_t no
   for (uint8_t i = 0; i < MICROROS_PEERS; ++i) {
     const xrce_peer_t * peer = &client->peers[i];
 
-    if (peer->key == 0u || peer->more || (peer->ready && peer->unsent != 0u)) {
+    if (peer->key == 0u || peer->more) {
       soonest = xrce_sooner(soonest, now, now);
+    } else if (peer->lost) {
+      /* the port ends the wait to look for the device */
+    } else if (peer->ready && peer->unsent != 0u) {
+      soonest = xrce_sooner(soonest, now + 1u, now); /* the line has no room */
     } else if (!peer->ready || peer->count != 0u) {
       soonest = xrce_sooner(soonest, peer->due_ms, now);
     } else {
@@ -285,6 +301,7 @@ void xrce_peer_leave(xrce_client_t * client)
   const uint32_t start = port_time_ms();
   bool done = false;
 
+  client->session.state = (uint8_t)XRCE_CLOSING; /* a task that opens the next session waits for the end of this one */
   while (!done && port_time_ms() - start < client->close_timeout_ms) {
     peer_step(client, port_time_ms()); /* the session with an agent has ended already */
     done = true;

@@ -5,6 +5,7 @@
  * streams of the agent's session have their storage once in the image, so these are separate. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_peer.h"
+#include "microros/xrce_peer_alert.h"
 #include "microros/xrce_wire.h"
 
 enum { HEARTBEAT_MESSAGE = XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER + XRCE_HEARTBEAT_SIZE };
@@ -32,9 +33,12 @@ bool xrce_peer_send(xrce_client_t * client, uint8_t index, const uint8_t * messa
   return true;
 }
 
-size_t xrce_peer_capacity(bool reliable)
+size_t xrce_peer_capacity(uint8_t index, bool reliable)
 {
-  return (reliable ? MICROROS_PEER_SLOT_SIZE : MICROROS_PEER_MTU) - (size_t)XRCE_MESSAGE_HEADER;
+  const size_t most = xrce_peer_lines[index].mtu;
+
+  return (reliable && most > MICROROS_PEER_SLOT_SIZE ? MICROROS_PEER_SLOT_SIZE : most) -
+         (size_t)XRCE_MESSAGE_HEADER;
 }
 
 uint8_t * xrce_peer_reserve(const xrce_client_t * client, uint8_t index, bool reliable)
@@ -80,6 +84,9 @@ bool xrce_peer_commit(xrce_client_t * client, uint8_t index, bool reliable, size
   peer->count = (uint8_t)(i + 1u);
   if (peer->unsent != 0u || !peer_send_slot(client, index, i)) {
     peer->unsent = (uint16_t)(peer->unsent | (uint32_t)1u << i); /* for the next pump */
+  }
+  if (i == 0u || peer->unsent != 0u) {
+    xrce_peer_alert(client);
   }
   return true;
 }

@@ -152,13 +152,14 @@ size_t port_multicast_receive(
 
 /* --- serial line --- */
 
-/* One serial line. `handle` belongs to the port; the library only copies it. */
+/* One serial line. `handle` belongs to the port; the library only copies it. Less than -1: its device is gone, and the
+ * port looks for it while the library reads and writes. */
 typedef struct port_serial_t {
   intptr_t handle;
 } port_serial_t;
 
-/* Opens the line. `device` is its name on an operating system, "" for the only line of a board. Returns
- * false if the line does not exist or does not support `baud` bits per second. Does not block. */
+/* Opens the line. `device` is its name on an operating system, "" for the only line of a board; it stays as it is until
+ * the line is closed. Returns false if the line does not exist or does not support `baud` bits per second. Does not block. */
 bool port_serial_open(port_serial_t * serial, const char * device, uint32_t baud);
 
 void port_serial_close(port_serial_t * serial);

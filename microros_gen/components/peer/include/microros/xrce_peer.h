@@ -44,6 +44,7 @@ typedef struct xrce_peer_line_t {
   uint16_t writer_count;
   uint16_t reader_count;
   uint32_t key;     /* of the first session */
+  uint16_t mtu;     /* bytes of a message */
   uint8_t position; /* 0: first end of the link, 1: second */
 } xrce_peer_line_t;
 
@@ -73,6 +74,7 @@ typedef struct xrce_peer_t {
   uint8_t count;       /* messages that are not acknowledged */
   bool ready : 1;      /* the own session */
   bool received : 1;   /* something arrived in the other board's session */
+  bool lost : 1;       /* the device of the line is gone */
   bool more : 1;       /* more may have arrived than a pump takes */
 } xrce_peer_t;
 
@@ -128,8 +130,8 @@ uint32_t xrce_peer_left(const xrce_client_t * client, uint32_t left, uint32_t no
 /* Returns room for a submessage of xrce_peer_capacity bytes; NULL if no slot is free. */
 uint8_t * xrce_peer_reserve(const xrce_client_t * client, uint8_t index, bool reliable);
 
-/* Returns the largest submessage in bytes. */
-size_t xrce_peer_capacity(bool reliable);
+/* Returns the largest submessage of a link in bytes. */
+size_t xrce_peer_capacity(uint8_t index, bool reliable);
 
 /* Sends `size` reserved bytes, a reliable message until it is acknowledged. Returns false if a best-effort one was not
  * sent. */
