@@ -8,6 +8,7 @@ from dataclasses import field
 
 from microros_gen.application.action_decl import ActionClientDecl, ActionDecl
 from microros_gen.application.diagnosis_decl import DiagnosisDecl
+from microros_gen.application.limit_rule import LimitRule as LimitRule
 from microros_gen.application.log_decl import LogWriter
 from microros_gen.application.mode_decl import ModeDecl
 from microros_gen.application.system_decl import Link, SystemRef
@@ -56,24 +57,6 @@ class Qos:
     span: Span | None = None
     deadline_ms: int = 0
     lifespan_ms: int = 0
-
-
-@dataclass(frozen=True)
-class LimitRule:
-    """One capacity rule. `path` is `*`, a type (`sensor_msgs/msg/Imu`) or a type and a field path below it.
-
-    `path` for a field is `("sensor_msgs/msg/Imu", "header", "frame_id")`. `string` counts bytes without the
-    terminator, `sequence` counts elements; None where the rule says nothing of it. `single` is true for a
-    field that got one number (`position: 6`): then both hold it, and it means whichever of the two the field
-    is; for a sequence of strings it is ambiguous. In the own limits of an endpoint, `*` holds for all of its
-    message.
-    """
-
-    path: tuple[str, ...]
-    string: int | None = None
-    sequence: int | None = None
-    span: Span | None = None
-    single: bool = False
 
 
 CLOCK_TOPIC = "/clock"

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from microros_gen.application.limit_rule import LimitRule
 from microros_gen.diagnostics import Span
 from microros_gen.documents.named import Named
 from microros_gen.records import dataclass
@@ -22,7 +23,8 @@ class SystemRef:
 class PeerEnd:
     """A publisher or subscription of another board. `topic` is fully qualified.
 
-    `type_hash` is what its own interface files give; None: they are looked for where those of this board are.
+    `type_hash` is what its own interface files give; None: they are looked for where those of this board are. `limits`
+    are its own.
     """
 
     kind: str
@@ -33,6 +35,7 @@ class PeerEnd:
     peer: str
     span: Span | None = None
     type_hash: str | None = None
+    limits: tuple[LimitRule, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -41,7 +44,8 @@ class Link:
 
     `kind` is udp or serial. `own` and `other` are the addresses of the two ends, or the names of their devices.
     `mtu`: largest message, bytes; `history`: messages that wait until they are acknowledged. `baud` of the other
-    board's line. `files` were read for it.
+    board's line. `files` were read for it. `limits` are those of the other application, `client_key` is what it
+    declares for the session with its agent; None: it has none, or declares none.
     """
 
     kind: str
@@ -56,3 +60,5 @@ class Link:
     ends: tuple[PeerEnd, ...]
     files: tuple[Path, ...] = ()
     span: Span | None = None
+    limits: tuple[LimitRule, ...] = ()
+    client_key: int | None = None

@@ -80,7 +80,14 @@ def _end(node: NodeDecl, endpoint: EndpointDecl) -> PeerEnd:
         reliability=endpoint.qos.reliability,
         peer=endpoint.peer,
         span=endpoint.span,
+        limits=endpoint.limits,
     )
+
+
+def client_key(application: Application) -> int | None:
+    """Return the client key that an application declares; None where it has no agent, or the key is another one."""
+    agent = any(endpoint.exists_at_agent for node in application.nodes for endpoint in node.endpoints)
+    return application.session_key if agent and isinstance(application.session_key, int) else None
 
 
 def _is_board(
@@ -128,6 +135,8 @@ def _link(
         ends=tuple(replace(end, type_hash=hashes.get(end.type)) for end in ends),
         files=(file, *files),
         span=link.span,
+        limits=other.limits,
+        client_key=client_key(other),
     )
     return linked, source
 

@@ -288,3 +288,77 @@ def test_serial_lines(tmp_path: Path, system: str, sensor: str, target: str, wor
         sensor = sensor.replace("{type: serial}", "{type: serial, baud: 9600}")
     written(tmp_path, system, sensor, MOTOR.replace("version: 1\n", f"version: 1\n{LINE}"))
     assert words in refused(tmp_path, target=target)
+
+
+LONGER = "'data' of '/a': up to 20 characters from "
+
+
+@pytest.mark.parametrize(
+    ("board", "words"),
+    [
+        (
+            "sensor",
+            f"sensor/microros.yaml:8:9: error: {LONGER}the publisher, and 8 fit the subscription of the board 'motor' "
+            "(motor/microros.yaml:8)",
+        ),
+        (
+            "motor",
+            f"motor/microros.yaml:8:9: error: {LONGER}the publisher of the board 'sensor' (sensor/microros.yaml:8), "
+            "and 8 fit the subscription",
+        ),
+    ],
+)
+@pytest.mark.parametrize("where", ["endpoint", "type", "anywhere"])
+def test_messages_that_are_longer_than_the_subscription_takes(
+    tmp_path: Path, board: str, words: str, where: str
+) -> None:
+    motor = MOTOR
+    if where == "endpoint":
+        motor = MOTOR.replace("peer: only", "peer: only, limits: {string: 8}")
+    elif where == "type":
+        motor = MOTOR.replace("limits: {", "limits: {std_msgs/msg/String: {data: 8}, ")
+    else:
+        motor = MOTOR.replace("string: 20", "string: 8")
+    assert words in refused(written(tmp_path, motor=motor), board)
+
+
+def test_a_subscription_that_takes_longer_messages(tmp_path: Path) -> None:
+    folder = written(tmp_path, motor=MOTOR.replace("string: 20", "string: 200"))
+    assert planned(folder, "sensor")
+    assert planned(folder, "motor")
+
+
+def test_a_sequence_of_a_nested_type_that_is_longer(tmp_path: Path) -> None:
+    type_, nested = "std_msgs/msg/String", "diagnostic_msgs/msg/DiagnosticStatus"
+    written(
+        tmp_path,
+        SYSTEM.replace("udp,", "udp, mtu: 8000,"),
+        SENSOR.replace(type_, nested).replace("sequence: 2", "sequence: 3"),
+        MOTOR.replace(type_, nested)
+        .replace("string: 20", "string: 19")
+        .replace("sequence: 2", "sequence: 1"),
+    )
+    text = refused(tmp_path)
+    for field, sent, unit, taken in (
+        ("name", 20, "characters", 19),
+        ("values", 3, "elements", 1),
+        ("values.key", 20, "characters", 19),
+    ):
+        assert f"'{field}' of '/a': up to {sent} {unit} from the publisher, and {taken} fit" in text
+
+
+def test_boards_with_one_client_key(tmp_path: Path) -> None:
+    def folder(sensor: int, motor: int, peer: str = "also") -> Path:
+        more = "      - {{type: std_msgs/msg/String, topic: /{}}}\n"
+        return written(
+            tmp_path,
+            sensor=SENSOR.replace("peer: only", f"peer: {peer}").replace(
+                "nodes", f"session: {{key: {sensor}}}\nnodes"
+            ),
+            motor=MOTOR.replace("nodes", f"session: {{key: {motor}}}\nnodes") + more.format("ros"),
+        )
+
+    [warning] = [str(w) for w in planned(folder(7, 7)).warnings if "client key" in str(w)]
+    assert "the board 'motor' has the same client key 7" in warning
+    assert not [w for w in planned(folder(7, 8)).warnings if "client key" in str(w)]
+    assert not [w for w in planned(folder(7, 7, "only")).warnings if "client key 7" in str(w)]

@@ -12,6 +12,7 @@ from microros_gen.application.system_find import peer_ends
 from microros_gen.client.plan.declared import type_name
 from microros_gen.client.plan.features import PlanContext
 from microros_gen.components.agentless.plan import is_alone
+from microros_gen.components.peer.check_limits import check_client_keys, check_limits
 from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.records import dataclass
 
@@ -73,6 +74,7 @@ def check_peers(context: PlanContext, ends: tuple[OwnEnd, ...], diagnostics: Dia
         )
     else:
         _check_links(context, diagnostics)
+        check_client_keys(application, diagnostics)
         for own in ends:
             _check_end(own, context, diagnostics)
 
@@ -160,6 +162,8 @@ def _check_pair(
     elif end.type_hash not in (None, context.types[type_name(own.end.type)].type_hash):
         message = f"{own.end.type} is defined otherwise than for {other}: their type hashes differ"
         diagnostics.error(message, span, "Use the same interface files for both boards", id="MG-7201")
+    else:
+        check_limits(own.endpoint, own.index, end, link, context, diagnostics)
     writer, reader = (own.end, end) if own.publishes else (end, own.end)
     if reader.reliability == "reliable" and writer.reliability != "reliable":
         needs = "is best effort" if own.publishes else "is reliable"

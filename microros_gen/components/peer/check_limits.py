@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Compares the limits of a publisher with those of the subscriptions on other boards: what is longer would be lost."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from microros_gen.application.model import Application, EndpointDecl
+from microros_gen.application.system_decl import Link, PeerEnd
+from microros_gen.application.system_find import client_key
+from microros_gen.client.plan.declared import type_name
+from microros_gen.client.plan.features import PlanContext
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.interfaces.types import Message, NamedType, TypeName, element_of
+from microros_gen.records import dataclass
+from microros_gen.typesupport.plan.capacity import Defaults, Root, plan_capacities
+from microros_gen.typesupport.plan.size import TypeLimits
+
+_NONE, _ANY = Defaults(0, 0), Defaults(1 << 31, 1 << 31)
+"""Where nothing says how long a field of the other board is: its own build reports that."""
+
+
+@dataclass(frozen=True)
+class Longer:
+    """A field whose values may be longer in the publisher's messages: `sent` and `taken` characters or elements."""
+
+    path: str
+    unit: str
+    sent: int
+    taken: int
+
+
+def check_limits(
+    endpoint: EndpointDecl,
+    index: int,
+    end: PeerEnd,
+    link: Link,
+    context: PlanContext,
+    diagnostics: Diagnostics,
+) -> None:
+    """Report the fields that the publisher of a pair fills further than the subscription has room for.
+
+    The endpoint is the `index`-th of its kind; `end` is that of the other board.
+    """
+    name = type_name(end.type)
+    messages = {known: plan.message for known, plan in context.types.items()}
+    own, other = _own_limits(endpoint, index, context), _limits_of(end, link, messages)
+    publishes = endpoint.kind == "publisher"
+    sent, taken = (own, other) if publishes else (other, own)
+    for longer in _longer(name, sent, taken, messages, ""):
+        place = f" ({end.span.source.name}:{end.span.line})" if end.span else ""
+        writer, reader = "the publisher", f"the subscription of the board '{link.board}'{place}"
+        if not publishes:
+            writer, reader = f"the publisher of the board '{link.board}'{place}", "the subscription"
+        message = (
+            f"'{longer.path}' of '{end.topic}': up to {longer.sent} {longer.unit} from {writer}, and "
+            f"{longer.taken} fit {reader}"
+        )
+        hint = "Write the same `limits:` in both applications"
+        diagnostics.error(message, endpoint.span, hint, id="MG-7206")
+
+
+def check_client_keys(application: Application, diagnostics: Diagnostics) -> None:
+    """Warn of boards that an agent cannot tell apart."""
+    own = client_key(application)
+    for link in application.links:
+        if own is not None and link.client_key == own:
+            diagnostics.warning(
+                f"the board '{link.board}' has the same client key {own}: at one agent, each would take over the "
+                "session of the other one",
+                application.spans.get("session") or link.span,
+                "Give each board its own `session: {key: N}`",
+                id="MG-7207",
+            )
+
+
+def _own_limits(endpoint: EndpointDecl, index: int, context: PlanContext) -> TypeLimits | None:
+    plan = context.types[type_name(endpoint.type)]
+    own = plan.limit_set(endpoint.kind, index)
+    return own.limits if own else plan.limits
+
+
+def _limits_of(end: PeerEnd, link: Link, messages: dict[TypeName, Message]) -> TypeLimits | None:
+    """Return the limits of the other board's endpoint; faults of its application are reported where it is built."""
+    name = type_name(end.type)
+    defaults = _NONE if end.kind == "publisher" else _ANY
+    found = plan_capacities(messages, (Root(name, end.limits),), link.limits, defaults, Diagnostics())
+    return found.limits[name]
+
+
+def _longer(
+    name: TypeName,
+    sent: TypeLimits | None,
+    taken: TypeLimits | None,
+    messages: dict[TypeName, Message],
+    above: str,
+) -> Iterator[Longer]:
+    """Yield what differs, field by field; both limits are of the same type."""
+    if sent is None or taken is None:
+        return
+    for field, writer, reader in zip(messages[name].fields, sent.fields, taken.fields, strict=True):
+        if writer is None or reader is None:
+            continue
+        path = f"{above}{field.name}"
+        for unit, most, room in (
+            ("elements", writer.sequence, reader.sequence),
+            ("characters", writer.string, reader.string),
+        ):
+            if most is not None and room is not None and most > room:
+                yield Longer(path, unit, most, room)
+        element = element_of(field.type)
+        if isinstance(element, NamedType):
+            yield from _longer(element.name, writer.nested, reader.nested, messages, f"{path}.")
