@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """`make bench`: generate and build, encode and decode besides Fast CDR, instructions, parameters, life cycle, flash of
-types, firmware, whole images, the client, the agent, the agent under attack.
+types, firmware, whole images, the client, links of boards, the agent, the agent under attack.
 
 Times depend on the machine; so each stands besides a peer that ran in the same minutes. Instruction counts come
 from callgrind or QEMU and repeat exactly with one compiler.
@@ -26,6 +26,7 @@ from tests.bench.instructions import bench_instructions
 from tests.bench.lifecycle import bench_lifecycle
 from tests.bench.local import bench_local
 from tests.bench.parameters import bench_parameters
+from tests.bench.peer import bench_peer
 from tests.bench.type_flash import bench_type_flash
 
 PARTS = (
@@ -40,6 +41,7 @@ PARTS = (
     "footprint",
     "images",
     "client",
+    "peer",
     "agent",
     "attacks",
 )
@@ -81,6 +83,8 @@ def main() -> int:
             bench_images(work / "images")
         if "client" in options.parts:
             bench_client(work / "client")
+        if "peer" in options.parts:
+            bench_peer(work / "peer")
         if "agent" in options.parts:
             bench_agent(work / "agent", Target(*options.agent) if options.agent else None)
         if "attacks" in options.parts:
