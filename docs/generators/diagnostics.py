@@ -23,6 +23,7 @@ _SUBJECTS = {
     "selection": "Profiles and components",
     "typesupport": "Limits and storage of messages",
     "platform": "Targets",
+    "schedule": "Deadlines of tasks",
     "client": "Entities, streams and boards",
     "output": "The output folder",
     "toolchain": "Compilers and emulators",

@@ -19,6 +19,7 @@ ORDER = (
     "selection",
     "typesupport",
     "platform",
+    "schedule",
     "client",
     "components",
     "output",
@@ -35,6 +36,7 @@ ORDER = (
     "cli",
 )
 MAY = {
+    "schedule": {"diagnostics", "schedule"},
     "graph_server": {"graph_server", "ros"},
     "parameter_server": {"diagnostics", "parameter_server", "records", "ros"},
     "modes": {"application", "diagnostics", "documents", "modes"},
@@ -105,6 +107,7 @@ def test_only_reading_writing_and_building_touch_the_disk() -> None:
         "selection",
         "typesupport",
         "platform",
+        "schedule",
         "client",
         "modes",
     ):

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Deadlines that are missed, as diagnostics with the number that would do."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from microros_gen.diagnostics import Diagnostics, Span
+from microros_gen.schedule.remedies import DEADLINE, PERIOD, Remedy, remedies
+from microros_gen.schedule.report import blocked_by
+from microros_gen.schedule.response import Response, analyze, utilization
+from microros_gen.schedule.task import Task
+
+
+def check_deadlines(
+    tasks: Sequence[Task], places: Mapping[str, Span], diagnostics: Diagnostics
+) -> tuple[Response, ...]:
+    """Return the analysis of the tasks; each that misses its deadline is an error at its place.
+
+    `places` has where a task is declared, by its name. The priorities must be possible (priorities.py).
+    """
+    responses = analyze(tasks)
+    for index, response in enumerate(responses):
+        if response.meets:
+            continue
+        name, span = response.task.name, places.get(response.task.name)
+        hint = _hint(remedies(tasks, name), name)
+        if response.overloaded:
+            load = utilization([r.task for r in responses[: index + 1]]) * 1000
+            tenths = -(-load.numerator // load.denominator)
+            above = f" and the {index} above it take" if index else " takes"
+            message = f"the task '{name}'{above} {tenths // 10}.{tenths % 10} % of the processor's time"
+            diagnostics.error(message, span, hint, id="MG-7140")
+        elif response.response_us is None:
+            message = (
+                f"no bound was found for the response of the task '{name}': the processor is hardly ever free"
+            )
+            diagnostics.error(message, span, hint, id="MG-7141")
+        else:
+            message = (
+                f"the task '{name}' may end {response.response_us} us after its release is due, and its deadline is"
+                f" {response.task.due_us} us ({_parts(response)})"
+            )
+            diagnostics.error(message, span, hint, id="MG-7142")
+    return responses
+
+
+def _parts(response: Response) -> str:
+    """Return what the response consists of."""
+    task = response.task
+    parts = [f"time {task.time_us}"]
+    parts += [f"jitter {task.jitter_us}"] if task.jitter_us else []
+    parts += [f"blocking {response.blocking_us}: {blocked_by(response)}"] if response.blocking_us else []
+    parts += [f"{i.task} {i.times} x {i.time_us // i.times}" for i in response.interference]
+    return "; ".join(parts)
+
+
+def _hint(found: Sequence[Remedy], name: str) -> str:
+    if not found:
+        return "No number of one task is enough: give several tasks less time or longer periods"
+    texts = []
+    for remedy in found:
+        of = "" if remedy.task == name else f" of '{remedy.task}'"
+        direction = "more" if remedy.what in (PERIOD, DEADLINE) else "less"
+        texts.append(f"`{remedy.what}: {remedy.value_us} us`{of} or {direction}")
+    return f"Write {', or '.join(texts)}"

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The analysis as rows of a table and as data, in microseconds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from microros_gen.schedule.response import Response
+
+HEAD = ("TASK", "BAND", "PRIORITY", "T", "C", "B", "R", "D", "SLACK", "BLOCKED BY")
+UNKNOWN = "-"
+"""In place of a response that has no bound."""
+
+
+def schedule_rows(responses: Sequence[Response]) -> Iterator[tuple[str, ...]]:
+    """Yield a row below HEAD for each task, the highest priority first."""
+    for response in responses:
+        task = response.task
+        times = (task.period_us, task.time_us, response.blocking_us, response.response_us, task.due_us)
+        shown = (UNKNOWN if time is None else str(time) for time in (*times, response.slack_us))
+        yield (task.name, task.band, str(response.priority), *shown, blocked_by(response))
+
+
+def blocked_by(response: Response) -> str:
+    """Return the chain that blocks a task: `log holds session for 40 us`; empty where nothing does."""
+    chain = [f"{b.task} holds {b.lock} for {b.time_us} us" for b in response.blockers]
+    outside = response.task.blocking_us
+    return ", ".join([*chain, *([f"other code for {outside} us"] if outside else [])])
+
+
+def schedule_data(responses: Sequence[Response]) -> list[dict[str, object]]:
+    """Return what `--format json` prints: for each task the names of the table in lower case.
+
+    `r` and `slack` are null where the response has no bound; then `overloaded` says whether the tasks take more time
+    than there is. `blocked_by` and `delayed_by` are lists.
+    """
+    return [
+        {
+            "task": r.task.name,
+            "band": r.task.band,
+            "priority": r.priority,
+            "t": r.task.period_us,
+            "c": r.task.time_us,
+            "j": r.task.jitter_us,
+            "b": r.blocking_us,
+            "r": r.response_us,
+            "d": r.task.due_us,
+            "slack": r.slack_us,
+            "meets": r.meets,
+            "overloaded": r.overloaded,
+            "blocked_by": [{"task": b.task, "lock": b.lock, "time": b.time_us} for b in r.blockers],
+            "delayed_by": [{"task": i.task, "times": i.times, "time": i.time_us} for i in r.interference],
+        }
+        for r in responses
+    ]

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tasks as the analysis takes them. All times are whole microseconds."""
+
+from __future__ import annotations
+
+from microros_gen.records import dataclass
+
+HIGH, MIDDLE, LOW = "high", "middle", "low"
+BANDS = (HIGH, MIDDLE, LOW)
+"""Criticalities, the highest first. Every task of a band has a higher priority than those of the bands after it."""
+SESSION = "session"
+"""The band of the session's task: between `high` and `middle`."""
+ORDER = (HIGH, SESSION, MIDDLE, LOW)
+"""The bands of the table, the highest first."""
+
+LONGEST_US = 1_000_000_000
+"""Longest time that a task may have, and that is proposed: 1000 s."""
+
+
+@dataclass(frozen=True)
+class Section:
+    """`lock` is held for `time_us` at most, with priority inheritance; sections of a task are not nested."""
+
+    lock: str
+    time_us: int
+
+
+@dataclass(frozen=True)
+class Task:
+    """A task that is released every `period_us` or more seldom, and runs for `time_us` at most each time.
+
+    `deadline_us` counts from the instant at which the release is due, as `jitter_us` does, by which it may be late;
+    None: the period is the deadline, and stays it if the period changes. `sections` are what it holds locks for.
+    `blocking_us`: how long something that is no task of the set may keep it from running once for each release, such as
+    code that runs with interrupts disabled. `priority`: where the application wants it in the table, 1 is the highest;
+    None: by rule. `session`: it is the task that runs the session; then `criticality` has no meaning.
+
+    Times from 1 to LONGEST_US, jitter and blocking from 0; ValueError for others.
+    """
+
+    name: str
+    period_us: int
+    time_us: int
+    criticality: str = MIDDLE
+    deadline_us: int | None = None
+    jitter_us: int = 0
+    sections: tuple[Section, ...] = ()
+    blocking_us: int = 0
+    priority: int | None = None
+    session: bool = False
+
+    def __post_init__(self) -> None:
+        """Refuse times that no task has."""
+        positive = {"period": self.period_us, "time": self.time_us, "deadline": self.due_us}
+        positive |= {f"section of {s.lock}": s.time_us for s in self.sections}
+        other = {"jitter": self.jitter_us, "blocking": self.blocking_us}
+        for least, times in ((1, positive), (0, other)):
+            for what, time in times.items():
+                if not least <= time <= LONGEST_US:
+                    raise ValueError(f"the {what} of '{self.name}' is {time} us, not {least} to {LONGEST_US}")
+        if self.criticality not in BANDS:
+            raise ValueError(f"the criticality of '{self.name}' is '{self.criticality}'")
+        if any(section.time_us > self.time_us for section in self.sections):
+            raise ValueError(f"'{self.name}' holds a lock for longer than it runs")
+
+    @property
+    def due_us(self) -> int:
+        """The deadline: the period where none is given."""
+        return self.period_us if self.deadline_us is None else self.deadline_us
+
+    @property
+    def band(self) -> str:
+        """Where it is in ORDER."""
+        return SESSION if self.session else self.criticality
