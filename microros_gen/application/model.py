@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import field
+from fractions import Fraction
 
 from microros_gen.application.action_decl import ActionClientDecl, ActionDecl
 from microros_gen.application.diagnosis_decl import DiagnosisDecl
@@ -77,7 +78,8 @@ class EndpointDecl:
     `streamed`: its samples are taken piece by piece and never wait; `outside_ros`: `topic` is the name in DDS.
     `managed`: a publisher that drops what is published while its node is not active.
     `local`: whether its messages are exchanged inside the image without the agent: `never`, `also` or `only`; `peer`:
-    the same with other boards of the system.
+    the same with other boards of the system. `interval_us`: a publisher publishes at most once in that time (`rate`);
+    None: not said.
     """
 
     kind: str
@@ -101,6 +103,8 @@ class EndpointDecl:
     managed: bool = False
     local: str = "never"
     peer: str = "never"
+    interval_us: Fraction | None = None
+    rate_span: Span | None = None
 
     @property
     def exists_at_agent(self) -> bool:

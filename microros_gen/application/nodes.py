@@ -31,6 +31,7 @@ from microros_gen.documents.tree_values import (
     int_of,
     items,
     named_of,
+    rate_of,
     report_name,
     span_of,
     text_of,
@@ -141,6 +142,8 @@ def _endpoints(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Iter
                 managed=bool_of(child(endpoint, "managed")) is True,
                 local=text_of(child(endpoint, "local")) or EndpointDecl.local,
                 peer=text_of(child(endpoint, "peer")) or EndpointDecl.peer,
+                interval_us=rate_of(child(endpoint, "rate")),
+                rate_span=span_of(child(endpoint, "rate")),
             )
 
 

@@ -70,6 +70,7 @@ def pool_rows(planned: Planned) -> list[tuple[str, str, str]]:
         *_entity_rows(planned),
         *_running_rows(planned),
         *_stream_rows(streams),
+        *([("line", line.text, line.why)] if (line := planned.project.line) else []),
         (
             "error text",
             f"{runtime.errors.text_size} bytes",

@@ -37,6 +37,8 @@ def plan_summary(planned: Planned) -> str:
             f" best effort {runtime.streams.best_effort_size}, input {runtime.input.size}",
         ),
     ]
+    if project.line:
+        lines.append(("line", f"{project.line.text} ({project.line.why})"))
     lines += ((name, f"{text} ({why})" if why else text) for name, text, why in report_rows(project))
     functions = (*project.provisions.functions(), *project.board.hooks)
     if functions:

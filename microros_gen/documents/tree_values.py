@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from fractions import Fraction
 
 from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.documents.named import Named, NameFault
@@ -17,6 +18,8 @@ _SIZE = re.compile(r"([0-9]{1,12}) ?(B|kB|KiB|MB|MiB)")
 _SIZE_UNITS = {"B": 1, "kB": 1000, "KiB": 1024, "MB": 1_000_000, "MiB": 1024 * 1024}
 _TIME = re.compile(r"([0-9]{1,12}(?:[.][0-9]{1,12})?) ?(us|ms|s)")
 _TIME_UNITS = {"us": 1, "ms": 1000, "s": 1_000_000}
+_RATE = re.compile(r"([0-9]{1,12}(?:[.][0-9]{1,12})?) ?(Hz|kHz)")
+_RATE_UNITS = {"Hz": 1, "kHz": 1000}
 
 
 def child(node: YamlNode | None, key: str) -> YamlNode | None:
@@ -87,6 +90,13 @@ def time_of(node: YamlNode | None) -> int | None:
     """Return microseconds: `20 ms`; a part of one is rounded away."""
     match = _TIME.fullmatch(text_of(node) or "")
     return int(float(match.group(1)) * _TIME_UNITS[match.group(2)] + 0.5) if match else None
+
+
+def rate_of(node: YamlNode | None) -> Fraction | None:
+    """Return the period of a rate in microseconds: `100 Hz` is 10,000; None also for a rate of 0."""
+    match = _RATE.fullmatch(text_of(node) or "")
+    rate = Fraction(match.group(1)) * _RATE_UNITS[match.group(2)] if match else Fraction(0)
+    return 1_000_000 / rate if rate else None
 
 
 def report_name(

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from microros_gen.records import dataclass
-from microros_gen.schedule.task import ORDER, Task
+from microros_gen.schedule.task import BANDS, Task
 
 
 @dataclass(frozen=True)
@@ -35,16 +35,21 @@ def by_priority(tasks: Sequence[Task]) -> tuple[Task, ...]:
     """Return the tasks in the order of their priorities: the first has priority 1, the highest.
 
     A task whose priority is given has it. The others take the priorities that are left, the bands in the order of
-    ORDER, within a band the shortest deadline first, and of equal deadlines as the tasks are given. The session's task
-    is below the band `high`, which the line must not delay, and above all others, which get their samples from it.
+    BANDS, within a band the shortest deadline first, and of equal deadlines as the tasks are given. The session's task
+    directly precedes the first of them that is sporadic, since it is what releases that; without one it is the last.
     ValueError where a priority is not possible (priority_faults).
     """
     if priority_faults(tasks):
         raise ValueError("impossible priorities")
     fixed = {task.priority: task for task in tasks if task.priority is not None}
-    free = iter(
-        sorted(
-            (t for t in tasks if t.priority is None), key=lambda task: (ORDER.index(task.band), task.due_us)
-        )
-    )
-    return tuple(fixed.get(priority) or next(free) for priority in range(1, len(tasks) + 1))
+    free = [task for task in tasks if task.priority is None]
+    order = sorted((task for task in free if not task.session), key=_rank)
+    for session in (task for task in free if task.session):
+        released = (index for index, task in enumerate(order) if task.sporadic)
+        order.insert(next(released, len(order)), session)
+    left = iter(order)
+    return tuple(fixed.get(priority) or next(left) for priority in range(1, len(tasks) + 1))
+
+
+def _rank(task: Task) -> tuple[int, int]:
+    return BANDS.index(task.criticality), task.due_us

@@ -21,7 +21,7 @@ from microros_gen.records import dataclass
 from microros_gen.schedule.priorities import by_priority
 from microros_gen.schedule.task import Task
 
-MOST_STEPS = 200_000
+MOST_STEPS = 20_000
 """Steps of the iteration after which the analysis of a task ends; a load that is a hair below 1 takes more."""
 
 

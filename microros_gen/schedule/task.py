@@ -9,9 +9,7 @@ HIGH, MIDDLE, LOW = "high", "middle", "low"
 BANDS = (HIGH, MIDDLE, LOW)
 """Criticalities, the highest first. Every task of a band has a higher priority than those of the bands after it."""
 SESSION = "session"
-"""The band of the session's task: between `high` and `middle`."""
-ORDER = (HIGH, SESSION, MIDDLE, LOW)
-"""The bands of the table, the highest first."""
+"""In place of a band where the session's task has its place by rule."""
 
 LONGEST_US = 1_000_000_000
 """Longest time that a task may have, and that is proposed: 1000 s."""
@@ -33,7 +31,8 @@ class Task:
     None: the period is the deadline, and stays it if the period changes. `sections` are what it holds locks for.
     `blocking_us`: how long something that is no task of the set may keep it from running once for each release, such as
     code that runs with interrupts disabled. `priority`: where the application wants it in the table, 1 is the highest;
-    None: by rule. `session`: it is the task that runs the session; then `criticality` has no meaning.
+    None: by rule. `sporadic`: no clock releases it, but what the session's task receives. `session`: it runs the session
+    and has its place by the rule for that (by_priority); then `criticality` has no meaning.
 
     Times from 1 to LONGEST_US, jitter and blocking from 0; ValueError for others.
     """
@@ -47,6 +46,7 @@ class Task:
     sections: tuple[Section, ...] = ()
     blocking_us: int = 0
     priority: int | None = None
+    sporadic: bool = False
     session: bool = False
 
     def __post_init__(self) -> None:
@@ -70,5 +70,5 @@ class Task:
 
     @property
     def band(self) -> str:
-        """Where it is in ORDER."""
+        """Its band, as the table has it."""
         return SESSION if self.session else self.criticality

@@ -10,7 +10,7 @@ from microros_gen.schedule.task import HIGH, LOW, Task
 
 CONTROL = Task("control", 10_000, 1, criticality=HIGH)
 SESSION = Task("session", 5000, 1, session=True, criticality=LOW)
-IMU = Task("imu", 1000, 1)
+IMU = Task("imu", 1000, 1, sporadic=True)
 SLOW = Task("slow", 100_000, 1, deadline_us=900)
 LOG = Task("log", 100, 1, criticality=LOW)
 
@@ -20,7 +20,13 @@ def names(*tasks: Task) -> str:
 
 
 def test_bands_precede_deadlines() -> None:
-    assert names(LOG, IMU, SLOW, SESSION, CONTROL) == "control session slow imu log"
+    assert names(LOG, IMU, SLOW, SESSION, CONTROL) == "control slow session imu log"
+
+
+def test_the_session_precedes_what_it_releases_and_is_the_last_where_clocks_release_all() -> None:
+    command = Task("command", 50_000, 1, criticality=HIGH, sporadic=True)
+    assert names(LOG, IMU, command, SESSION, CONTROL) == "control session command imu log"
+    assert names(LOG, SLOW, SESSION, CONTROL) == "control slow log session"
 
 
 def test_equal_deadlines_stay_as_they_are_written() -> None:

@@ -16,7 +16,7 @@ from microros_gen.schedule.timeline import draw
 
 LOCK = (Section("session", 40),)
 TASKS = [
-    Task("log", 100_000, 2000, criticality="low", sections=LOCK),
+    Task("log", 100_000, 2000, criticality="low", sections=LOCK, sporadic=True),
     Task("control", 1000, 200, criticality=HIGH, deadline_us=500, sections=(Section("session", 20),)),
     Task("session", 5000, 300, session=True, sections=LOCK, blocking_us=5),
 ]

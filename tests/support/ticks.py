@@ -56,6 +56,7 @@ def random_tasks(random: Random, most: int = 5) -> list[Task]:
                 jitter_us=random.choice([0, 0, random.randint(0, period)]),
                 sections=tuple(sections),
                 blocking_us=random.choice([0, 0, 1, 2]),
+                sporadic=random.random() < 0.5,
                 session=index == 0 and random.random() < 0.5,
             )
         )

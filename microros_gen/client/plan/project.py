@@ -13,6 +13,7 @@ from microros_gen.client.plan.create_messages import DEFAULT_NAME_SIZE, largest_
 from microros_gen.client.plan.declared import implied, pool, timed_qos, type_name, without_handle
 from microros_gen.client.plan.entities import EntitiesPlan, Places
 from microros_gen.client.plan.features import PlanContext, plan_features
+from microros_gen.client.plan.line_load import LineLoad, plan_line_load
 from microros_gen.client.plan.nodes import plan_nodes
 from microros_gen.client.plan.plan_id import plan_id
 from microros_gen.client.plan.provisions import plan_provisions
@@ -25,7 +26,7 @@ from microros_gen.client.plan.runtime_entities import PublisherPlan, QueuePlan, 
 from microros_gen.client.plan.senders import SentStorage, plan_sent_storage
 from microros_gen.client.plan.serving import plan_serving
 from microros_gen.client.plan.session import plan_session
-from microros_gen.client.plan.session_times import plan_times
+from microros_gen.client.plan.session_times import TimesPlan, plan_times
 from microros_gen.client.plan.slices import CreationPlan, ErrorsPlan, InputPlan, MemoryPlan, OutputPlan
 from microros_gen.client.plan.streams import StreamSizes, plan_streams
 from microros_gen.client.plan.transport import plan_transport
@@ -50,7 +51,7 @@ LOANS = "microros/xrce_loan.h"
 class Project:
     """Everything that the renderer prints. `name` names the image: the profiles joined by `+`.
 
-    `roots` and `services` as of plan_project.
+    `roots` and `services` as of plan_project. `line`: what the publishers with a rate need of it; None: none has one.
     """
 
     name: str
@@ -65,6 +66,7 @@ class Project:
     storage: SentStorage
     provisions: Provisions
     services: tuple[TypeName, ...] = ()
+    line: LineLoad | None = None
 
     @cached_property
     def messages(self) -> Mapping[TypeName, Message]:
@@ -166,10 +168,22 @@ def plan_project(
     running = plan_running(application, selection, receivers, diagnostics)
     storage = plan_sent_storage(application, selection, by_name, roots, services)
     baud = application.transport.baud if selection.transport == "serial" else None
+
+    def times(baud: int | None) -> TimesPlan:
+        return plan_times(application.times, baud, streams.mtu, streams.input_size)
+
+    line = plan_line_load(
+        application,
+        publishing.written,
+        streams.mtu,
+        lambda baud: times(baud).heartbeat_period_ms,
+        baud,
+        diagnostics,
+    )
     runtime = RuntimePlan(
         plan_id="",
         session=session,
-        times=plan_times(application.times, baud, streams.mtu, streams.input_size),
+        times=times(baud),
         transport=plan_transport(application, selection, target, streams, own_driver),
         streams=_output(application, streams),
         input=_input(streams, queues),
@@ -226,6 +240,7 @@ def plan_project(
         storage,
         provisions,
         services,
+        line,
     )
 
 

@@ -255,7 +255,7 @@ def _send_frames(
     """Return the bytes of the longest frame that is copied, each stuffed, and the one that is never used."""
     session = _SESSION_MESSAGE_HARD if application.hard_liveliness_ms else _SESSION_MESSAGE
     largest = max((session, *(min(_datagram(message), ceiling) for message in messages)))
-    frames = [_FRAME_FLAG + 2 * (size + _FRAME_REST) - text for size, text in ((largest, 0), create)]
+    frames = [longest_frame(size) - text for size, text in ((largest, 0), create)]
     return max(frames) + 1
 
 
@@ -278,6 +278,11 @@ def _send_buffer(
 def usual_frame(size: int) -> int:
     """Return the bytes that a message takes on a serial line, four times as many stuffed as of random ones."""
     return _FRAME_FLAG + _FRAME_REST + size + size // _STUFFED_SHARE
+
+
+def longest_frame(size: int) -> int:
+    """Return the bytes that a message takes on a serial line if all but the flag is stuffed."""
+    return _FRAME_FLAG + 2 * (size + _FRAME_REST)
 
 
 def _lent(samples: tuple[Received, ...], least: int, ceiling: int, fragments: int) -> tuple[int, int] | None:

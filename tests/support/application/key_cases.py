@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from functools import partial
 from typing import Any
 
@@ -129,6 +130,14 @@ def _endpoint_cases(
             one(f"{name_key}: a, type: {type_name}, managed: 1"),
             f"3:{start + 23 + len(name_key) + len(type_name)}",
             f"'nodes[0].{key}[0].managed' must be ",
+        )
+        cases[f"{path}.rate"] = KeyCase(
+            one(f"{entry}, rate: 1.5 kHz"),
+            lambda a: _endpoint(a).interval_us,
+            Fraction(2000, 3),
+            one(f"{name_key}: a, type: {type_name}, rate: 0 Hz"),
+            f"3:{start + 20 + len(name_key) + len(type_name)}",
+            f"'nodes[0].{key}[0].rate' must be a rate above 0 such as 100 Hz or 1 kHz; it is the text '0 Hz'",
         )
     if kind != "publisher":
         cases[f"{path}.queue"] = KeyCase(
