@@ -31,8 +31,8 @@ class Task:
     None: the period is the deadline, and stays it if the period changes. `sections` are what it holds locks for.
     `blocking_us`: how long something that is no task of the set may keep it from running once for each release, such as
     code that runs with interrupts disabled. `priority`: where the application wants it in the table, 1 is the highest;
-    None: by rule. `sporadic`: no clock releases it, but what the session's task receives. `session`: it runs the session
-    and has its place by the rule for that (by_priority); then `criticality` has no meaning.
+    None: by rule. `sporadic`: no clock releases it, but what the session's task receives. `session`: it runs the
+    session, and has its place by the rule for that (by_priority); then `criticality` has no meaning.
 
     Times from 1 to LONGEST_US, jitter and blocking from 0; ValueError for others.
     """
