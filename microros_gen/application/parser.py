@@ -66,6 +66,7 @@ _WITHOUT_ADDRESS = ("serial", "canfd", "custom")
 _ONLY_FOR = {
     "device": ("serial", "canfd"),
     "id": ("canfd",),
+    "bitrate": ("canfd",),
     "baud": ("serial",),
     "send_buffer": ("serial",),
     "framing": ("custom",),
@@ -221,6 +222,7 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
         if type_name == "canfd"
         else Transport().can_device,
         can_id=int_of(child(node, "id")),
+        bitrate=int_of(child(node, "bitrate")),
         baud=int_of(child(node, "baud")) or Transport().baud,
         framing=bool_of(framing),
         read_polls=bool_of(read_polls) or False,

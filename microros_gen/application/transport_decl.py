@@ -17,7 +17,7 @@ class Transport:
     `send_buffer`: bytes that wait for a serial line; None: planned. `discover`: the agent is to be found by
     multicast to this port; None: `host` and `port` say where it is, or, where `agent_span` is None too, the
     selection decides. `agents`: address and port of each of several, of which `host` and `port` are the first; or none.
-    `can_device` and `can_id` are those of CAN FD; None: not said, and an identifier has no default.
+    `can_device`, `can_id` and `bitrate` are those of CAN FD; None: not said, and an identifier has no default.
     """
 
     type: str = "udp"
@@ -37,3 +37,4 @@ class Transport:
     agents: tuple[tuple[str, int], ...] = ()
     can_device: str = "can0"
     can_id: int | None = None
+    bitrate: int | None = None

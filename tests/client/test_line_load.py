@@ -13,7 +13,8 @@ import pytest
 
 from microros_gen import compiler
 from microros_gen.agent.framing import encode_frame
-from microros_gen.client.plan.line_load import LineLoad, fitting_baud, message_sizes, rate_text
+from microros_gen.client.plan.line_load import LineLoad, fitting_rate_of_line, message_sizes, rate_text
+from microros_gen.client.plan.line_media import can_frame_bits
 from microros_gen.client.plan.streams import longest_frame, usual_frame
 from microros_gen.diagnostics import UserError
 from microros_gen.interfaces.find import shipped_folder
@@ -62,8 +63,8 @@ def refusal(folder: Path, text: str) -> str:
 def test_an_imu_at_100_hz_is_more_than_115200_baud_carry(tmp_path: Path) -> None:
     line = refusal(tmp_path, text_of(f"{IMU}, rate: 100 Hz, {BEST_EFFORT}"))
     assert line.endswith(
-        "microros.yaml:8:60: error: the publishers with a rate need 36500 bytes per second, and the line carries 11520"
-        " at 115200 baud (/imu/data 36500). Write `rate: 31 Hz` at /imu/data or `transport: {baud: 460800}`, or lower"
+        "microros.yaml:8:60: error: the publishers with a rate need 36500 bytes/s, and the line carries 11520 with"
+        " `baud: 115200` (/imu/data 36500). Write `rate: 31 Hz` at /imu/data or `transport: {baud: 460800}`, or lower"
         " the limits of the messages [MG-7130]"
     )
 
@@ -110,7 +111,7 @@ def test_above_the_usual_rates_the_number_itself_is_proposed(tmp_path: Path) -> 
     load = load_of(
         tmp_path, text_of(f"{IMU}, rate: 2 kHz, {BEST_EFFORT}", transport="serial, baud: 12000000")
     )
-    assert fitting_baud(load, lambda _: 100) == math.ceil(load.load * 10) > 4_000_000
+    assert fitting_rate_of_line(load, lambda _: 100) == math.ceil(load.load * 10) > 4_000_000
 
 
 def test_the_numbers_are_in_resolve_and_in_what_generate_prints(tmp_path: Path, run: Runner) -> None:
@@ -134,8 +135,60 @@ def test_the_numbers_are_in_resolve_and_in_what_generate_prints(tmp_path: Path, 
 def test_a_line_of_which_nothing_is_known_carries_everything(tmp_path: Path) -> None:
     load = load_of(tmp_path, text_of(f"{IMU}, rate: 100 kHz, {BEST_EFFORT}", transport="udp"))
     (publisher,) = load.publishers
-    assert (load.capacity, load.fits) == (None, True)
+    assert (load.medium.capacity, load.fits) == (None, True)
     assert load.text == f"{sum(publisher.messages) * 100_000} bytes/s"
+
+
+def stuffed(bits: list[int]) -> int:
+    """Return how many bits there are after one of the other value was put behind each five equal ones."""
+    sent: list[int] = []
+    for bit in bits:
+        sent.append(bit)
+        if len(sent) >= 5 and len({*sent[-5:]}) == 1:
+            sent.append(1 - bit)
+    return len(sent)
+
+
+@pytest.mark.parametrize(
+    ("size", "data", "crc"), [(7, 8, 27), (11, 12, 27), (15, 16, 27), (16, 20, 32), (63, 64, 32)]
+)
+def test_a_frame_of_can_has_every_stuff_bit_that_is_possible(size: int, data: int, crc: int) -> None:
+    before = 41 + 8 * data
+    worst = [0, *(index // 4 % 2 for index in range(before - 1))]
+    assert can_frame_bits(size) == stuffed(worst) + crc + 13
+    random = Random(size)
+    assert all(stuffed([random.getrandbits(1) for _ in range(before)]) < stuffed(worst) for _ in range(200))
+
+
+def test_a_bus_carries_the_acknowledgements_of_the_agent_too(tmp_path: Path) -> None:
+    """An Int32 is a message of 16 bytes, a frame of 20; HEARTBEAT and ACKNACK have 13 bytes, a frame of 16."""
+    number = "topic: n, type: std_msgs/msg/Int32, rate: 100 Hz"
+    bus = "canfd, id: 1, bitrate: 125000"
+    load = load_of(tmp_path, text_of(number, transport=bus))
+    sample, control = can_frame_bits(16), can_frame_bits(13)
+    assert load.heartbeats == 2 * control * 10
+    assert load.load == 100 * (sample + control) + load.heartbeats
+    assert load.text == f"{load.load} bit/s of 125000"
+    best_effort = load_of(tmp_path, text_of(f"{number}, {BEST_EFFORT}", transport=bus))
+    assert best_effort.load == 100 * sample
+
+
+def test_what_a_bus_does_not_carry_is_refused(tmp_path: Path) -> None:
+    bus = "canfd, id: 1, bitrate: {}"
+    fast = "topic: n, type: std_msgs/msg/Int32, rate: {} Hz"
+    line = refusal(tmp_path, text_of(fast.format(1000), transport=bus.format(125_000)))
+    assert "need 552020 bit/s, and the line carries 125000 with `bitrate: 125000`" in line
+    rate, bitrate = re.findall(r"rate: (\d+) Hz` at /n or `transport: {bitrate: (\d+)}`", line)[0]
+    load_of(tmp_path, text_of(fast.format(rate), transport=bus.format(125_000)))
+    assert "MG-7130" in refusal(tmp_path, text_of(fast.format(int(rate) + 1), transport=bus.format(125_000)))
+    load_of(tmp_path, text_of(fast.format(1000), transport=bus.format(bitrate)))
+    assert "MG-7130" in refusal(tmp_path, text_of(fast.format(1000), transport=bus.format(500_000)))
+
+
+def test_a_bit_rate_without_rates_is_reported(tmp_path: Path) -> None:
+    number = "topic: n, type: std_msgs/msg/Int32"
+    found = planned(tmp_path, text_of(number, transport="canfd, id: 1, bitrate: 125000"))
+    assert [d.id for d in found.warnings if "bitrate" in d.message] == ["MG-7133"]
 
 
 def test_a_rate_changes_nothing_that_is_generated(tmp_path: Path) -> None:

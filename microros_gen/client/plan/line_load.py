@@ -2,8 +2,8 @@
 """What the publishers with a rate need of the line, against what it carries.
 
 Each message is the largest under the limits. On a serial line it is in frames, with ten bits for each byte, and one
-byte in 32 is stuffed: four times as many as of random ones. The HEARTBEAT messages of the reliable stream come on top.
-What the agent sends, its ACKNACK messages among it, goes the other way and does not count.
+byte in 32 is stuffed: four times as many as of random ones. On CAN it has every stuff bit that is possible. HEARTBEAT
+messages of the reliable stream are on top, and the ACKNACK messages of the agent where it sends on the same bus.
 """
 
 from __future__ import annotations
@@ -16,115 +16,91 @@ from fractions import Fraction
 from microros_gen.application.model import Application, EndpointDecl
 from microros_gen.client.plan.creation import MESSAGE_HEADER, SUBMESSAGE_HEADER
 from microros_gen.client.plan.declared import declarations, full_name
-from microros_gen.client.plan.session_times import LINE_BITS_PER_BYTE
-from microros_gen.client.plan.streams import (
-    FRAGMENT_HEADER,
-    OBJECT_PREFIX,
-    WRITE_DATA_OVERHEAD,
-    Written,
-    longest_frame,
-    usual_frame,
-)
+from microros_gen.client.plan.line_media import MOST_RATE, Medium
+from microros_gen.client.plan.streams import FRAGMENT_HEADER, OBJECT_PREFIX, WRITE_DATA_OVERHEAD, Written
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass
 
 HEARTBEAT_SIZE = 13
-BAUD_RATES = (
-    *(9600, 19_200, 38_400, 57_600, 115_200, 230_400, 460_800, 921_600),
-    *(1_000_000, 1_500_000, 2_000_000, 3_000_000, 4_000_000),
-)
-"""Rates that adapters have; above them the rate is computed."""
-MOST_BAUD = 12_000_000  # application.schema.json says it too
+"""Bytes of a HEARTBEAT message; an ACKNACK message has as many."""
 _SECOND_US = 1_000_000
 
 
 @dataclass(frozen=True)
 class RatedPublisher:
-    """A publisher with a rate: at most one message in `interval_us`.
+    """A publisher with a rate: at most one sample in `interval_us`.
 
     `messages`: sizes of the messages of the session that carry one sample, several where it goes in fragments.
     """
 
     topic: str
-    type: str
     reliable: bool
     interval_us: Fraction
     messages: tuple[int, ...]
     endpoint: EndpointDecl
 
-    def bytes(self, framed: bool) -> int:
-        """Return the bytes of one message on the line; `framed`: in frames of a serial line."""
-        return sum(usual_frame(size) if framed else size for size in self.messages)
+    def sample(self, medium: Medium) -> int:
+        """Return what one sample takes, with the ACKNACK messages of the agent where they count."""
+        acknowledged = len(self.messages) if medium.shared and self.reliable else 0
+        return sum(map(medium.usual, self.messages)) + acknowledged * medium.usual(HEARTBEAT_SIZE)
 
-    def load(self, framed: bool) -> Fraction:
-        """Return the bytes per second."""
-        return self.bytes(framed) * _SECOND_US / self.interval_us
-
-    @property
-    def rate(self) -> str:
-        """The rate as it is written: `100 Hz`."""
-        return rate_text(_SECOND_US / self.interval_us)
+    def load(self, medium: Medium) -> Fraction:
+        """Return what it takes in a second."""
+        return self.sample(medium) * _SECOND_US / self.interval_us
 
 
 @dataclass(frozen=True)
 class LineLoad:
-    """`publishers` have a rate, `others` publishers none. `baud`: of a serial line, else None.
+    """`publishers` have a rate, `others` publishers none. The unit of loads is that of the medium.
 
     `heartbeat_ms`: the shortest time between two HEARTBEAT messages, which the reliable stream sends.
     """
 
     publishers: tuple[RatedPublisher, ...]
     others: int
-    baud: int | None
+    medium: Medium
     heartbeat_ms: int
 
     @property
-    def framed(self) -> bool:
-        """Whether messages are in frames of a serial line."""
-        return self.baud is not None
-
-    @property
     def heartbeats(self) -> Fraction:
-        """Bytes per second of HEARTBEAT messages; 0 where no publisher with a rate is reliable."""
+        """Load of HEARTBEAT messages, and of answers that count; 0 where no publisher with a rate is reliable."""
         if not any(publisher.reliable for publisher in self.publishers):
             return Fraction(0)
-        size = usual_frame(HEARTBEAT_SIZE) if self.framed else HEARTBEAT_SIZE
-        return Fraction(size * 1000, self.heartbeat_ms)
+        each = self.medium.usual(HEARTBEAT_SIZE) * (2 if self.medium.shared else 1)
+        return Fraction(each * 1000, self.heartbeat_ms)
 
     @property
     def load(self) -> Fraction:
-        """Bytes per second of all of them."""
-        return sum((p.load(self.framed) for p in self.publishers), self.heartbeats)
+        """Load of all of them."""
+        return sum((p.load(self.medium) for p in self.publishers), self.heartbeats)
 
     @property
     def most(self) -> Fraction:
-        """Bytes per second if every byte of a frame had to be stuffed."""
-        beats = Fraction(longest_frame(HEARTBEAT_SIZE) * 1000, self.heartbeat_ms) if self.heartbeats else 0
-        frames = (sum(map(longest_frame, p.messages)) * _SECOND_US / p.interval_us for p in self.publishers)
-        return sum(frames, Fraction(beats))
-
-    @property
-    def capacity(self) -> Fraction | None:
-        """Bytes per second that the line carries; None: nothing is known of it."""
-        return None if self.baud is None else Fraction(self.baud, LINE_BITS_PER_BYTE)
+        """Load of a serial line if every byte of a frame had to be stuffed."""
+        most = self.medium.most
+        beats = Fraction(most(HEARTBEAT_SIZE) * 1000, self.heartbeat_ms) if self.heartbeats else Fraction(0)
+        frames = (sum(map(most, p.messages)) * _SECOND_US / p.interval_us for p in self.publishers)
+        return sum(frames, beats)
 
     @property
     def fits(self) -> bool:
         """Whether the line carries all of them, as far as it is known."""
-        return self.capacity is None or self.load <= self.capacity
+        return self.medium.capacity is None or self.load <= self.medium.capacity
 
     @property
     def text(self) -> str:
         """What is needed, and of how much."""
-        needed = f"{math.ceil(self.load)} bytes/s"
-        return needed if self.capacity is None else f"{needed} of {math.floor(self.capacity)}"
+        capacity = self.medium.capacity
+        needed = f"{math.ceil(self.load)} {self.medium.unit}"
+        return needed if capacity is None else f"{needed} of {math.floor(capacity)}"
 
     @property
     def why(self) -> str:
         """What it consists of."""
         shown = "the largest message times rate of " + ", ".join(p.topic for p in self.publishers)
         beats = f", and {math.ceil(self.heartbeats)} of HEARTBEAT" if self.heartbeats else ""
-        stuffed = f"; {math.ceil(self.most)} if every byte were stuffed" if self.framed else ""
+        serial = self.medium.kind == "serial"
+        stuffed = f"; {math.ceil(self.most)} if every byte were stuffed" if serial else ""
         others = f"; publishers without a rate: {self.others}" if self.others else ""
         return f"{shown}{beats}{stuffed}{others}"
 
@@ -133,14 +109,14 @@ def plan_line_load(
     application: Application,
     written: Sequence[Written],
     mtu: int,
+    medium: Medium,
     heartbeat_ms: Callable[[int | None], int],
-    baud: int | None,
     diagnostics: Diagnostics,
 ) -> LineLoad | None:
     """Return what the publishers with a rate need; None without such. More than the line carries is an error.
 
-    `written`: what each declared publisher writes, in their order. `baud`: of the serial line, or None; `heartbeat_ms`:
-    the time between two HEARTBEAT messages at a baud rate.
+    `written`: what each declared publisher writes, in their order. `heartbeat_ms`: the time between two HEARTBEAT
+    messages where the line has a rate.
     """
     declared = zip(declarations(application, "publisher"), written, strict=False)
     publishers, others = [], 0
@@ -159,12 +135,17 @@ def plan_line_load(
             )
             continue
         sizes = message_sizes(message.max_encoded_size, mtu)
-        publishers.append(
-            RatedPublisher(topic, endpoint.type, message.reliable, endpoint.interval_us, sizes, endpoint)
-        )
+        publishers.append(RatedPublisher(topic, message.reliable, endpoint.interval_us, sizes, endpoint))
     if not publishers:
+        if application.transport.bitrate is not None:
+            diagnostics.warning(
+                "'transport.bitrate' has no effect: no publisher has a rate that is compared with it",
+                application.spans.get("transport.bitrate"),
+                "Write `rate: 10 Hz` at publishers, or remove it",
+                id="MG-7133",
+            )
         return None
-    load = LineLoad(tuple(publishers), others, baud, heartbeat_ms(baud))
+    load = LineLoad(tuple(publishers), others, medium, heartbeat_ms(medium.rate))
     _check_capacity(load, heartbeat_ms, diagnostics)
     return load
 
@@ -198,25 +179,28 @@ def _check_deadline(endpoint: EndpointDecl, topic: str, diagnostics: Diagnostics
         )
 
 
-def _check_capacity(load: LineLoad, heartbeat_ms: Callable[[int], int], diagnostics: Diagnostics) -> None:
-    if load.fits or load.capacity is None:
+def _check_capacity(
+    load: LineLoad, heartbeat_ms: Callable[[int | None], int], diagnostics: Diagnostics
+) -> None:
+    medium = load.medium
+    if load.fits or medium.capacity is None:
         return
-    needed, carried = math.ceil(load.load), math.floor(load.capacity)
-    largest = max(load.publishers, key=lambda publisher: publisher.load(load.framed))
-    parts = [f"{p.topic} {math.ceil(p.load(load.framed))}" for p in load.publishers]
+    largest = max(load.publishers, key=lambda publisher: publisher.load(medium))
+    parts = [f"{p.topic} {math.ceil(p.load(medium))}" for p in load.publishers]
     parts += [f"HEARTBEAT {math.ceil(load.heartbeats)}"] if load.heartbeats else []
     diagnostics.error(
-        f"the publishers with a rate need {needed} bytes per second, and the line carries {carried} at {load.baud} baud"
-        f" ({', '.join(parts)})",
+        f"the publishers with a rate need {math.ceil(load.load)} {medium.unit}, and the line carries"
+        f" {math.floor(medium.capacity)} with `{medium.key}: {medium.rate}` ({', '.join(parts)})",
         largest.endpoint.rate_span,
-        _hint(load, largest, fitting_baud(load, heartbeat_ms)),
+        _hint(load, largest, fitting_rate_of_line(load, heartbeat_ms)),
         id="MG-7130",
     )
 
 
-def _hint(load: LineLoad, largest: RatedPublisher, baud: int) -> str:
+def _hint(load: LineLoad, largest: RatedPublisher, bits: int) -> str:
     ways = [f"`rate: {rate}` at {largest.topic}"] if (rate := fitting_rate(load, largest)) else []
-    ways += [f"`transport: {{baud: {baud}}}`"] if baud <= MOST_BAUD else []
+    possible = bits <= MOST_RATE[load.medium.kind]
+    ways += [f"`transport: {{{load.medium.key}: {bits}}}`"] if possible else []
     return (
         f"Write {' or '.join(ways)}, or lower the limits of the messages" if ways else "Lower several rates"
     )
@@ -227,25 +211,28 @@ def fitting_rate(load: LineLoad, publisher: RatedPublisher) -> str | None:
 
     It is a whole number of Hz where that is possible, else of thousandths.
     """
-    assert load.capacity is not None
-    left = load.capacity - (load.load - publisher.load(load.framed))
-    rate = left / publisher.bytes(load.framed)
+    assert load.medium.capacity is not None
+    left = load.medium.capacity - (load.load - publisher.load(load.medium))
+    rate = left / publisher.sample(load.medium)
     rate = Fraction(math.floor(rate)) if rate >= 1 else rate
     return rate_text(rate) if rate * 1000 >= 1 else None
 
 
-def fitting_baud(load: LineLoad, heartbeat_ms: Callable[[int], int]) -> int:
-    """Return the least baud rate that carries all: of BAUD_RATES, or the number itself above them.
+def fitting_rate_of_line(load: LineLoad, heartbeat_ms: Callable[[int | None], int]) -> int:
+    """Return the least bit rate of the line that carries all: a usual one, or the number itself above them.
 
-    `heartbeat_ms`: the time between two HEARTBEAT messages at a baud rate, which is longer on a slow line.
+    `heartbeat_ms`: the time between two HEARTBEAT messages at a rate, which is longer on a slow serial line.
     """
-    for baud in BAUD_RATES:
-        other = replace(load, baud=baud, heartbeat_ms=heartbeat_ms(baud))
-        if other.fits:
-            return baud
-    while not other.fits:
-        assert other.baud is not None
-        needed = max(math.ceil(other.load * LINE_BITS_PER_BYTE), other.baud + 1)
-        other = replace(load, baud=needed, heartbeat_ms=heartbeat_ms(needed))
-    assert other.baud is not None
-    return other.baud
+
+    def at(rate: int) -> LineLoad:
+        medium = replace(load.medium, rate=rate)
+        return replace(load, medium=medium, heartbeat_ms=heartbeat_ms(rate))
+
+    for rate in load.medium.rates:
+        if at(rate).fits:
+            return rate
+    rate = load.medium.rates[-1]
+    while not (other := at(rate)).fits:
+        assert other.medium.capacity is not None
+        rate = max(math.ceil(rate * other.load / other.medium.capacity), rate + 1)
+    return rate

@@ -14,6 +14,7 @@ from microros_gen.client.plan.declared import implied, pool, timed_qos, type_nam
 from microros_gen.client.plan.entities import EntitiesPlan, Places
 from microros_gen.client.plan.features import PlanContext, plan_features
 from microros_gen.client.plan.line_load import LineLoad, plan_line_load
+from microros_gen.client.plan.line_media import medium_of
 from microros_gen.client.plan.nodes import plan_nodes
 from microros_gen.client.plan.plan_id import plan_id
 from microros_gen.client.plan.provisions import plan_provisions
@@ -167,23 +168,25 @@ def plan_project(
     receivers -= without_handle(application, "subscription", "service", "client")
     running = plan_running(application, selection, receivers, diagnostics)
     storage = plan_sent_storage(application, selection, by_name, roots, services)
-    baud = application.transport.baud if selection.transport == "serial" else None
 
-    def times(baud: int | None) -> TimesPlan:
+    medium = medium_of(selection.transport, application.transport)
+
+    def times(rate: int | None) -> TimesPlan:
+        baud = rate if medium.kind == "serial" else None
         return plan_times(application.times, baud, streams.mtu, streams.input_size)
 
     line = plan_line_load(
         application,
         publishing.written,
         streams.mtu,
-        lambda baud: times(baud).heartbeat_period_ms,
-        baud,
+        medium,
+        lambda rate: times(rate).heartbeat_period_ms,
         diagnostics,
     )
     runtime = RuntimePlan(
         plan_id="",
         session=session,
-        times=times(baud),
+        times=times(medium.rate),
         transport=plan_transport(application, selection, target, streams, own_driver),
         streams=_output(application, streams),
         input=_input(streams, queues),

@@ -346,6 +346,14 @@ _TOP = {
         "1:35",
         "'transport.device' must be a text; it is 3",
     ),
+    "transport.bitrate": KeyCase(
+        "transport: {type: canfd, id: 1, bitrate: 500000}",
+        lambda a: a.transport.bitrate,
+        500_000,
+        "transport: {type: canfd, id: 1, bitrate: 100}",
+        "1:42",
+        "'transport.bitrate' must be a whole number between 10000 and 8000000; it is 100",
+    ),
     "transport.baud": KeyCase(
         "transport: {type: serial, baud: 921600}",
         lambda a: a.transport.baud,
