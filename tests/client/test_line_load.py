@@ -140,7 +140,7 @@ def test_a_line_of_which_nothing_is_known_carries_everything(tmp_path: Path) -> 
 
 
 def stuffed(bits: list[int]) -> int:
-    """Return how many bits there are after one of the other value was put behind each five equal ones."""
+    """Return how many bits there are after one of the other value was put after each five equal ones."""
     sent: list[int] = []
     for bit in bits:
         sent.append(bit)
