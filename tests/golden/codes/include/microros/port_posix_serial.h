@@ -4,13 +4,25 @@
 #define MICROROS_PORT_POSIX_SERIAL_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
+/* Pause between two attempts to open a device that is gone. */
+#define PORT_POSIX_SERIAL_RETRY_MS 250u
+
+/* All functions: with the lock of the library. */
+
 /* Returns whether output waits for room in the system; a wait then also ends when there is room. */
 bool port_posix_serial_waits(int handle);
+
+/* Returns how long a wait may take, at most `left_ms`: a lost device does not report that it has returned. */
+uint32_t port_posix_serial_left(uint32_t left_ms);
+
+/* Sets the end of a pipe that ends a wait when output begins to wait for room. */
+void port_posix_serial_set_wake(int end);
 
 #ifdef __cplusplus
 }

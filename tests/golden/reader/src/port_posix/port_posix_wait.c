@@ -61,9 +61,9 @@ static void wake_drain(int end)
 
 void port_wait(intptr_t handle, uint32_t timeout_ms)
 {
-  const int most_ms = timeout_ms > (uint32_t)INT_MAX ? INT_MAX : (int)timeout_ms;
   const int wake = wake_end(OUT);
   struct pollfd ends[(int)ENDS + (int)MICROROS_LINKS];
+  const uint32_t left_ms = timeout_ms;
 
   ends[0].fd = wake;
   ends[1].fd = (int)handle; /* poll ignores negative descriptors */
@@ -73,7 +73,8 @@ void port_wait(intptr_t handle, uint32_t timeout_ms)
   for (size_t i = 0; i < sizeof(ends) / sizeof(ends[0]); ++i) {
     ends[i].events = POLLIN;
   }
-  (void)poll(ends, sizeof(ends) / sizeof(ends[0]), most_ms); /* a signal may end it early */
+  /* a signal may end it early */
+  (void)poll(ends, sizeof(ends) / sizeof(ends[0]), left_ms > (uint32_t)INT_MAX ? INT_MAX : (int)left_ms);
   if (wake >= 0) {
     wake_drain(wake);
   }

@@ -1,31 +1,62 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #define _POSIX_C_SOURCE 200809L
+#include "microros/links.h"
 #include "microros/port.h"
 #include "microros/port_posix_serial.h"
 #include "microros_config.h"
 
+#include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <string.h>
 #include <sys/types.h>
 #include <termios.h>
 #include <unistd.h>
 
-/* An open line, and output that the system had no room for: later calls write it. */
+/* A line that is in use, and output that the system had no room for: later calls write it. */
 typedef struct serial_line_t {
-  int handle; /* -1: none */
+  bool used;
+  int descriptor;      /* -1: lost; from then on it is looked for */
+  intptr_t lost;       /* its handle while it is lost */
+  const char * device; /* of the caller, who keeps it until the line is closed */
+  uint32_t baud;
+  uint32_t tried_ms; /* when it was lost, or last looked for */
   size_t size;
   uint8_t bytes[MICROROS_SEND_BUFFER];
 } serial_line_t;
 
-enum { LINES = 2 }; /* that of the session, and one to another agent that is pinged */
+/* That of the session, one to another agent that is pinged, and those of links with other boards. */
+enum { LINES = 2 + (int)MICROROS_LINKS };
 
-static serial_line_t lines[LINES] = {{-1, 0, {0}}, {-1, 0, {0}}};
+/* The handle of the first line while it is lost, of the second one less: no descriptor, so no wait looks at it. */
+enum { LOST = -2 };
 
-/* Returns the line with this handle, for -1 a free one; NULL if there is no such line. */
-static serial_line_t * line_of(int handle)
+static serial_line_t lines[LINES];
+static int line_wake = -1; /* end of the pipe of port_wait */
+
+/* Returns the handle of a line. */
+static intptr_t line_handle(const serial_line_t * line)
 {
-  for (size_t i = 0; i < LINES; ++i) {
-    if (lines[i].handle == handle) {
+  return line->descriptor >= 0 ? (intptr_t)line->descriptor : line->lost;
+}
+
+/* Returns the line with this handle; NULL if no line has it. */
+static serial_line_t * line_of(intptr_t handle)
+{
+  for (size_t i = 0; i < (size_t)LINES; ++i) {
+    if (lines[i].used && line_handle(&lines[i]) == handle) {
+      return &lines[i];
+    }
+  }
+  return NULL;
+}
+
+/* Returns a line that nobody uses; NULL if all are in use. */
+static serial_line_t * line_free(void)
+{
+  for (size_t i = 0; i < (size_t)LINES; ++i) {
+    if (!lines[i].used) {
+      lines[i].lost = (intptr_t)LOST - (intptr_t)i;
       return &lines[i];
     }
   }
@@ -83,46 +114,87 @@ static bool serial_make_raw(int handle, uint32_t baud)
          tcsetattr(handle, TCSANOW, &settings) == 0;
 }
 
-bool port_serial_open(port_serial_t * serial, const char * device, uint32_t baud)
+/* Opens the device of a line. */
+static bool line_open(serial_line_t * line)
 {
-  serial_line_t * line = line_of(-1);
-  int handle = line != NULL ? open(device, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC) : -1;
+  int handle = open(line->device, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
 
-  if (handle >= 0 && !serial_make_raw(handle, baud)) {
+  if (handle >= 0 && !serial_make_raw(handle, line->baud)) {
     (void)close(handle);
     handle = -1;
   }
-  if (line != NULL) {
-    line->handle = handle;
-    line->size = 0;
-  }
-  serial->handle = handle;
+  line->descriptor = handle;
+  line->size = 0;
   return handle >= 0;
+}
+
+bool port_serial_open(port_serial_t * serial, const char * device, uint32_t baud)
+{
+  serial_line_t * line = line_free();
+
+  serial->handle = -1;
+  if (line != NULL) {
+    line->device = device;
+    line->baud = baud;
+    line->used = line_open(line);
+    serial->handle = line->used ? line->descriptor : -1;
+  }
+  return serial->handle >= 0;
 }
 
 void port_serial_close(port_serial_t * serial)
 {
-  const int handle = (int)serial->handle;
-  serial_line_t * line = line_of(handle);
+  serial_line_t * line = line_of(serial->handle);
 
-  if (handle >= 0 && line != NULL) {
-    (void)close(handle);
-    line->handle = -1;
+  if (line != NULL) {
+    if (line->descriptor >= 0) {
+      (void)close(line->descriptor);
+    }
+    line->used = false;
   }
   serial->handle = -1;
 }
 
-/* Writes as much as the system has room for, and returns the number of bytes. */
-static size_t serial_write_some(int handle, const uint8_t * data, size_t size)
+/* Gives the device back, so that it gets the same name when it returns; what waits is cut off anyway. */
+static void line_lose(serial_line_t * line)
 {
-  const ssize_t taken = size != 0u ? write(handle, data, size) : 0;
+  (void)close(line->descriptor);
+  line->descriptor = -1;
+  line->size = 0;
+  line->tried_ms = port_time_ms();
+}
 
-  return taken > 0 ? (size_t)taken : 0u; /* no room, or a broken line, which the session detects */
+/* Looks for a lost device, not at each call. */
+static void line_find(serial_line_t * line)
+{
+  const uint32_t now = port_time_ms();
+
+  if (now - line->tried_ms >= PORT_POSIX_SERIAL_RETRY_MS) {
+    line->tried_ms = now;
+    (void)line_open(line); /* otherwise the next time */
+  }
+}
+
+/* Returns whether a failed call found that the device is gone. */
+static bool serial_is_lost(int error)
+{
+  return error != EAGAIN && error != EWOULDBLOCK && error != EINTR;
+}
+
+/* Writes as much as the system has room for, and returns the number of bytes. */
+static size_t line_write_some(serial_line_t * line, const uint8_t * data, size_t size)
+{
+  const ssize_t taken = size != 0u ? write(line->descriptor, data, size) : 0;
+
+  if (taken < 0 && serial_is_lost(errno)) {
+    line_lose(line);
+  }
+  return taken > 0 ? (size_t)taken : 0u;
 }
 
 static void line_flush(serial_line_t * line)
 {
-  const size_t taken = serial_write_some(line->handle, line->bytes, line->size);
+  const size_t taken = line_write_some(line, line->bytes, line->size);
 
   if (taken != 0u) {
     line->size -= taken;
@@ -130,15 +202,21 @@ static void line_flush(serial_line_t * line)
   }
 }
 
-/* Returns the line after it has written what the system has room for; NULL: not open. */
-static serial_line_t * line_flushed(const port_serial_t * serial)
+/* Returns the line after it has written what the system has room for; NULL: not open, or lost. */
+static serial_line_t * line_flushed(port_serial_t * serial)
 {
-  serial_line_t * line = serial->handle >= 0 ? line_of((int)serial->handle) : NULL;
+  serial_line_t * line = line_of(serial->handle);
 
-  if (line != NULL) {
+  if (line == NULL) {
+    return NULL;
+  }
+  if (line->descriptor < 0) {
+    line_find(line);
+  } else {
     line_flush(line);
   }
-  return line;
+  serial->handle = line_handle(line);
+  return line->descriptor >= 0 ? line : NULL;
 }
 
 bool port_posix_serial_waits(int handle)
@@ -148,11 +226,38 @@ bool port_posix_serial_waits(int handle)
   return line != NULL && line->size != 0u;
 }
 
+uint32_t port_posix_serial_left(uint32_t left_ms)
+{
+  for (size_t i = 0; i < (size_t)LINES; ++i) {
+    if (lines[i].used && lines[i].descriptor < 0 && left_ms > PORT_POSIX_SERIAL_RETRY_MS) {
+      return PORT_POSIX_SERIAL_RETRY_MS;
+    }
+  }
+  return left_ms;
+}
+
+void port_posix_serial_set_wake(int end)
+{
+  line_wake = end;
+}
+
 size_t port_serial_room(port_serial_t * serial)
 {
   const serial_line_t * line = line_flushed(serial);
 
   return line != NULL ? sizeof(line->bytes) - line->size : 0u;
+}
+
+/* A task that waits already looks for room from now on. */
+static void line_keep(serial_line_t * line, const uint8_t * data, size_t size)
+{
+  const char byte = 0;
+
+  if (line->size == 0u && size != 0u && line_wake >= 0) {
+    (void)!write(line_wake, &byte, 1); /* a full pipe wakes as well */
+  }
+  (void)memcpy(&line->bytes[line->size], data, size);
+  line->size += size;
 }
 
 bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size)
@@ -164,10 +269,13 @@ bool port_serial_write(port_serial_t * serial, const uint8_t * data, size_t size
     return false;
   }
   if (line->size == 0u) {
-    taken = serial_write_some(line->handle, data, size);
+    taken = line_write_some(line, data, size);
   }
-  (void)memcpy(&line->bytes[line->size], &data[taken], size - taken);
-  line->size += size - taken;
+  serial->handle = line_handle(line);
+  if (line->descriptor < 0) {
+    return false;
+  }
+  line_keep(line, &data[taken], size - taken);
   return true;
 }
 
@@ -178,11 +286,23 @@ bool port_serial_is_idle(port_serial_t * serial)
   return line == NULL || line->size == 0u;
 }
 
+/* Returns whether the device has hung up. */
+static bool line_has_hung_up(const serial_line_t * line)
+{
+  struct pollfd end = {.fd = line->descriptor, .events = 0, .revents = 0};
+
+  return poll(&end, 1, 0) > 0;
+}
+
 size_t port_serial_read(port_serial_t * serial, uint8_t * buffer, size_t capacity)
 {
-  ssize_t size;
+  serial_line_t * line = line_flushed(serial);
+  const ssize_t size = line != NULL ? read(line->descriptor, buffer, capacity) : 0;
 
-  (void)line_flushed(serial);
-  size = read((int)serial->handle, buffer, capacity);
-  return size > 0 ? (size_t)size : 0u; /* nothing arrived, or a broken line */
+  /* nothing arrived, and the end of a line, look alike */
+  if (line != NULL && (size < 0 ? serial_is_lost(errno) : size == 0 && line_has_hung_up(line))) {
+    line_lose(line);
+    serial->handle = line_handle(line);
+  }
+  return size > 0 ? (size_t)size : 0u;
 }
