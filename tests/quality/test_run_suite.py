@@ -57,7 +57,7 @@ def test_what_failed_with_others_runs_alone(
 ) -> None:
     count = tmp_path / "count"
     count.touch()
-    # Without a folder of their own, the runs would delete what earlier runs of the whole suite have left.
+    # Without a separate folder, the runs would delete what earlier runs of the whole suite have left.
     monkeypatch.setenv("PYTEST_DEBUG_TEMPROOT", str(tmp_path))
     (tmp_path / "test_x.py").write_text(
         "from pathlib import Path\ndef test_x():\n"

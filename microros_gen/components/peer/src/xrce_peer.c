@@ -301,7 +301,8 @@ void xrce_peer_leave(xrce_client_t * client)
   const uint32_t start = port_time_ms();
   bool done = false;
 
-  client->session.state = (uint8_t)XRCE_CLOSING; /* a task that opens the next session waits for the end of this one */
+  /* A task that opens the next session waits for the end of this one. */
+  client->session.state = (uint8_t)XRCE_CLOSING;
   while (!done && port_time_ms() - start < client->close_timeout_ms) {
     peer_step(client, port_time_ms()); /* the session with an agent has ended already */
     done = true;
