@@ -13,6 +13,7 @@ from microros_gen.application.limit_rule import LimitRule as LimitRule
 from microros_gen.application.log_decl import LogWriter
 from microros_gen.application.mode_decl import ModeDecl
 from microros_gen.application.system_decl import Link, SystemRef
+from microros_gen.application.time_source import TimeSourceDecl
 from microros_gen.application.transport_decl import Transport
 from microros_gen.diagnostics import Span
 from microros_gen.documents.named import Named
@@ -345,6 +346,7 @@ class Application:
     clock: Named | None = None
     logging: tuple[LogWriter, ...] = ()
     diagnosis: DiagnosisDecl | None = None
+    time_source: TimeSourceDecl | None = None
     implied: tuple[EndpointDecl, ...] = ()
     endpoints: tuple[EndpointChange, ...] = ()
     system: SystemRef | None = None

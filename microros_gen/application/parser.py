@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from types import MappingProxyType
 
-from microros_gen.application import diagnosis_decl
+from microros_gen.application import diagnosis_decl, time_source
 from microros_gen.application.diagnosis import parse_diagnosis
 from microros_gen.application.limits import application_limits, endpoint_limits
 from microros_gen.application.log_decl import BUFFERED_LOG_WRITERS, LogWriter
@@ -123,6 +123,7 @@ def _application(tree: MappingNode, diagnostics: Diagnostics) -> Application:
         clock=named_of(child(tree, "clock")),
         logging=_log_writers(child(tree, "logging"), diagnostics),
         diagnosis=parse_diagnosis(child(tree, diagnosis_decl.KEY), nodes, diagnostics),
+        time_source=time_source.parse_time_source(child(tree, time_source.KEY), diagnostics),
         system=_system(child(tree, "system")),
         spans=MappingProxyType(_spans(tree)),
     )

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Iterator
 from dataclasses import replace
 
+from microros_gen.application import diagnosis_decl, time_source
 from microros_gen.application.kinds import KIND
 from microros_gen.application.model import Application, EndpointDecl, ExecutorDecl, NodeDecl
 from microros_gen.application.names import expand_topic_name
@@ -61,8 +62,12 @@ def declared_components(application: Application) -> Iterator[Demand]:
                 yield Demand(KIND["subscription"].component, "a client that watches parameters", client.span)
         for executor in node.executors:
             yield Demand("executor", "an executor", executor.span)
-    if application.diagnosis is not None:
-        yield Demand("diagnosis", "`diagnosis:`", application.spans.get("diagnosis"))
+    for key, declared in (
+        (diagnosis_decl.KEY, application.diagnosis),
+        (time_source.KEY, application.time_source),
+    ):
+        if declared is not None:
+            yield Demand(key, f"`{key}:`", application.spans.get(key))
 
 
 def selecting_demands(application: Application) -> Iterator[Demand]:

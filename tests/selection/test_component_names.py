@@ -86,7 +86,7 @@ MENTIONS = {
     "cdr_decode": 1,
     "clock": 1,
     "clock_ros": 2,
-    "diagnosis": 2,
+    "diagnosis": 1,
     "discovery": 3,
     "executor": 2,
     "framing": 1,
@@ -111,6 +111,7 @@ MENTIONS = {
     "stream_reliable": 3,
     "stream_reliable_input": 1,
     "subscribe": 4,
+    "time_source": 1,
     "time_sync": 3,
     "timers": 2,
 }

@@ -10,6 +10,7 @@ from typing import Any
 from microros_gen.application.model import Application, LimitRule, ParameterDecl, TimerDecl
 from tests.support.application.diagnosis_cases import DIAGNOSIS_CASES
 from tests.support.application.key_case import KeyCase
+from tests.support.application.time_source_cases import TIME_SOURCE_CASES
 
 
 def _node(app: Application) -> Any:
@@ -1095,6 +1096,7 @@ CASES: dict[str, KeyCase] = {
     **_NODES,
     **_EXECUTORS,
     **DIAGNOSIS_CASES,
+    **TIME_SOURCE_CASES,
     **_endpoint_cases("publishers", "publisher", "topic", "std_msgs/msg/String", "std_msgs/String"),
     **_endpoint_cases("subscriptions", "subscription", "topic", "std_msgs/msg/String", "std_msgs/srv/String"),
     **_endpoint_cases("services", "service", "name", "std_srvs/srv/SetBool", "std_srvs/SetBool"),

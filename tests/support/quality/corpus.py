@@ -269,6 +269,13 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + _MODES
         + "    timers: [{name: tick, period: 50 ms}]\ncomponents: [+timers, +executor, +diagnosis]\n"
         + "diagnosis: {deadline: 5 ms, timers: true, checks: [{name: battery, below: {error: 11000}, mode: SLOW}]}\n",
+        "time_source": _NODES
+        + _SURE
+        + "components: [+time_source, +clock_stamp, +diagnosis, +multithread]\n",
+        "time_source_own": _NODES
+        + _SURE
+        + "components: [+time_source]\ntime_source: {source: application, step: 1 s}\n"
+        + "target: {name: qemu-microbit}\n",
         "diagnosis_threads": _NODES + _SURE + "components: [+diagnosis, +multithread]\n",
         "diagnosis_board": _NODES
         + _SURE

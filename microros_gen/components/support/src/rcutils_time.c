@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "rcutils/time.h"
 
+#include "microros/epoch.h"
 #include "microros/error.h"
 #include "microros/port.h"
 
@@ -9,10 +10,7 @@ rcutils_ret_t rcutils_system_time_now(rcutils_time_point_value_t * now)
   if (now == NULL) {
     return microros_error_refuse(RCUTILS_RET_INVALID_ARGUMENT, "now");
   }
-  *now = port_time_epoch_ns();
-  if (*now == 0) {
-    *now = port_time_steady_ns(); /* the time of day has not been set yet */
-  }
+  *now = microros_epoch_ns();
   return RCUTILS_RET_OK;
 }
 

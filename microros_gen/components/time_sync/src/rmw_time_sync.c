@@ -6,6 +6,7 @@
 #include "microros/port.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_epoch.h"
+#include "microros/rmw_epoch_read.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_rest.h"
 #include "microros/xrce_time_sync.h"
@@ -75,12 +76,13 @@ rmw_ret_t rmw_uros_sync_session(const int timeout_ms)
 bool rmw_epoch_now(int64_t * epoch_ns)
 {
   const xrce_client_t * client = rmw_client_instance();
+  int64_t now_ns;
   bool synchronized;
 
   microros_lock();
-  synchronized = client->session.state != XRCE_CLOSED && client->time_sync.synchronized;
+  synchronized = client->session.state != XRCE_CLOSED && rmw_epoch_read(client, &now_ns);
   if (synchronized) {
-    *epoch_ns = port_time_steady_ns() + client->time_sync.offset_ns;
+    *epoch_ns = now_ns;
   }
   microros_unlock();
   return synchronized;
@@ -96,10 +98,12 @@ bool rmw_uros_epoch_synchronized(void)
 int64_t rmw_uros_epoch_nanos(void)
 {
   const xrce_client_t * client = rmw_client_instance();
-  int64_t epoch_ns;
+  int64_t epoch_ns = 0;
 
   microros_lock();
-  epoch_ns = client->session.state == XRCE_CLOSED ? 0 : port_time_steady_ns() + client->time_sync.offset_ns;
+  if (client->session.state != XRCE_CLOSED) {
+    (void)rmw_epoch_read(client, &epoch_ns); /* the time since the start counts, too */
+  }
   microros_unlock();
   return epoch_ns;
 }

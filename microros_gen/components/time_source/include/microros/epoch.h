@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The time of day for functions of the system's time: the source's, otherwise the device's. Replaces the header of component
+ * `support`. Internal. */
+#ifndef MICROROS_EPOCH_H
+#define MICROROS_EPOCH_H
+
+#include "microros/port.h"
+#include "microros/rmw_epoch.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Returns nanoseconds since 1970, or since the start of the device as long as the time of day is not known. */
+static inline int64_t microros_epoch_ns(void)
+{
+  int64_t epoch_ns = 0;
+
+  if (!rmw_epoch_now(&epoch_ns)) {
+    epoch_ns = port_time_epoch_ns();
+  }
+  return (epoch_ns != 0) ? epoch_ns : port_time_steady_ns();
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_EPOCH_H */

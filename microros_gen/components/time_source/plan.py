@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the time of day is from, and how fast it is corrected."""
+
+from __future__ import annotations
+
+from microros_gen.application.time_source import TimeSourceDecl
+from microros_gen.client.plan.features import PlanContext
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.records import dataclass
+
+
+@dataclass(frozen=True, kw_only=True)
+class TimeSourcePlan:
+    """`period_ms` between two questions to the agent, 0: the application has the source. `step_us`: 0 is never."""
+
+    period_ms: int
+    slew_ppm: int
+    step_us: int
+    holdover_ms: int
+
+    @property
+    def asks(self) -> bool:
+        """Return whether the agent is the source."""
+        return self.period_ms > 0
+
+    @property
+    def shown(self) -> str:
+        """Return what a report says."""
+        source = f"the agent, every {_time(self.period_ms)}" if self.asks else "the application"
+        return f"{source}, corrected by {self.slew_ppm} ppm at most"
+
+
+def _time(time_ms: int) -> str:
+    return f"{time_ms // 1000} s" if time_ms % 1000 == 0 else f"{time_ms} ms"
+
+
+def plan(context: PlanContext, diagnostics: Diagnostics) -> TimeSourcePlan:
+    """Return the numbers of the application file. Its own checks have reported all faults."""
+    declared = context.application.time_source or TimeSourceDecl()
+    return TimeSourcePlan(
+        period_ms=declared.period_ms if declared.asks_agent else 0,
+        slew_ppm=declared.slew_ppm,
+        step_us=declared.step_us,
+        holdover_ms=declared.holdover_ms,
+    )
+
+
+def record(part: TimeSourcePlan) -> object:
+    """Return what the plan id is made of."""
+    return [part.period_ms, part.slew_ppm, part.step_us, part.holdover_ms]
