@@ -10,7 +10,7 @@ from statistics import median
 import pytest
 
 from microros_gen import compiler
-from microros_gen.components.time_source.plan import TimeSourcePlan
+from microros_gen.components.time_source.plan import NEVER_US, TimeSourcePlan
 from microros_gen.diagnostics import UserError
 from tests.support.components.rendered import planned
 from tests.support.components.time_filter import EPOCH_NS, SECOND_NS, Clock, Filter, Sample, estimates
@@ -22,7 +22,7 @@ BARE = "version: 1\nprofiles: [pure_sender]\nnodes: [{name: n}]\ncomponents: [+t
 
 @pytest.fixture(scope="module")
 def slewing(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return Filter.program(tmp_path_factory.mktemp("slewing"), slew_ppm=500, step_us=0)
+    return Filter.program(tmp_path_factory.mktemp("slewing"), slew_ppm=500, step_us=NEVER_US)
 
 
 @pytest.fixture(scope="module")
@@ -111,13 +111,13 @@ def test_a_wrong_time_is_slewed_at_the_declared_rate(slewing: Path) -> None:
         found.sample(Sample(at * SECOND_NS + 1, clock.at(at * SECOND_NS + 1) - 50 * MS, 1000))
     reads = {at: found.read(at * SECOND_NS + 1) for at in (60, 80, 100, 140, 200)}
     result = found.run()
-    owed = {at: result.served(index) - result.estimate(index) for at, index in reads.items()}
+    pending = {at: result.served(index) - result.estimate(index) for at, index in reads.items()}
     assert result.counts == (53, 7, 0)
-    assert owed[60] == pytest.approx(50 * MS - 23 * MS // 2, abs=MS), (
+    assert pending[60] == pytest.approx(50 * MS - 23 * MS // 2, abs=MS), (
         "500 us a second since the eighth outlier"
     )
-    assert owed[60] - owed[80] == pytest.approx(20 * MS // 2, abs=1000)
-    assert owed[140] == owed[200] == 0
+    assert pending[60] - pending[80] == pytest.approx(20 * MS // 2, abs=1000)
+    assert pending[140] == pending[200] == 0
 
 
 def test_from_a_declared_error_on_the_time_is_set(stepping: Path) -> None:
@@ -189,7 +189,7 @@ def test_over_a_sleep_the_drift_is_kept_and_the_time_is_not(slewing: Path) -> No
 def test_numbers_at_every_limit(slewing: Path, stepping: Path) -> None:
     """Sanitizers see every overflow; counts are those of the orders."""
     for program in (slewing, stepping):
-        rng, found, local, given = random.Random(9), Filter(program), 0, 0
+        rng, found, local, count = random.Random(9), Filter(program), 0, 0
         for _ in range(3000):
             local += rng.choice((1, 1000, SECOND_NS, 10**13, 10**15))
             reference = rng.choice((0, EPOCH_NS, EPOCH_NS + local, (1 << 62) - 1, rng.randrange(1 << 62)))
@@ -199,9 +199,9 @@ def test_numbers_at_every_limit(slewing: Path, stepping: Path) -> None:
                 local = 1
             found.sample(Sample(local, reference, uncertainty), local + rng.choice((0, 1, 10**9)))
             found.read(local + rng.choice((10**9, 10**15)))
-            given += 1
+            count += 1
         accepted, rejected, _ = found.run().counts
-        assert accepted + rejected == given
+        assert accepted + rejected == count
 
 
 def part_of(found: compiler.Planned) -> TimeSourcePlan:
@@ -213,11 +213,11 @@ def part_of(found: compiler.Planned) -> TimeSourcePlan:
 @pytest.mark.parametrize(
     ("key", "expected"),
     [
-        ("", (10_000, 500, 0, 60_000)),
-        ("time_source: {}", (10_000, 500, 0, 60_000)),
+        ("", (10_000, 500, NEVER_US, 60_000)),
+        ("time_source: {}", (10_000, 500, NEVER_US, 60_000)),
         ("time_source: {period: 1 s, slew_ppm: 7, step: 250 ms}", (1_000, 7, 250_000, 60_000)),
-        ("time_source: {period: 100 s}", (100_000, 500, 0, 600_000)),
-        ("time_source: {source: application, holdover: 90 s}", (0, 500, 0, 90_000)),
+        ("time_source: {period: 100 s}", (100_000, 500, NEVER_US, 600_000)),
+        ("time_source: {source: application, holdover: 90 s}", (0, 500, NEVER_US, 90_000)),
     ],
 )
 def test_the_key(tmp_path: Path, key: str, expected: tuple[int, ...]) -> None:

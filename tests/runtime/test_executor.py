@@ -12,7 +12,7 @@ from microros_gen.client.plan.feature_slices import Features, FeatureSlice
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan, TimerPlan
 from microros_gen.components.agents.plan import AgentPlan, AgentsPlan
-from microros_gen.components.time_source.plan import TimeSourcePlan
+from microros_gen.components.time_source.plan import NEVER_US, TimeSourcePlan
 from tests.support.patience import seconds
 from tests.support.plans import EXECUTOR, ROS_TIME, changed
 from tests.support.runtime.harness import SANITIZE, Tree, build, compilers, components, render
@@ -36,7 +36,7 @@ CHANGES = changed(
     input__queues=(*(QueuePlan(2, 16),) * 2, *(QueuePlan(2, 40),) * 3, *(QueuePlan(2, 20),) * 2),
 )
 THREE = AgentsPlan(declared=tuple(AgentPlan("127.0.0.1", 8888 + i) for i in range(3)), try_ms=300)
-ASKING = TimeSourcePlan(period_ms=10_000, slew_ppm=500, step_us=0, holdover_ms=60_000)
+ASKING = TimeSourcePlan(period_ms=10_000, slew_ppm=500, step_us=NEVER_US, holdover_ms=60_000)
 UNITS = {
     "unit_clock.c": EXECUTOR,
     "unit_stamp.c": EXECUTOR,

@@ -9,9 +9,13 @@ from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass
 
 
+NEVER_US = 9_000_000_000_000_000
+"""An error that no time has, 285 years: it is never set. As nanoseconds it has 63 bits."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class TimeSourcePlan:
-    """`period_ms` between two questions to the agent, 0: the application has the source. `step_us`: 0 is never."""
+    """`period_ms` between two questions to the agent; 0: the application has the source."""
 
     period_ms: int
     slew_ppm: int
@@ -40,7 +44,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> TimeSourcePlan:
     return TimeSourcePlan(
         period_ms=declared.period_ms if declared.asks_agent else 0,
         slew_ppm=declared.slew_ppm,
-        step_us=declared.step_us,
+        step_us=declared.step_us or NEVER_US,
         holdover_ms=declared.holdover_ms,
     )
 

@@ -37,7 +37,7 @@ TIME_SOURCE_CASES = {
         (True, 10_000),
         "time_source: agent",
         "1:14",
-        "'time_source' must be a mapping such as {source: agent, period: 10 s}; it is agent",
+        "'time_source' must be a mapping such as {source: agent, period: 10 s}; it is the text 'agent'",
     ),
     "time_source.source": KeyCase(
         "time_source: {source: application}",
@@ -45,7 +45,7 @@ TIME_SOURCE_CASES = {
         False,
         "time_source: {source: gps}",
         "1:23",
-        "'time_source.source' must be one of agent, application; it is gps",
+        "'time_source.source' must be agent or application; it is the text 'gps'",
     ),
     "time_source.period": _time("period", "2.5 s", lambda s: s.period_ms, 2500),
     "time_source.step": _time("step", "1 ms", lambda s: s.step_us, 1000),

@@ -82,7 +82,7 @@ class Filter:
     @staticmethod
     def program(folder: Path, slew_ppm: int, step_us: int) -> Path:
         """Compile the filter alone, with sanitizers."""
-        config = f"#define MICROROS_TIME_SLEW_PPM {slew_ppm}\n#define MICROROS_TIME_STEP_US {step_us}\n"
+        config = f"#define MICROROS_TIME_SLEW_PPM {slew_ppm}u\n#define MICROROS_TIME_STEP_US {step_us}u\n"
         (folder / "microros_config.h").write_text(config)
         component = load_catalogue()["time_source"].folder
         sources = [component / "src" / f"xrce_time_{part}.c" for part in ("filter", "served")]

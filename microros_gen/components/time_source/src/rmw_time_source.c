@@ -21,7 +21,7 @@ bool xrce_time_source_take(xrce_client_t * client, const xrce_time_sample_t * sa
   if (!filter->is_set && client->time_sync.synchronized) {
     filter->anchor_local_ns = now_ns; /* the time that was served so far is where it goes on from */
     filter->anchor_ns = now_ns + client->time_sync.offset_ns;
-    filter->owed_ns = 0;
+    filter->pending_ns = 0;
     filter->is_set = true;
   }
   return xrce_time_filter_sample(filter, sample, now_ns);
@@ -37,7 +37,8 @@ static const char * source_fault(
   if ((sample->reference_ns < 0) || (sample->reference_ns > source_latest_ns)) {
     return "reference_ns";
   }
-  return ((sample->uncertainty_ns < 0) || (sample->uncertainty_ns > source_widest_ns)) ? "uncertainty_ns" : NULL;
+  return ((sample->uncertainty_ns < 0) || (sample->uncertainty_ns > source_widest_ns)) ? "uncertainty_ns"
+                                                                                       : NULL;
 }
 
 static rmw_ret_t source_sample(const xrce_time_sample_t * sample)
@@ -81,7 +82,7 @@ static rmw_uros_time_state_t source_state(bool is_known, int64_t age_ns)
     return RMW_UROS_TIME_UNSET;
   }
   return (age_ns > ((int64_t)MICROROS_TIME_HOLDOVER_MS * source_ns_per_ms)) ? RMW_UROS_TIME_HOLDOVER
-                                                                              : RMW_UROS_TIME_FOLLOWING;
+                                                                            : RMW_UROS_TIME_FOLLOWING;
 }
 
 static void source_read(rmw_uros_time_status_t * status)

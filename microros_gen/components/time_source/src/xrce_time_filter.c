@@ -87,15 +87,15 @@ static void filter_correct(
   xrce_time_filter_t * filter, xrce_time_variance_t prior, int64_t noise, int64_t residual_ns)
 {
   const int64_t sum = prior.offset + noise;
-  const int64_t bound = filter_root(prior.offset) * filter_root(prior.drift); /* of the covariance, by Cauchy and Schwarz */
+  const int64_t bound =
+    filter_root(prior.offset) * filter_root(prior.drift); /* of the covariance, by Cauchy and Schwarz */
   const int64_t both = filter_within(prior.both, bound);
   const int64_t larger = filter_most(prior.offset, noise);
   const int64_t smaller = filter_least(prior.offset, noise);
   const int64_t by_offset = (prior.offset * filter_one) / sum;
   const int64_t by_drift = (both * filter_one) / sum; /* ppb for each microsecond */
   const int64_t kept = (noise * filter_one) / sum;
-  const int64_t drift_ppb =
-    filter->drift_ppb + ((by_drift * (residual_ns / filter_ns_per_us)) / filter_one);
+  const int64_t drift_ppb = filter->drift_ppb + ((by_drift * (residual_ns / filter_ns_per_us)) / filter_one);
 
   filter->reference_ns += xrce_time_scaled(residual_ns, by_offset, filter_one);
   filter->drift_ppb = (int32_t)filter_within(drift_ppb, filter_fastest_ppb);
@@ -113,8 +113,9 @@ static void filter_begin(xrce_time_filter_t * filter, const xrce_time_sample_t *
   filter->reference_ns = sample->reference_ns;
   filter->variance.offset = noise;
   filter->variance.both = 0;
-  filter->variance.drift =
-    (filter->variance.drift == 0) ? filter_first_drift : filter_most(filter->variance.drift, filter_first_drift / 100);
+  filter->variance.drift = (filter->variance.drift == 0)
+                             ? filter_first_drift
+                             : filter_most(filter->variance.drift, filter_first_drift / 100);
 }
 
 /* Returns whether the sample is as far away as the uncertainties say. */

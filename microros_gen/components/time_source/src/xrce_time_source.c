@@ -55,5 +55,6 @@ void xrce_time_source_step(xrce_client_t * client, uint32_t now)
 
 uint32_t xrce_time_source_left(const xrce_client_t * client, uint32_t left, uint32_t now)
 {
-  return (client->session.state == (uint8_t)XRCE_READY) ? xrce_sooner(left, client->time_source.due_ms, now) : left;
+  return (client->session.state == (uint8_t)XRCE_READY) ? xrce_sooner(left, client->time_source.due_ms, now)
+                                                        : left;
 }

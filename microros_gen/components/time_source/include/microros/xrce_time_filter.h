@@ -22,9 +22,9 @@ typedef struct xrce_time_sample_t {
 
 /* Covariance of the estimate. Its limits keep every product below 2^63: see xrce_time_filter.c. */
 typedef struct xrce_time_variance_t {
-  int64_t offset;  /* us^2 */
-  int64_t both;    /* us * ppb */
-  int64_t drift;   /* ppb^2 */
+  int64_t offset; /* us^2 */
+  int64_t both;   /* us * ppb */
+  int64_t drift;  /* ppb^2 */
 } xrce_time_variance_t;
 
 /* Zero-initialized: there is no time yet. */
@@ -34,12 +34,13 @@ typedef struct xrce_time_filter_t {
   xrce_time_variance_t variance;
   int64_t anchor_local_ns; /* since when the time is served as follows */
   int64_t anchor_ns;       /* the time that was served then */
-  int64_t owed_ns;         /* what the estimate was ahead of it */
+  int64_t pending_ns;      /* what the estimate was ahead of it */
   uint32_t accepted;       /* counts, which wrap */
   uint32_t rejected;
   uint32_t steps;
-  int32_t drift_ppb; /* the source's seconds are longer (negative) or shorter than the device's; kept over a sleep */
-  uint8_t outliers;  /* rejected one after another */
+  int32_t
+    drift_ppb; /* the source's seconds are longer (negative) or shorter than the device's; kept over a sleep */
+  uint8_t outliers; /* rejected one after another */
   bool is_set;
 } xrce_time_filter_t;
 

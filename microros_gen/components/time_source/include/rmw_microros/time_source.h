@@ -16,9 +16,10 @@ extern "C" {
 #endif
 
 typedef enum rmw_uros_time_state_t {
-  RMW_UROS_TIME_UNSET = 0,    /* no sample since rcl_init or a sleep */
+  RMW_UROS_TIME_UNSET = 0, /* no sample since rcl_init or a sleep */
   RMW_UROS_TIME_FOLLOWING = 1,
-  RMW_UROS_TIME_HOLDOVER = 2, /* the newest sample is older than `holdover`; the time goes on with the learned drift */
+  RMW_UROS_TIME_HOLDOVER =
+    2, /* the newest sample is older than `holdover`; the time continues with the learned drift */
 } rmw_uros_time_state_t;
 
 typedef struct rmw_uros_time_status_t {
