@@ -33,6 +33,7 @@ _COMMANDS = {
     "agent": "Connect XRCE clients to ROS 2.",
     "graph-server": "Answer queries of the ROS graph for firmware.",
     "parameter-server": "Hold the parameters of firmware.",
+    "time-server": "Publish the time of a simulation, which stands still, jumps, or runs at another speed.",
 }
 
 
