@@ -12,6 +12,7 @@ from microros_gen.application.diagnosis_decl import DiagnosisDecl
 from microros_gen.application.limit_rule import LimitRule as LimitRule
 from microros_gen.application.log_decl import LogWriter
 from microros_gen.application.mode_decl import ModeDecl
+from microros_gen.application.silence import SilenceDecl
 from microros_gen.application.system_decl import Link, SystemRef
 from microros_gen.application.time_source import TimeSourceDecl
 from microros_gen.application.transport_decl import Transport
@@ -106,6 +107,7 @@ class EndpointDecl:
     peer: str = "never"
     interval_us: Fraction | None = None
     rate_span: Span | None = None
+    silence: SilenceDecl | None = None
 
     @property
     def exists_at_agent(self) -> bool:

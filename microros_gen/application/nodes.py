@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
+from microros_gen.application import silence
 from microros_gen.application.actions import parse_action_clients, parse_actions
 from microros_gen.application.kinds import KIND, KINDS
 from microros_gen.application.limits import endpoint_limits
@@ -144,7 +145,16 @@ def _endpoints(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Iter
                 peer=text_of(child(endpoint, "peer")) or EndpointDecl.peer,
                 interval_us=rate_of(child(endpoint, "rate")),
                 rate_span=span_of(child(endpoint, "rate")),
+                silence=silence.parse_silence(
+                    child(endpoint, silence.KEY), _elsewhere(endpoint), diagnostics
+                ),
             )
+
+
+def _elsewhere(endpoint: YamlNode) -> str:
+    """Return the first key of an endpoint by which messages come without an agent, with its value; empty: none."""
+    found = ((key, text_of(child(endpoint, key))) for key in ("local", "peer"))
+    return next((f"{key}: {value}" for key, value in found if value not in (None, "never")), "")
 
 
 def _check_expanded(name: YamlNode | None, what: str, node: NodeDecl, diagnostics: Diagnostics) -> None:

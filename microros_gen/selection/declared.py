@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Iterator
 from dataclasses import replace
 
-from microros_gen.application import diagnosis_decl, time_source
+from microros_gen.application import diagnosis_decl, silence, time_source
 from microros_gen.application.kinds import KIND
 from microros_gen.application.model import Application, EndpointDecl, ExecutorDecl, NodeDecl
 from microros_gen.application.names import expand_topic_name
@@ -81,6 +81,9 @@ def selecting_demands(application: Application) -> Iterator[Demand]:
                 if value != "never":
                     text = f"{key}: {value} of {endpoint.topic}{at(endpoint.span)}"
                     yield Demand(_DELIVERY[key], text, endpoint.span)
+            if endpoint.silence is not None:
+                text = f"{silence.KEY}: of {endpoint.topic}{at(endpoint.silence.span)}"
+                yield Demand(silence.KEY, text, endpoint.silence.span)
 
 
 def without_components(nodes: Iterable[NodeDecl], dropped: Container[str]) -> tuple[NodeDecl, ...]:

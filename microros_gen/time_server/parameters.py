@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters `paused`, `speed` and `time` of a clock, by the services that all nodes of ROS 2 have for parameters."""
+"""The parameters `paused`, `speed` and `time` of a clock, by the services that nodes of ROS 2 have for parameters."""
 
 from __future__ import annotations
 

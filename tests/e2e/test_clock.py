@@ -17,20 +17,10 @@ from tests.support.agent.observer import Observer
 from tests.support.agent.process import AgentProcess
 from tests.support.e2e.images import C_FILES, Images, ends_well, started
 from tests.support.e2e.relay import Relay
+from tests.support.e2e.simulated import APPLICATION, END_S
 from tests.support.patience import deadline
 
 pytestmark = pytest.mark.ros
-
-APPLICATION = """\
-version: 1
-profiles: [simulation_node, pure_sender]
-components: [+timers]
-nodes:
-  - name: simulated
-    publishers: [{topic: ticks, type: std_msgs/msg/Int32}]
-    timers: [{name: tick, period: 100 ms}]
-"""
-END_S = 1000
 
 
 class Simulation:

@@ -13,11 +13,11 @@ from pathlib import Path
 import pytest
 
 from microros_gen.ros.peer import Peer
-from tests.e2e.test_clock import APPLICATION, END_S
 from tests.support.agent.process import AgentProcess, environment
 from tests.support.e2e.images import C_FILES, Images, ends_well, started
 from tests.support.e2e.relay import Relay
 from tests.support.e2e.server_process import server_process
+from tests.support.e2e.simulated import APPLICATION, END_S
 from tests.support.patience import deadline, seconds
 
 pytestmark = pytest.mark.ros
@@ -67,14 +67,14 @@ def test_firmware_follows_pause_and_jumps(
                 assert answer is not None
                 assert answer["results"][0]["successful"]
 
-            said = Output(process)
-            assert said.next("jump") == 50_000
-            assert said.next("tick") == 50_000
+            output = Output(process)
+            assert output.next("jump") == 50_000
+            assert output.next("tick") == 50_000
             set_time(90.03)
-            assert said.next("jump") == 40_030
+            assert output.next("jump") == 40_030
             set_time(20.0)
-            assert said.next("jump") == -70_030
+            assert output.next("jump") == -70_030
             set_time(20.1)
-            assert said.next("tick") == 20_100
+            assert output.next("tick") == 20_100
             set_time(END_S)
             ends_well(process)

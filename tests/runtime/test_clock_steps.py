@@ -372,6 +372,7 @@ ELSEWHERE = {
     "lifecycle": "test_lifecycle.py: parts and timers over the wrap",
     "local_delivery": "tests/components/test_local_delivery.py: times over the wrap of ms",
     "node_modes": "test_modes.py: services over the wrap; times of events have 64 bits",
+    "on_silence": "unit_silence.c: silences over the wrap and days apart",
     "parameter_client": "test_parameter_client.py: a call over the wrap",
     "parameters_held": "test_parameters_held.py: notices over the wrap; ages have 64 bits",
     "peer": "test_peer.py: both streams over the wrap",

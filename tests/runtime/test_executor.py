@@ -12,6 +12,7 @@ from microros_gen.client.plan.feature_slices import Features, FeatureSlice
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan, TimerPlan
 from microros_gen.components.agents.plan import AgentPlan, AgentsPlan
+from microros_gen.components.on_silence.plan import SilencePlan, SilenceRow
 from microros_gen.components.time_source.plan import NEVER_US, TimeSourcePlan
 from tests.support.patience import seconds
 from tests.support.plans import EXECUTOR, ROS_TIME, changed
@@ -37,6 +38,9 @@ CHANGES = changed(
 )
 THREE = AgentsPlan(declared=tuple(AgentPlan("127.0.0.1", 8888 + i) for i in range(3)), try_ms=300)
 ASKING = TimeSourcePlan(period_ms=10_000, slew_ppm=500, step_us=NEVER_US, holdover_ms=60_000)
+SILENCES = SilencePlan(
+    (SilenceRow(0, "/speed", 500, "stop_motors"), SilenceRow(1, "/light", 2000, "switch_off"))
+)
 UNITS = {
     "unit_clock.c": EXECUTOR,
     "unit_stamp.c": EXECUTOR,
@@ -56,6 +60,12 @@ UNITS = {
         times__retry_most_ms=4000,
         features=Features((FeatureSlice("agents", THREE, "[]"),)),
     ),
+    "unit_silence.c": changed(
+        EXECUTOR,
+        times__retry_first_ms=100,
+        times__retry_most_ms=4000,
+        features=Features((FeatureSlice("on_silence", SILENCES, "[]"),)),
+    ),
     "unit_time_source.c": changed(
         EXECUTOR,
         session__has_time_sync=True,
@@ -71,6 +81,7 @@ SELECTED = {
     "unit_new_data.c": ("new_data_callbacks",),
     "unit_qos_events.c": ("qos_events",),
     "unit_agents.c": ("agents",),
+    "unit_silence.c": ("on_silence",),
     "unit_stamp.c": ("clock_stamp",),
     "unit_time_source.c": ("time_source",),
 }

@@ -20,7 +20,7 @@ class Wall:
         return self.ns
 
 
-def test_it_stands_still_changes_its_speed_and_is_set() -> None:
+def test_it_pauses_changes_its_speed_and_is_set() -> None:
     wall = Wall()
     clock = SimulatedClock(wall, 5 * NS_PER_S)
     wall.ns += 3 * NS_PER_S + 1
@@ -82,8 +82,8 @@ def test_values_are_taken_or_refused(name: str, kind: int, value: Any, reason: s
     assert results == [{"successful": not reason, "reason": reason}]
     assert parameters.changed == (not reason)
     if not reason:
-        (got,) = parameters.get({"names": [name]})["values"]
-        assert next(v for k, v in got.items() if k != "type") == value
+        (read,) = parameters.get({"names": [name]})["values"]
+        assert next(v for k, v in read.items() if k != "type") == value
 
 
 def test_all_or_none() -> None:

@@ -147,7 +147,7 @@ def example_view(
         uses_time=uses_time,
         hosted=project.target.hosted,
         ros_time=project.runtime.clock.has_ros_time,
-        has_epoch=project.target.hosted or project.selection.has("time_sync"),
+        has_epoch=project.target.hosted or project.runtime.session.has_time_sync,
         shows_time=shows_time,
         running=running,
         needs_port=(uses_time and not project.runtime.clock.has_ros_time) or waits,

@@ -8,7 +8,6 @@ from microros_gen.client.plan.features import PlanContext
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass
 
-
 NEVER_US = 9_000_000_000_000_000
 """An error that no time has, 285 years: it is never set. As nanoseconds it has 63 bits."""
 

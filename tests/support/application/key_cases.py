@@ -8,6 +8,7 @@ from functools import partial
 from typing import Any
 
 from microros_gen.application.model import Application, LimitRule, ParameterDecl, TimerDecl
+from microros_gen.application.silence import SilenceDecl
 from tests.support.application.diagnosis_cases import DIAGNOSIS_CASES
 from tests.support.application.key_case import KeyCase
 from tests.support.application.time_source_cases import TIME_SOURCE_CASES
@@ -1064,6 +1065,13 @@ _NODES = {
     ),
 }
 
+
+def _silence(application: Application) -> SilenceDecl:
+    (endpoint,) = application.nodes[0].endpoints
+    assert endpoint.silence is not None
+    return endpoint.silence
+
+
 _EXECUTORS: dict[str, KeyCase] = {}
 
 RESERVED = {
@@ -1091,6 +1099,35 @@ RESERVED = {
     ),
 }
 
+_SILENCE = "subscriptions: [{topic: a, type: std_msgs/msg/Int32, on_silence: "
+_SILENCE_PATH = "nodes[0].subscriptions[0].on_silence"
+_SILENCES = {
+    "nodes[].subscriptions[].on_silence": KeyCase(
+        _in_node(_SILENCE + "{after: 500 ms, call: stop}}]"),
+        lambda a: (_silence(a).after_ms, _silence(a).call),
+        (500, "stop"),
+        _in_node(_SILENCE + "stop}]"),
+        "3:70",
+        f"'{_SILENCE_PATH}' must be a mapping such as {{after: 500 ms, call: stop_motors}}; it is the text 'stop'",
+    ),
+    "nodes[].subscriptions[].on_silence.after": KeyCase(
+        _in_node(_SILENCE + "{after: 1.5 s, call: stop}}]"),
+        lambda a: _silence(a).after_ms,
+        1500,
+        _in_node(_SILENCE + "{after: 5, call: stop}}]"),
+        "3:78",
+        f"'{_SILENCE_PATH}.after' must be a time with its unit such as 20 ms (units us, ms, s); it is 5",
+    ),
+    "nodes[].subscriptions[].on_silence.call": KeyCase(
+        _in_node(_SILENCE + "{after: 1 s, call: _Go9}}]"),
+        lambda a: _silence(a).call,
+        "_Go9",
+        _in_node(_SILENCE + "{after: 1 s, call: 9go}}]"),
+        "3:89",
+        f"'{_SILENCE_PATH}.call' must be the name of a C function such as stop_motors; it is the text '9go'",
+    ),
+}
+
 CASES: dict[str, KeyCase] = {
     **_TOP,
     **_NODES,
@@ -1099,6 +1136,7 @@ CASES: dict[str, KeyCase] = {
     **TIME_SOURCE_CASES,
     **_endpoint_cases("publishers", "publisher", "topic", "std_msgs/msg/String", "std_msgs/String"),
     **_endpoint_cases("subscriptions", "subscription", "topic", "std_msgs/msg/String", "std_msgs/srv/String"),
+    **_SILENCES,
     **_endpoint_cases("services", "service", "name", "std_srvs/srv/SetBool", "std_srvs/SetBool"),
     **_endpoint_cases("clients", "client", "name", "std_srvs/srv/SetBool", "std_srvs/msg/SetBool"),
 }

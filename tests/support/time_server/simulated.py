@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A node of rclpy with use_sim_time in a process: follows orders, a JSON object a line, and answers each with another one.
+"""A node of rclpy with use_sim_time in a process: follows orders, a JSON object a line, and answers with another one.
 
-`{"set": {"speed": 2.0}}` sets parameters of the time server at one moment, by rclpy's client; `{"jumps": true}` returns the
-differences of all jumps so far; every answer has the time, `now`, in seconds.
+`{"set": {"speed": 2.0}}` sets parameters of the time server at one moment, by rclpy's client. Every answer has
+the time, `now`, in seconds, and the differences of all jumps so far, `jumps`.
 """
 
 from __future__ import annotations
