@@ -41,7 +41,7 @@ def test_the_key_selects_the_component_and_names_each_subscription(tmp_path: Pat
     assert part.functions == ("void stop_motors(void);", "void be_quiet(void);")
 
 
-def test_subscriptions_of_the_library_come_first(tmp_path: Path) -> None:
+def test_subscriptions_of_the_library_precede(tmp_path: Path) -> None:
     rows = part_of(planned(tmp_path, f"{BASE}clock: ros\n{NODE}")).rows
     assert [row.receiver for row in rows] == [2, 3, 4]
 
@@ -54,7 +54,7 @@ def test_nothing_of_it_without_the_key(tmp_path: Path) -> None:
     assert "silence" not in (out / "include" / "microros" / "xrce_client.h").read_text(encoding="utf-8")
 
 
-def test_a_function_that_nobody_defines_is_named(tmp_path: Path) -> None:
+def test_an_undefined_function_is_named(tmp_path: Path) -> None:
     """The library calls it by its name, so a linker says which one is missing; the example defines each once."""
     out = rendered(tmp_path, BASE + NODE)
     table = tmp_path / "table.o"
@@ -75,7 +75,7 @@ def test_a_function_that_nobody_defines_is_named(tmp_path: Path) -> None:
         ("call: be_quiet", "call: switch", "MG-3213", "Write call: stop_motors"),
         ("call: be_quiet", "call: main", "MG-3213", "Write call: stop_motors"),
         ("call: be_quiet}", "call: be_quiet}, local: also", "MG-3214", "Remove on_silence, or local: also"),
-        ("afte", "aft", "MG-1002", "Did you mean 'after'?"),
+        ("after: 1 ms", "aftr: 1 ms", "MG-1002", "Did you mean 'after'?"),
     ],
 )
 def test_mistakes_have_place_and_hint(tmp_path: Path, old: str, new: str, identifier: str, hint: str) -> None:

@@ -196,7 +196,7 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "    timers: [{name: tick, period: 50 ms}]\nprofiles: [managed_service]\n"
         + "components: [+timers, +diagnosis]\n"
         + "diagnosis: {deadline: 5 ms, checks: [{name: battery, below: {error: 11000}, mode: SLOW}]}\n",
-        "silence": _BUSY
+        "on-silence": _BUSY
         + "    subscriptions: [{topic: near, type: std_msgs/msg/Int32, on_silence: {after: 1 s, call: stop_motors}}]\n"
         + "profiles: [pure_reader]\n",
         "time-source": _BUSY + "profiles: [pure_sender]\ncomponents: [+time_source]\n",

@@ -269,8 +269,8 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + _MODES
         + "    timers: [{name: tick, period: 50 ms}]\ncomponents: [+timers, +executor, +diagnosis]\n"
         + "diagnosis: {deadline: 5 ms, timers: true, checks: [{name: battery, below: {error: 11000}, mode: SLOW}]}\n",
-        "silence": _NODES
-        + "    subscriptions: [{topic: in, type: std_msgs/msg/Int32, on_silence: {after: 1 s, call: stop_motors}}]\n"
+        "on_silence": _READER
+        + "      - {topic: in, type: std_msgs/msg/Int32, on_silence: {after: 1 s, call: stop_motors}}\n"
         + "components: [+multithread]\n",
         "time_source": _NODES
         + _SURE

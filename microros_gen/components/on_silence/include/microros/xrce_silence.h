@@ -15,7 +15,7 @@ typedef struct xrce_silence_t {
   uint32_t due_ms; /* when it has been silent for too long; of one that is open and not silent */
   uint32_t before; /* samples before the current message of the agent */
   bool is_open;
-  bool is_silent; /* the application was called, and no sample has come since */
+  bool is_silent; /* the application was called, and no sample arrived since */
 } xrce_silence_t;
 
 #ifdef __cplusplus
