@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/port.h"
-#include "microros/rmw_client.h"
 #include "microros/xrce_arrivals.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_silence_hooks.h"

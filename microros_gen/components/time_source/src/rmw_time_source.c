@@ -14,19 +14,6 @@ static const int64_t source_ns_per_ms = 1000000;
 static const int64_t source_widest_ns = 1000000000;
 static const int64_t source_latest_ns = INT64_MAX / 2;
 
-bool xrce_time_source_take(xrce_client_t * client, const xrce_time_sample_t * sample, int64_t now_ns)
-{
-  xrce_time_filter_t * filter = &client->time_source.filter;
-
-  if (!filter->is_set && client->time_sync.synchronized) {
-    filter->anchor_local_ns = now_ns; /* the time that was served so far is where it goes on from */
-    filter->anchor_ns = now_ns + client->time_sync.offset_ns;
-    filter->pending_ns = 0;
-    filter->is_set = true;
-  }
-  return xrce_time_filter_sample(filter, sample, now_ns);
-}
-
 /* Returns the name of the argument that cannot be; NULL: they all can. */
 static const char * source_fault(
   const xrce_time_filter_t * filter, const xrce_time_sample_t * sample, int64_t now_ns)
