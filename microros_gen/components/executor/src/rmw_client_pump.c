@@ -3,6 +3,7 @@
 #include "microros/port.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_client_wait.h"
+#include "microros/rmw_turn.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_local_fresh.h"
 #include "microros/xrce_session.h"
@@ -12,6 +13,10 @@ void rmw_client_pump(void)
 {
   xrce_client_t * client = rmw_client_instance();
 
+  /* cppcheck-suppress knownConditionTrueFalse ; without tasks of the application file every task runs the session */
+  if (!rmw_turn_pumps()) {
+    return;
+  }
   microros_lock();
   /* cppcheck-suppress knownConditionTrueFalse ; without local delivery there is never such a message */
   if (!(xrce_local_take_fresh() && client->session.now_ms == port_time_ms())) {
