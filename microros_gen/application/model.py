@@ -15,6 +15,7 @@ from microros_gen.application.mode_decl import ModeDecl
 from microros_gen.application.silence import SilenceDecl
 from microros_gen.application.system_decl import Link, SystemRef
 from microros_gen.application.time_source import TimeSourceDecl
+from microros_gen.application.task_decl import TaskDecl
 from microros_gen.application.transport_decl import Transport
 from microros_gen.diagnostics import Span
 from microros_gen.documents.named import Named
@@ -353,4 +354,5 @@ class Application:
     endpoints: tuple[EndpointChange, ...] = ()
     system: SystemRef | None = None
     links: tuple[Link, ...] = ()
+    tasks: tuple[TaskDecl, ...] = ()
     spans: Mapping[str, Span] = field(default_factory=dict)

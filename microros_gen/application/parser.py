@@ -10,6 +10,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from microros_gen.application import diagnosis_decl, time_source
+from microros_gen.application import diagnosis_decl, task_decl
 from microros_gen.application.diagnosis import parse_diagnosis
 from microros_gen.application.limits import application_limits, endpoint_limits
 from microros_gen.application.log_decl import BUFFERED_LOG_WRITERS, LogWriter
@@ -25,6 +26,7 @@ from microros_gen.application.model import (
 from microros_gen.application.nodes import parse_nodes
 from microros_gen.application.session_times import hard_liveliness, session_times
 from microros_gen.application.system_decl import SystemRef
+from microros_gen.application.tasks import parse_tasks
 from microros_gen.application.transport_decl import Transport
 from microros_gen.diagnostics import Diagnostics, Source, Span, reads
 from microros_gen.documents.named import Named
@@ -125,6 +127,7 @@ def _application(tree: MappingNode, diagnostics: Diagnostics) -> Application:
         diagnosis=parse_diagnosis(child(tree, diagnosis_decl.KEY), nodes, diagnostics),
         time_source=time_source.parse_time_source(child(tree, time_source.KEY), diagnostics),
         system=_system(child(tree, "system")),
+        tasks=parse_tasks(child(tree, task_decl.KEY), nodes, diagnostics),
         spans=MappingProxyType(_spans(tree)),
     )
 

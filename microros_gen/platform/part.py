@@ -103,11 +103,14 @@ class Os:
 
     `hosted`: programs have standard input and output, and are started. `linker_script`: it makes images with a
     its own start-up code and linker script (a file of the component). `tick` is called each millisecond.
+    `task_stack`: bytes of a task's stack where nothing is said, `task_stack_least`: at least.
     """
 
     hosted: bool = False
     linker_script: str = ""
     tick: str = ""
+    task_stack: int = 4096
+    task_stack_least: int = 512
 
 
 @dataclass(frozen=True)

@@ -36,7 +36,7 @@ _IMAGE_KEYS = ("entry", "first", "first_section", "uart_handler")
 _TABLE_KEYS = ("words", "least")
 _DRIVER_KEYS = ("divisor", "fraction", "tx_irq", "stdio")
 _BAUD_KEYS = {"divisor": ("by", "least", "most"), "fraction": ("of_hz", "bits", "unused")}
-_OS_KEYS = ("hosted", "linker_script", "tick")
+_OS_KEYS = ("hosted", "linker_script", "tick", "task_stack")
 
 
 @dataclass(frozen=True)
@@ -180,7 +180,17 @@ def _with_facts(part: Part, path: Path, diagnostics: Diagnostics) -> Part:
     check_keys(node, _OS_KEYS, (), diagnostics)
     hosted = bool_of(node.get("hosted")) or False
     linker_script = text_at(node, "linker_script", diagnostics)
-    return replace(part, os=Os(hosted, linker_script, text_at(node, "tick", diagnostics)))
+    stack, least = (int_of(child(node.get("task_stack"), key)) for key in ("default", "least"))
+    return replace(
+        part,
+        os=Os(
+            hosted,
+            linker_script,
+            text_at(node, "tick", diagnostics),
+            stack or Os.task_stack,
+            least or Os.task_stack_least,
+        ),
+    )
 
 
 def _cpu(node: MappingNode, diagnostics: Diagnostics) -> Cpu:

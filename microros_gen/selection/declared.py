@@ -10,6 +10,7 @@ from microros_gen.application import diagnosis_decl, silence, time_source
 from microros_gen.application.kinds import KIND
 from microros_gen.application.model import Application, EndpointDecl, ExecutorDecl, NodeDecl
 from microros_gen.application.names import expand_topic_name
+from microros_gen.application.task_decl import KEY as TASKS
 from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.records import dataclass
 
@@ -73,6 +74,8 @@ def declared_components(application: Application) -> Iterator[Demand]:
 def selecting_demands(application: Application) -> Iterator[Demand]:
     """Yield the component that a key of a node selects by itself, since nothing else can be meant by it."""
     yield from holder_demands(application)
+    for task in application.tasks[:1]:
+        yield Demand(TASKS, f"`{TASKS}:`{at(task.span)}", task.span)
     for node in application.nodes:
         for mode in node.modes[:1]:
             yield Demand("node_modes", f"modes: of a node{at(mode.span)}", mode.span)

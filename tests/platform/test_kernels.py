@@ -32,17 +32,31 @@ nodes:
     publishers: [{{topic: count, type: std_msgs/msg/Int32}}]
     subscriptions: [{{topic: target, type: std_msgs/msg/Int32}}]
     timers: [{{name: beat, period: 100 ms, kind: rtos}}]
+    executors: [{{name: all}}]
 """
+TASKS = "tasks: [{name: main, executor: all, rate: 10 Hz}]\n"
 VARIANTS = (
     {"transport": "{type: udp, agent: 192.168.1.2:8888}", "more": ", +sleep_cycles"},
+    {"transport": "{type: udp, agent: 192.168.1.2:8888}", "more": "", "tasks": TASKS},
     {"transport": "{type: udp}", "more": ", +discovery"},
     {"transport": "{type: tcp, agent: 192.168.1.2:8888}", "more": ""},
 )
 WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Werror")
 COMPILERS = (
     ("arm-none-eabi-gcc",),
-    ("clang", "-DKERNEL_TICK_RATE_HZ=1024", "-DLWIP_IPV6=0"),
+    ("clang", "-DKERNEL_TICK_RATE_HZ=1024", "-DLWIP_IPV6=0", "-DPORT_FREERTOS_TIME_US=kernel_time_us"),
     ("gcc", "-DKERNEL_TICK_RATE_HZ=100", "-DLWIP_NETIF_TX_SINGLE_PBUF=1"),
+)
+SETTINGS = (
+    "configSUPPORT_STATIC_ALLOCATION",
+    "configUSE_MUTEXES",
+    "configUSE_RECURSIVE_MUTEXES",
+    "configUSE_TIMERS",
+    "INCLUDE_vTaskDelete",
+    "INCLUDE_vTaskSuspend",
+    "INCLUDE_xTaskDelayUntil",
+    "INCLUDE_xTaskGetCurrentTaskHandle",
+    "INCLUDE_uxTaskGetStackHighWaterMark",
 )
 PAIRS = [("freertos", "lwip")]
 
@@ -65,7 +79,7 @@ def test_a_port_calls_what_its_kernel_declares(names: tuple[str, str], folder: P
     (folder / "board.yaml").write_text(TARGET.format(cpu="cortex-m4", os=names[0], network=names[1]))
     compiled = set()
     for variant in VARIANTS:
-        (folder / "microros.yaml").write_text(APPLICATION.format(**variant))
+        (folder / "microros.yaml").write_text(APPLICATION.format(**variant) + variant.get("tasks", ""))
         done = run("generate", "-o", "out")
         assert (done.status, "warning" in done.err) == (0, False), done.err
         out = folder / "out"
@@ -80,11 +94,10 @@ def test_a_port_calls_what_its_kernel_declares(names: tuple[str, str], folder: P
 @pytest.mark.builds
 def test_a_missing_setting_of_freertos_stops_the_compiler(folder: Path, run: Runner) -> None:
     (folder / "board.yaml").write_text(TARGET.format(cpu="cortex-m4", os="freertos", network="lwip"))
-    (folder / "microros.yaml").write_text(APPLICATION.format(**VARIANTS[0]))
+    (folder / "microros.yaml").write_text(APPLICATION.format(**VARIANTS[0]) + TASKS)
     assert run("generate", "-o", "out").status == 0
     found = {}
-    for setting in ("SUPPORT_STATIC_ALLOCATION", "USE_MUTEXES", "USE_RECURSIVE_MUTEXES", "USE_TIMERS"):
-        name = f"config{setting}"
+    for name in SETTINGS:
         header = KERNELS / "freertos" / "FreeRTOS.h"
         changed = folder / "changed" / "FreeRTOS.h"
         changed.parent.mkdir(exist_ok=True)
@@ -99,3 +112,18 @@ def test_a_missing_setting_of_freertos_stops_the_compiler(folder: Path, run: Run
 def test_every_port_to_a_kernel_is_checked() -> None:
     assert set(builtin_parts("os")) - {"bare", "posix"} == {os for os, _ in PAIRS}
     assert set(builtin_parts("network")) - {"posix_sockets"} == {network for _, network in PAIRS}
+
+
+@pytest.mark.builds
+def test_too_few_priorities_of_freertos_stop_the_compiler(folder: Path, run: Runner) -> None:
+    (folder / "board.yaml").write_text(TARGET.format(cpu="cortex-m4", os="freertos", network="lwip"))
+    (folder / "microros.yaml").write_text(APPLICATION.format(**VARIANTS[0]) + TASKS)
+    assert run("generate", "-o", "out").status == 0
+    header = (KERNELS / "freertos" / "FreeRTOS.h").read_text()
+    (folder / "changed").mkdir()
+    for most, words in ((2, '#error "FreeRTOSConfig.h: set configMAX_PRIORITIES above'), (3, "")):
+        changed = header.replace("configMAX_PRIORITIES (5)", f"configMAX_PRIORITIES ({most})")
+        (folder / "changed" / "FreeRTOS.h").write_text(changed)
+        messages = complaints("gcc", folder / "out", ("freertos", "lwip"), f"-I{folder / 'changed'}")
+        assert words in messages
+        assert bool(words) == bool(messages)

@@ -21,6 +21,7 @@ _OTHER_MEANING = {
         "actions",
         "clock",
         "discovery",
+        "tasks",
         "entities",
         "executor",
         "framing",

@@ -211,6 +211,10 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + '{name: path, type: "byte[]", size: 4}]\n'
         + "    modes: {SLOW: {speed: 0.5, label: slow}, FAST: {speed: $(parent speed), path: [1, 2]}}\n"
         + "profiles: [managed_service]\ncomponents: [+node_modes]\nerrors: code\n",
+        "tasks": _BUSY
+        + "    timers: [{name: tick, period: 50 ms}]\n    executors: [{name: all}]\n"
+        + "profiles: [pure_sender]\ncomponents: [+executor, +timers]\nerrors: code\n"
+        + "tasks: [{name: all, executor: all, rate: 20 Hz, overrun: call}]\n",
         "graph": _BUSY
         + "profiles: [pure_sender]\ncomponents: [+graph]\nmemory: {arena: 4096}\nerrors: code\n",
         "graph-events": _BUSY

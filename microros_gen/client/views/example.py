@@ -133,6 +133,7 @@ def example_view(
         includes.add("rosidl_runtime_c/string.h")
     uses_time = any(view.stamps for view in views) or any(s.filling.stamps for s in services)
     waits = running is not None and not running.timers
+    has_tasks = running is not None and running.has_tasks
     has_period = running is None or waits or not project.runtime.timers.declared
     return ExampleView(
         title=project.name,
@@ -150,7 +151,7 @@ def example_view(
         has_epoch=project.target.hosted or project.runtime.session.has_time_sync,
         shows_time=shows_time,
         running=running,
-        needs_port=(uses_time and not project.runtime.clock.has_ros_time) or waits,
+        needs_port=(uses_time and not project.runtime.clock.has_ros_time) or waits or has_tasks,
         has_period=has_period,
     )
 

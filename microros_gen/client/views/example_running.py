@@ -14,6 +14,7 @@ _NS_PER_MS = 1_000_000
 _WIDTH = 84
 # Several executors of one task take turns: none of them waits long for what is its own.
 _TURN = "RCL_MS_TO_NS(10)"
+_PAUSE_MS = 10
 
 
 @dataclass(frozen=True)
@@ -53,12 +54,16 @@ class TimerView:
 
 @dataclass(frozen=True)
 class ExecutorView:
-    """An executor, how many handles it has, the calls that it begins with, and how long a round waits, as C."""
+    """An executor, how many handles it has, the calls that it begins with, and how long a round waits, as C.
+
+    `has_task`: a task runs it.
+    """
 
     variable: str
     handles: int
     calls: tuple[str, ...]
     wait: str
+    has_task: bool = False
 
 
 @dataclass(frozen=True)
@@ -72,6 +77,46 @@ class RunningView:
     clients: tuple[ServiceView, ...]
     sends: tuple[Sender, ...]
     left_out: tuple[str, ...]
+
+    @property
+    def has_tasks(self) -> bool:
+        """Return whether tasks run executors."""
+        return any(executor.has_task for executor in self.executors)
+
+    @property
+    def spun(self) -> tuple[ExecutorView, ...]:
+        """Return the executors that main runs."""
+        return tuple(executor for executor in self.executors if not executor.has_task)
+
+    @property
+    def pause(self) -> str:
+        """Return the statement by which main waits where it runs no executor, as C; empty: it runs one."""
+        return "" if self.spun else f"port_sleep_ms({_PAUSE_MS});"
+
+    @property
+    def ticks(self) -> str:
+        """Return the number of ticks, as C: tasks share it."""
+        return "value_of(&ticks)" if self.has_tasks else "ticks"
+
+    @property
+    def count_tick(self) -> str:
+        """Return the statement that counts a tick, as C."""
+        return "add_one(&ticks);" if self.has_tasks else "++ticks;"
+
+    @property
+    def count_failure(self) -> str:
+        """Return the statement that counts a failure, as C."""
+        return "add_one(&failed);" if self.has_tasks else "++failed;"
+
+    @property
+    def start(self) -> str:
+        """Return what follows the initialization in a chain of conditions, as C."""
+        return " || rclc_tasks_start() != RCL_RET_OK" if self.has_tasks else ""
+
+    @property
+    def stop(self) -> str:
+        """Return the statement before everything is closed, as C; empty: without tasks."""
+        return "(void)rclc_tasks_stop(); /* cannot fail: they run */" if self.has_tasks else ""
 
     @property
     def has_callbacks(self) -> bool:
@@ -113,7 +158,14 @@ def running_view(
     used = tuple(timer for timer in timers if timer.variable in run)
     return RunningView(
         executors=tuple(
-            _executor(name, own, timeout, bool(used), 0 if index else more_handles)
+            _executor(
+                name,
+                own,
+                timeout,
+                bool(used),
+                0 if index else more_handles,
+                has_task=name in _of_tasks(project),
+            )
             for index, (name, own, timeout) in enumerate(shared)
         ),
         timers=tuple(_sending(used, sends)),
@@ -122,6 +174,17 @@ def running_view(
         clients=clients,
         sends=() if used else sends,
         left_out=(*(f"{h.kind} {h.name}" for h in handles if h.variable not in run), *_of_hardware(project)),
+    )
+
+
+def _of_tasks(project: Project) -> frozenset[str]:
+    """Return the variables of the executors that tasks run."""
+    nodes = project.application.nodes
+    every = [(node, executor.name) for node, decl in enumerate(nodes) for executor in decl.executors]
+    return frozenset(
+        f"executor_{every.index((task.node, task.executor.name))}"
+        for task in project.application.tasks
+        if task.executor is not None
     )
 
 
@@ -211,7 +274,13 @@ def _shared(
 
 
 def _executor(
-    variable: str, handles: Sequence[_Handle], timeout: str, has_timers: bool, more_handles: int
+    variable: str,
+    handles: Sequence[_Handle],
+    timeout: str,
+    has_timers: bool,
+    more_handles: int,
+    *,
+    has_task: bool,
 ) -> ExecutorView:
     """`has_timers`: rounds have no other end than what is ready; otherwise all of them fill EXAMPLE_PERIOD_MS."""
     calls = [f"rclc_executor_set_timeout(&{variable}, {timeout})"] if timeout else []
@@ -222,6 +291,7 @@ def _executor(
         max(len(handles) + more_handles, 1),
         tuple(calls),
         f"{variable}.timeout_ns" if has_timers else rest,
+        has_task,
     )
 
 

@@ -12,6 +12,7 @@ from microros_gen.application.silence import SilenceDecl
 from tests.support.application.diagnosis_cases import DIAGNOSIS_CASES
 from tests.support.application.key_case import KeyCase
 from tests.support.application.time_source_cases import TIME_SOURCE_CASES
+from tests.support.application.task_cases import TASK_CASES
 
 
 def _node(app: Application) -> Any:
@@ -1075,11 +1076,6 @@ def _silence(application: Application) -> SilenceDecl:
 _EXECUTORS: dict[str, KeyCase] = {}
 
 RESERVED = {
-    "tasks": (
-        "tasks: [{name: t, rate: 100 Hz}]",
-        "1:1",
-        "the key 'tasks' is reserved for tasks of an operating system, which this version does not have",
-    ),
     "links": ("links: {}", "1:1", "the key 'links' is reserved for delivery from board to board"),
     "agents": ("agents: [a]", "1:1", "the key 'agents' is reserved for more than one agent"),
     "target.network": (
@@ -1134,6 +1130,7 @@ CASES: dict[str, KeyCase] = {
     **_EXECUTORS,
     **DIAGNOSIS_CASES,
     **TIME_SOURCE_CASES,
+    **TASK_CASES,
     **_endpoint_cases("publishers", "publisher", "topic", "std_msgs/msg/String", "std_msgs/String"),
     **_endpoint_cases("subscriptions", "subscription", "topic", "std_msgs/msg/String", "std_msgs/srv/String"),
     **_SILENCES,

@@ -290,6 +290,14 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + _ASKED
         + "    publishers: [{topic: out, type: std_msgs/msg/Int32, qos: {deadline: 200 ms}}]\n"
         + "    subscriptions: [{topic: in, type: std_msgs/msg/Int32, qos: {deadline: 200 ms}}]\n",
+        "tasks": _NODES
+        + _SURE
+        + "    subscriptions: [{topic: in, type: std_msgs/msg/Int32}]\n"
+        + "    timers: [{name: tick, period: 50 ms}]\n"
+        + "    executors: [{name: fast, handles: [tick]}, {name: slow, handles: [in]}]\n"
+        + "components: [+subscribe, +executor, +timers, +diagnosis]\n"
+        + "tasks:\n  - {name: control, executor: fast, rate: 20 Hz, overrun: call}\n"
+        + "  - {name: work, executor: slow, interval: 5 ms}\n",
         "transforms": _NODES.replace("    publishers:\n", "")
         + "components: [+tf_broadcaster, +multithread]\n",
         "executor_events": _BOTH + "components: [+qos_events, +clock_stamp]\n",

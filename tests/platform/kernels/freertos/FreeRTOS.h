@@ -13,11 +13,19 @@
 #define configUSE_MUTEXES 1
 #define configUSE_RECURSIVE_MUTEXES 1
 #define configUSE_TIMERS 1
+#define configMAX_PRIORITIES (5) /* as in most configurations: a constant of the preprocessor */
 #define INCLUDE_vTaskDelay 1
+#define INCLUDE_vTaskDelete 1
+#define INCLUDE_vTaskSuspend 1
+#define INCLUDE_xTaskDelayUntil 1
+#define INCLUDE_xTaskGetCurrentTaskHandle 1
+#define INCLUDE_uxTaskGetStackHighWaterMark 1
 
 typedef long BaseType_t;
 typedef unsigned long UBaseType_t;
 typedef uint32_t TickType_t;
+typedef uint32_t StackType_t;
+typedef uint32_t configSTACK_DEPTH_TYPE;
 
 #define portMAX_DELAY ((TickType_t)0xffffffffu)
 #define portYIELD_FROM_ISR(is_switched) port_yield_from_isr(is_switched)
@@ -27,5 +35,6 @@ typedef uint32_t TickType_t;
 
 void port_yield_from_isr(BaseType_t is_switched);
 BaseType_t xPortIsInsideInterrupt(void);
+uint32_t kernel_time_us(void);
 
 #endif /* STAND_IN_FREERTOS_H */

@@ -9,6 +9,24 @@ typedef struct TimeOut_t {
   TickType_t xTimeOnEntering;
 } TimeOut_t;
 
+typedef struct kernel_task_control_t * TaskHandle_t;
+typedef void (*TaskFunction_t)(void * argument);
+
+typedef struct StaticTask_t {
+  void * reserved[30];
+} StaticTask_t;
+
+#define tskIDLE_PRIORITY ((UBaseType_t)0u)
+
+TaskHandle_t xTaskCreateStatic(
+  TaskFunction_t function, const char * name, configSTACK_DEPTH_TYPE depth, void * argument,
+  UBaseType_t priority, StackType_t * stack, StaticTask_t * storage);
+BaseType_t xTaskDelayUntil(TickType_t * previous, TickType_t increment);
+TaskHandle_t xTaskGetCurrentTaskHandle(void);
+UBaseType_t uxTaskGetStackHighWaterMark(TaskHandle_t task);
+void vTaskDelete(TaskHandle_t task);
+void vTaskSuspend(TaskHandle_t task);
+
 #define taskENTER_CRITICAL() kernel_critical(1)
 #define taskEXIT_CRITICAL() kernel_critical(0)
 

@@ -12,6 +12,7 @@ static void lock_make(void)
 
   (void)pthread_mutexattr_init(&kind); /* these calls need no memory, and POSIX defines this kind */
   (void)pthread_mutexattr_settype(&kind, PTHREAD_MUTEX_RECURSIVE);
+  (void)pthread_mutexattr_setprotocol(&kind, PTHREAD_PRIO_INHERIT);
   (void)pthread_mutex_init(&lock, &kind);
   (void)pthread_mutexattr_destroy(&kind);
 }

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The tasks of the operating system that run executors and the session, as the application file declares them."""
+
+from __future__ import annotations
+
+from microros_gen.diagnostics import Span
+from microros_gen.documents.named import Named
+from microros_gen.records import dataclass
+
+KEY = "tasks"
+"""Its key in the application file."""
+
+CRITICALITIES = ("high", "middle", "low")
+"""Bands of priority, the highest first."""
+
+OVERRUNS = ("skip", "catch_up", "call")
+"""What happens to releases that a task has missed."""
+
+
+@dataclass(frozen=True)
+class TaskDecl:
+    """A task, which runs `executor` (`node/name`), or the session where that is None. Times are microseconds.
+
+    `node` is the position of the executor's node. `period_us` 0: its handles release it, at most once in
+    `interval_us`. `deadline_us`, `time_us` and `priority` 0, `stack` None and `criticality` empty: not said.
+    `priority` 1 is the highest.
+    """
+
+    name: str
+    executor: Named | None = None
+    node: int = 0
+    period_us: int = 0
+    interval_us: int = 0
+    deadline_us: int = 0
+    criticality: str = ""
+    time_us: int = 0
+    overrun: str = "skip"
+    stack: int | None = None
+    priority: int = 0
+    span: Span | None = None
+    stack_span: Span | None = None
+    priority_span: Span | None = None
+
+    @property
+    def is_session(self) -> bool:
+        """Whether it runs the session."""
+        return self.executor is None

@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The tasks with their priorities: bands of criticality, and by deadline within one; the session's by rule."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from microros_gen.application.model import Application
+from microros_gen.application.task_decl import CRITICALITIES, TaskDecl
+from microros_gen.client.plan.features import PlanContext
+from microros_gen.diagnostics import Diagnostics
+from microros_gen.platform.target import Target
+from microros_gen.records import dataclass
+
+_ALIGNMENT = 8
+_USUAL = "middle"
+_NO_DEADLINE = 1 << 32
+_SESSION = "session"
+_CRITICALITY_OF_SESSION = "by rule"
+_MILLISECOND_US = 1000
+
+
+@dataclass(frozen=True, kw_only=True)
+class TaskPlan:
+    """A task; times are microseconds, 0: none. `executor` is its position among the declared ones, None: the session.
+
+    `priority` is 1 for the highest, `level` 1 for the lowest.
+    """
+
+    name: str
+    executor: int | None
+    period_us: int
+    interval_us: int
+    deadline_us: int
+    criticality: str
+    time_us: int
+    overrun: str
+    stack: int
+    priority: int
+    level: int
+
+    @property
+    def constant(self) -> str:
+        """Return the name of its number in C."""
+        return f"RCLC_TASK_{self.name.upper()}"
+
+    @property
+    def plan_entry(self) -> str:
+        """Return its row of rclc_task_plans, as C."""
+        numbers = ", ".join(f"{number}u" for number in (self.period_us, self.interval_us, self.deadline_us))
+        return f"{{{numbers}, RCLC_TASK_{self.overrun.upper()}}}"
+
+    @property
+    def setting_entry(self) -> str:
+        """Return its row of rclc_task_settings, as C."""
+        entry = "session" if self.executor is None else "period" if self.period_us else "events"
+        stack = f"stack_of_{self.name}"
+        return f'{{"{self.name}", rclc_tasks_run_{entry}, {stack}, {self.stack}u, {self.level}u}}'
+
+
+@dataclass(frozen=True, kw_only=True)
+class TasksPlan:
+    """The tasks in the order of the application file, that of the session last."""
+
+    tasks: tuple[TaskPlan, ...]
+
+    @property
+    def count(self) -> int:
+        """Return the number of tasks."""
+        return len(self.tasks)
+
+    @property
+    def constants(self) -> tuple[str, ...]:
+        """Return the numbers of the tasks as lines of C."""
+        return ("enum {", *(f"  {task.constant} = {i}," for i, task in enumerate(self.tasks)), "};")
+
+    @property
+    def shown(self) -> str:
+        """Return what a report says: the names by priority, each with what releases it."""
+        by_priority = sorted(self.tasks, key=lambda task: task.priority)
+        return ", ".join(f"{task.name} ({_released(task)})" for task in by_priority)
+
+    @property
+    def stacks(self) -> str:
+        """Return what a report says of the stacks."""
+        return f"{', '.join(f'{task.name} {task.stack}' for task in self.tasks)} bytes"
+
+    @property
+    def example_calls(self) -> tuple[str, ...]:
+        """Return the calls of the example that name the executors and the functions of tasks."""
+        runs = [
+            f"rclc_task_set_executor({task.constant}, &executor_{task.executor}, NULL)"
+            for task in self.tasks
+            if task.executor is not None
+        ]
+        calls = [f"rclc_task_set_overrun({task.constant}, on_overrun)" for task in self.tasks if _calls(task)]
+        return (*runs, *calls)
+
+    @property
+    def example_function(self) -> tuple[str, ...]:
+        """Return a function of the example as lines of C, for the overruns of tasks."""
+        if not any(_calls(task) for task in self.tasks):
+            return ()
+        return (
+            "/* `missed` releases of the task came while it still ran. */",
+            "static void on_overrun(uint8_t task, uint32_t missed)",
+            "{",
+            "  (void)task;",
+            "  (void)missed;",
+            "}",
+            "",
+        )
+
+
+def _calls(task: TaskPlan) -> bool:
+    return task.overrun == "call"
+
+
+def _released(task: TaskPlan) -> str:
+    if task.period_us:
+        return f"every {_time(task.period_us)}"
+    return "events" if task.executor is not None else "line"
+
+
+def _time(time_us: int) -> str:
+    whole = time_us % _MILLISECOND_US == 0
+    return f"{time_us // _MILLISECOND_US} ms" if whole else f"{time_us} us"
+
+
+def plan(context: PlanContext, diagnostics: Diagnostics) -> TasksPlan:
+    """Return the tasks with priorities and stacks; a target without tasks is refused."""
+    application = context.application
+    if not application.tasks:
+        message = "the component 'tasks' is for the tasks that the application file declares"
+        hint = "Add `tasks: [{name: control, executor: NAME, rate: 100 Hz}]`"
+        diagnostics.error(message, application.spans.get("components"), hint, id="MG-7230")
+        return TasksPlan(tasks=())
+    _check_target(application, context.target, diagnostics)
+    session = next((task for task in application.tasks if task.is_session), None)
+    tasks = [*(task for task in application.tasks if not task.is_session)]
+    tasks.append(session or TaskDecl(_session_name(tasks)))
+    priorities = priorities_of(tasks)
+    os = context.target.os
+    return TasksPlan(
+        tasks=tuple(
+            TaskPlan(
+                name=task.name,
+                executor=_position(application, task),
+                period_us=task.period_us,
+                interval_us=task.interval_us,
+                deadline_us=_deadline(task),
+                criticality=task.criticality or (_CRITICALITY_OF_SESSION if task.is_session else _USUAL),
+                time_us=task.time_us,
+                overrun=task.overrun,
+                stack=_aligned(max(task.stack or os.task_stack, os.task_stack_least)),
+                priority=priority,
+                level=len(tasks) + 1 - priority,
+            )
+            for task, priority in zip(tasks, priorities, strict=True)
+        )
+    )
+
+
+def _check_target(application: Application, target: Target, diagnostics: Diagnostics) -> None:
+    offered = {p.capability for part in target.parts for p in part.component.provides}
+    if "tasks" not in offered | set(target.own_capabilities):
+        os = target.part("os")
+        name = os.component.name if os is not None else "no operating system"
+        message = f"the target {target.name} has no tasks: its operating system is {name}"
+        hint = "Remove `tasks:` and spin the executors in main, or choose a target with `os: freertos`"
+        diagnostics.error(message, application.tasks[0].span, hint, id="MG-7231")
+
+
+def _session_name(tasks: Iterable[TaskDecl]) -> str:
+    names = {task.name.lower() for task in tasks}
+    return _SESSION if _SESSION not in names else "line_and_session"
+
+
+def _position(application: Application, task: TaskDecl) -> int | None:
+    if task.executor is None:
+        return None
+    every = [(node, e.name) for node, decl in enumerate(application.nodes) for e in decl.executors]
+    return every.index((task.node, task.executor.name))
+
+
+def _deadline(task: TaskDecl) -> int:
+    return task.deadline_us or task.period_us or task.interval_us
+
+
+def _aligned(size: int) -> int:
+    return (size + _ALIGNMENT - 1) // _ALIGNMENT * _ALIGNMENT
+
+
+def priorities_of(tasks: Sequence[TaskDecl]) -> tuple[int, ...]:
+    """Return the priority of each task, 1 for the highest.
+
+    Those of the application file hold. The others take the remaining places: by criticality, then by deadline, then in
+    the order of the file. The session's task, where nothing is said of it, precedes the first task that handles
+    release, since it is what wakes that; without one it is the last.
+    """
+    free = [task for task in tasks if not task.priority]
+    ordered = sorted((task for task in free if not _is_placed_by_rule(task)), key=_rank)
+    for session in (task for task in free if _is_placed_by_rule(task)):
+        woken = (i for i, task in enumerate(ordered) if not task.period_us)
+        ordered.insert(next(woken, len(ordered)), session)
+    fixed = {task.priority for task in tasks if task.priority}
+    places = (place for place in range(1, len(tasks) + 1) if place not in fixed)
+    assigned = {id(task): place for task, place in zip(ordered, places, strict=True)}
+    return tuple(task.priority or assigned[id(task)] for task in tasks)
+
+
+def _is_placed_by_rule(task: TaskDecl) -> bool:
+    return task.is_session and not (task.criticality or task.deadline_us)
+
+
+def _rank(task: TaskDecl) -> tuple[int, int]:
+    return CRITICALITIES.index(task.criticality or _USUAL), _deadline(task) or _NO_DEADLINE
+
+
+def record(part: TasksPlan) -> object:
+    """Return what the plan id is made of: an application is compiled with the numbers of its tasks."""
+    return {
+        "tasks": [[t.name, t.executor, t.plan_entry, t.stack, t.level, t.deadline_us] for t in part.tasks]
+    }

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/tasks.h"
+
+#include "microros/error.h"
+#include "microros/lock.h"
+#include "microros/port.h"
+#include "microros/rclc_tasks.h"
+#include "microros/rclc_tasks_state.h"
+
+#include <stddef.h>
+#include <string.h>
+
+static bool tasks_run;
+
+bool rclc_tasks_continue(void)
+{
+  bool is_running;
+
+  microros_lock();
+  is_running = tasks_run;
+  microros_unlock();
+  return is_running;
+}
+
+static rcl_ret_t tasks_refuse(const char * why)
+{
+  return microros_error_named(RCL_RET_ERROR, microros_error_tasks, why);
+}
+
+static bool has_executor(uint8_t task)
+{
+  return task < (uint8_t)MICROROS_TASKS - 1u;
+}
+
+rcl_ret_t rclc_task_set_executor(uint8_t task, rclc_executor_t * executor, rclc_task_callback_t callback)
+{
+  if (!has_executor(task) || executor == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "task or executor");
+  }
+  if (rclc_tasks_continue()) {
+    return tasks_refuse("they run");
+  }
+  rclc_task_states[task].executor = executor;
+  rclc_task_states[task].callback = callback;
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rclc_task_set_overrun(uint8_t task, rclc_task_overrun_callback_t callback)
+{
+  if (!has_executor(task) || rclc_task_plans[task].overrun != RCLC_TASK_CALL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "task");
+  }
+  if (rclc_tasks_continue()) {
+    return tasks_refuse("they run");
+  }
+  rclc_task_states[task].on_overrun = callback;
+  return RCL_RET_OK;
+}
+
+static bool task_is_ready(uint8_t task)
+{
+  const rclc_task_state_t * state = &rclc_task_states[task];
+
+  return state->executor != NULL &&
+         (rclc_task_plans[task].overrun != RCLC_TASK_CALL || state->on_overrun != NULL);
+}
+
+/* Ends the first `count` tasks. */
+static void tasks_end(uint8_t count)
+{
+  microros_lock();
+  tasks_run = false;
+  microros_unlock();
+  for (uint8_t task = 0; task < count; ++task) {
+    port_task_set(task);
+  }
+  port_wake(); /* the session waits for the line */
+  for (uint8_t task = 0; task < count; ++task) {
+    port_task_join(task);
+  }
+}
+
+rcl_ret_t rclc_tasks_start(void)
+{
+  if (rclc_tasks_continue()) {
+    return tasks_refuse("they run");
+  }
+  for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS - 1u; ++task) {
+    if (!task_is_ready(task)) {
+      return tasks_refuse("a task has no executor, or no function for its overruns");
+    }
+    rclc_task_states[task].next_us = port_task_time_us();
+    (void)memset(&rclc_task_states[task].counters, 0, sizeof(rclc_task_states[task].counters));
+  }
+  microros_lock();
+  tasks_run = true;
+  microros_unlock();
+  for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS; ++task) {
+    if (!port_task_create(task, &rclc_task_settings[task])) {
+      tasks_end(task);
+      return tasks_refuse("the system makes no task");
+    }
+    microros_lock();
+    rclc_task_states[task].is_made = true;
+    microros_unlock();
+  }
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rclc_tasks_stop(void)
+{
+  if (!rclc_tasks_continue() || port_task_self() != (uint8_t)PORT_TASK_NONE) {
+    return tasks_refuse("they do not run, or one of them is the caller");
+  }
+  tasks_end((uint8_t)MICROROS_TASKS);
+  return RCL_RET_OK;
+}
+
+bool rclc_tasks_are_prioritized(void)
+{
+  return port_task_has_priorities();
+}
+
+rcl_ret_t rclc_task_get_counters(uint8_t task, rclc_task_counters_t * counters)
+{
+  if (task >= (uint8_t)MICROROS_TASKS || counters == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "task or counters");
+  }
+  microros_lock();
+  *counters = rclc_task_states[task].counters;
+  microros_unlock();
+  return RCL_RET_OK;
+}
+
+uint32_t rclc_task_stack_peak(uint8_t task)
+{
+  bool is_made = false;
+
+  if (task < (uint8_t)MICROROS_TASKS) {
+    microros_lock();
+    is_made = rclc_task_states[task].is_made;
+    microros_unlock();
+  }
+  return is_made ? port_task_stack_peak(task) : 0u;
+}
+
+uint32_t rclc_task_stack_size(uint8_t task)
+{
+  return task < (uint8_t)MICROROS_TASKS ? rclc_task_settings[task].stack_size : 0u;
+}

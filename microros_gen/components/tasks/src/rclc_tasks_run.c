@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/executor_handles.h"
+#include "microros/lock.h"
+#include "microros/port.h"
+#include "microros/rcl_tasks.h"
+#include "microros/rcl_waiting.h"
+#include "microros/rclc_tasks.h"
+#include "microros/rclc_tasks_state.h"
+#include "microros/rmw_client_wait.h"
+#include "microros/rmw_tasks.h"
+#include "microros/wake.h"
+
+#include <stddef.h>
+
+/* Longest wait of a round: only trigger functions that look at other state depend on it. */
+enum { WAIT_MOST_MS = 1000 };
+
+rclc_task_state_t rclc_task_states[MICROROS_TASKS];
+
+static uint32_t larger(uint32_t a, uint32_t b)
+{
+  return a > b ? a : b;
+}
+
+/* Differences of two counts of microseconds are right across the wrap. */
+static void task_count(uint8_t task)
+{
+  rclc_task_state_t * state = &rclc_task_states[task];
+  rclc_task_counters_t * counters = &state->counters;
+  const uint32_t now_us = port_task_time_us();
+  const uint32_t response_us = now_us - state->released_us;
+  const uint32_t deadline_us = rclc_task_plans[task].deadline_us;
+
+  microros_lock();
+  ++counters->runs;
+  counters->latest_us = larger(counters->latest_us, state->began_us - state->released_us);
+  counters->longest_us = larger(counters->longest_us, now_us - state->began_us);
+  counters->response_us = larger(counters->response_us, response_us);
+  if (deadline_us != 0u && response_us > deadline_us) {
+    ++counters->overruns;
+    rcl_tasks_count(1, 0);
+  }
+  microros_unlock();
+}
+
+static void task_count_error(uint8_t task)
+{
+  microros_lock();
+  ++rclc_task_states[task].counters.failed;
+  microros_unlock();
+}
+
+/* Leaves out the releases that have passed already; those that follow keep to the grid of the first one. */
+static void task_skip(uint8_t task)
+{
+  rclc_task_state_t * state = &rclc_task_states[task];
+  const uint32_t period_us = rclc_task_plans[task].period_us;
+  const uint32_t late_us = port_task_time_us() - state->next_us;
+  uint32_t missed;
+
+  if (late_us > (uint32_t)INT32_MAX) {
+    return; /* it is still to come */
+  }
+  missed = late_us / period_us + 1u;
+  state->next_us += missed * period_us;
+  microros_lock();
+  state->counters.missed += missed;
+  rcl_tasks_count(0, missed);
+  microros_unlock();
+  if (state->on_overrun != NULL) {
+    state->on_overrun(task, missed);
+  }
+}
+
+void rclc_tasks_run_period(uint8_t task)
+{
+  rclc_task_state_t * state = &rclc_task_states[task];
+
+  while (rclc_tasks_continue()) {
+    port_task_sleep_until(state->next_us);
+    state->released_us = state->next_us;
+    state->began_us = port_task_time_us();
+    if (state->callback != NULL) {
+      state->callback(task);
+    }
+    if (rclc_executor_spin_some(state->executor, 0) != RCL_RET_OK) {
+      task_count_error(task);
+    }
+    task_count(task);
+    state->next_us += rclc_task_plans[task].period_us;
+    if (rclc_task_plans[task].overrun != RCLC_TASK_CATCH_UP) {
+      task_skip(task);
+    }
+  }
+}
+
+/* Returns the calling task if it runs this executor and has no period, else MICROROS_TASKS. */
+static uint8_t task_of(const rclc_executor_t * executor)
+{
+  const uint8_t task = port_task_self();
+
+  return task < (uint8_t)MICROROS_TASKS && rclc_task_states[task].executor == executor &&
+             rclc_task_plans[task].period_us == 0u
+           ? task
+           : (uint8_t)MICROROS_TASKS;
+}
+
+void rclc_tasks_round_begins(const rclc_executor_t * executor)
+{
+  const uint8_t task = task_of(executor);
+
+  if (task < (uint8_t)MICROROS_TASKS) {
+    rclc_task_state_t * state = &rclc_task_states[task];
+
+    state->began_us = port_task_time_us();
+    microros_lock();
+    state->released_us = rmw_tasks_released(task, state->began_us);
+    microros_unlock();
+  }
+}
+
+void rclc_tasks_round_ends(const rclc_executor_t * executor)
+{
+  const uint8_t task = task_of(executor);
+
+  if (task < (uint8_t)MICROROS_TASKS) {
+    rclc_task_states[task].has_run = true;
+    task_count(task);
+  }
+}
+
+void rclc_tasks_run_events(uint8_t task)
+{
+  const uint64_t wait_most_ns = (uint64_t)WAIT_MOST_MS * 1000000u;
+  rclc_task_state_t * state = &rclc_task_states[task];
+
+  while (rclc_tasks_continue()) {
+    if (rclc_executor_spin_some(state->executor, wait_most_ns) != RCL_RET_OK) {
+      task_count_error(task);
+      port_sleep_ms(1); /* an error that stays must not keep the processor from tasks of lower priority */
+    }
+    if (state->has_run && rclc_task_plans[task].interval_us != 0u) {
+      port_task_sleep_until(state->began_us + rclc_task_plans[task].interval_us);
+    }
+    state->has_run = false;
+  }
+}
+
+/* Returns whether a handle has become ready since the executor looked. */
+static bool executor_has_news(const rclc_executor_t * executor)
+{
+  const rclc_executor_handle_t * handle = executor->handles;
+
+  for (size_t left = executor->index; left != 0u; --left) {
+    int64_t look_again_ns = INT64_MAX;
+    bool is_ready = false;
+
+    if (handle->kind->look(handle, &is_ready, &look_again_ns) != RCL_RET_OK) {
+      return true; /* the task reports it */
+    }
+    if (is_ready && !handle->data_available) {
+      return true;
+    }
+    ++handle;
+  }
+  return false;
+}
+
+/* A task that waits is in the wait as long as this one holds the lock, so its executor is at rest. Of those that do not
+ * wait, each looks by itself before it does. */
+static void session_release_tasks(void)
+{
+  for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS - 1u; ++task) {
+    if (rmw_tasks_waits(task) && executor_has_news(rclc_task_states[task].executor)) {
+      rmw_tasks_release(task, port_task_time_us());
+    }
+  }
+}
+
+void rclc_tasks_run_session(uint8_t task)
+{
+  uint32_t news;
+
+  while (rclc_tasks_continue()) {
+    rclc_task_states[task].began_us = port_task_time_us();
+    rclc_task_states[task].released_us = rclc_task_states[task].began_us; /* nothing knows the release */
+    rcl_waiting_receive();
+    microros_lock();
+    news = microros_news;
+    session_release_tasks();
+    microros_unlock();
+    task_count(task);
+    rmw_client_wait_news((uint32_t)WAIT_MOST_MS, &news);
+  }
+}

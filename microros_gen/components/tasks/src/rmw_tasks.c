@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/rmw_tasks.h"
+
+#include "microros/lock.h"
+#include "microros/port_tasks.h"
+#include "microros/rmw_turn.h"
+#include "microros/wake.h"
+#include "microros_config.h"
+
+typedef struct waiting_task_t {
+  uint32_t released_us;
+  bool waits;
+  bool is_released;
+} waiting_task_t;
+
+static waiting_task_t waiting_tasks[MICROROS_TASKS];
+
+/* The last task is that of the session, and runs it as every other task of the application does. */
+static bool runs_an_executor(uint8_t task)
+{
+  return task < (uint8_t)MICROROS_TASKS - 1u;
+}
+
+bool rmw_turn_pumps(void)
+{
+  return !runs_an_executor(port_task_self());
+}
+
+/* Everything that was counted before the task last looked was seen. From then on the task of the session looks at the
+ * executor of this one before it waits for news itself. */
+bool rmw_turn_waits(uint32_t timeout_ms, uint32_t * news)
+{
+  const uint8_t task = port_task_self();
+  bool waits;
+
+  if (!runs_an_executor(task)) {
+    return false;
+  }
+  microros_lock();
+  waits = *news == microros_news;
+  waiting_tasks[task].waits = waits;
+  *news = microros_news;
+  microros_unlock();
+  if (waits) {
+    port_task_wait(task, timeout_ms);
+    microros_lock();
+    waiting_tasks[task].waits = false;
+    *news = microros_news;
+    microros_unlock();
+  }
+  return true;
+}
+
+bool rmw_tasks_waits(uint8_t task)
+{
+  return waiting_tasks[task].waits;
+}
+
+void rmw_tasks_release(uint8_t task, uint32_t now_us)
+{
+  waiting_tasks[task].waits = false;
+  waiting_tasks[task].is_released = true;
+  waiting_tasks[task].released_us = now_us;
+  port_task_set(task);
+}
+
+uint32_t rmw_tasks_released(uint8_t task, uint32_t now_us)
+{
+  const uint32_t released_us = waiting_tasks[task].is_released ? waiting_tasks[task].released_us : now_us;
+
+  waiting_tasks[task].is_released = false;
+  return released_us;
+}

@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/port_freertos.h"
+#include "microros/port_tasks.h"
+#include "microros_config.h"
+
+#include "semphr.h"
+#include "task.h"
+
+#include <stddef.h>
+
+#if !defined(configMAX_PRIORITIES) || configMAX_PRIORITIES <= MICROROS_TASKS
+#error "FreeRTOSConfig.h: set configMAX_PRIORITIES above MICROROS_TASKS of microros_config.h"
+#endif
+#if !defined(INCLUDE_vTaskDelete) || INCLUDE_vTaskDelete != 1
+#error "FreeRTOSConfig.h: set INCLUDE_vTaskDelete to 1"
+#endif
+#if !defined(INCLUDE_vTaskSuspend) || INCLUDE_vTaskSuspend != 1
+#error "FreeRTOSConfig.h: set INCLUDE_vTaskSuspend to 1"
+#endif
+#if !defined(INCLUDE_xTaskDelayUntil) || INCLUDE_xTaskDelayUntil != 1
+#error "FreeRTOSConfig.h: set INCLUDE_xTaskDelayUntil to 1"
+#endif
+#if !defined(INCLUDE_xTaskGetCurrentTaskHandle) || INCLUDE_xTaskGetCurrentTaskHandle != 1
+#error "FreeRTOSConfig.h: set INCLUDE_xTaskGetCurrentTaskHandle to 1"
+#endif
+#if !defined(INCLUDE_uxTaskGetStackHighWaterMark) || INCLUDE_uxTaskGetStackHighWaterMark != 1
+#error "FreeRTOSConfig.h: set INCLUDE_uxTaskGetStackHighWaterMark to 1"
+#endif
+
+typedef struct kernel_task_t {
+  StaticTask_t storage;
+  StaticSemaphore_t event_storage;
+  SemaphoreHandle_t event;
+  TaskHandle_t handle; /* NULL: not made */
+  const port_task_t * setting;
+  uint8_t task;
+  volatile bool has_ended;
+} kernel_task_t;
+
+static const uint64_t us_per_s = 1000000;
+
+static kernel_task_t kernel_tasks[MICROROS_TASKS];
+
+static void task_begin(void * argument)
+{
+  kernel_task_t * place = (kernel_task_t *)argument;
+
+  place->setting->entry(place->task);
+  place->has_ended = true;
+  for (;;) {
+    vTaskSuspend(NULL); /* until port_task_join deletes it: a function of a task must not return */
+  }
+}
+
+/* No other task runs before the handle is known: the new one may have a higher priority than the caller. */
+bool port_task_create(uint8_t task, const port_task_t * setting)
+{
+  kernel_task_t * place = &kernel_tasks[task];
+
+  place->setting = setting;
+  place->task = task;
+  place->has_ended = false;
+  if (place->event == NULL) {
+    place->event = xSemaphoreCreateBinaryStatic(&place->event_storage); /* with storage, it cannot fail */
+  }
+  vTaskSuspendAll();
+  place->handle = xTaskCreateStatic(
+    task_begin, setting->name, setting->stack_size / (uint32_t)sizeof(StackType_t), place,
+    (UBaseType_t)tskIDLE_PRIORITY + setting->priority, (StackType_t *)setting->stack, &place->storage);
+  (void)xTaskResumeAll();
+  return place->handle != NULL;
+}
+
+void port_task_join(uint8_t task)
+{
+  kernel_task_t * place = &kernel_tasks[task];
+
+  while (!place->has_ended) {
+    vTaskDelay(1);
+  }
+  vTaskDelete(place->handle);
+  place->handle = NULL;
+}
+
+uint8_t port_task_self(void)
+{
+  const TaskHandle_t self = xTaskGetCurrentTaskHandle();
+
+  for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS; ++task) {
+    if (kernel_tasks[task].handle == self) {
+      return task;
+    }
+  }
+  return (uint8_t)PORT_TASK_NONE;
+}
+
+bool port_task_has_priorities(void)
+{
+  return true;
+}
+
+void port_task_set(uint8_t task)
+{
+  (void)xSemaphoreGive(kernel_tasks[task].event); /* fails if it is given already */
+}
+
+void port_task_wait(uint8_t task, uint32_t timeout_ms)
+{
+  (void)xSemaphoreTake(
+    kernel_tasks[task].event, port_freertos_ticks(timeout_ms)); /* false: the time has passed */
+}
+
+#ifdef PORT_FREERTOS_TIME_US
+/* The application counts microseconds with a timer of the hardware. */
+uint32_t port_task_time_us(void)
+{
+  return PORT_FREERTOS_TIME_US();
+}
+#else
+/* Counts whole ticks. */
+uint32_t port_task_time_us(void)
+{
+  const uint64_t hz = (uint64_t)configTICK_RATE_HZ;
+  const uint64_t ticks = port_freertos_now();
+
+  return (uint32_t)((ticks / hz * us_per_s + ticks % hz * us_per_s / hz) & UINT32_MAX);
+}
+#endif
+
+/* Returns the ticks that last at least as long as it takes until `time_us`; 0: it has passed. */
+static TickType_t ticks_until(uint32_t time_us)
+{
+  const uint32_t left_us = time_us - port_task_time_us();
+
+  return left_us > (uint32_t)INT32_MAX
+           ? 0u
+           : (TickType_t)(((uint64_t)left_us * (uint64_t)configTICK_RATE_HZ + us_per_s - 1u) / us_per_s);
+}
+
+/* The kernel counts from a tick that was read before the time, so nothing that passes meanwhile makes the sleep longer.
+ * Where a timer of the hardware counts, the first sleep can end within the last tick before the time. */
+void port_task_sleep_until(uint32_t time_us)
+{
+  TickType_t wake = xTaskGetTickCount();
+  TickType_t ticks = ticks_until(time_us);
+
+  while (ticks != 0u) {
+    (void)xTaskDelayUntil(&wake, ticks); /* false: it did not have to wait */
+    wake = xTaskGetTickCount();
+    ticks = ticks_until(time_us);
+  }
+}
+
+uint32_t port_task_stack_peak(uint8_t task)
+{
+  const kernel_task_t * place = &kernel_tasks[task];
+
+  return place->handle == NULL
+           ? 0u
+           : place->setting->stack_size -
+               (uint32_t)uxTaskGetStackHighWaterMark(place->handle) * (uint32_t)sizeof(StackType_t);
+}

@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Releases of tasks with a period on a port whose clock the test sets: it wraps after two releases, each sleep ends a
+ * little late, and one run takes two and a half periods. The application file is that of test_tasks.py.
+ */
+#include "unit.h"
+
+#include <microros/port_tasks.h>
+#include <microros/rcl_tasks.h>
+#include <microros/rclc_tasks.h>
+#include <microros/tasks.h>
+#include <rcl/rcl.h>
+#include <rclc/executor.h>
+#include <rclc/rclc.h>
+
+#include <string.h>
+
+enum { PERIOD = 1000, RUNS = 12, LONG_RUN = 3, LONG = 2500, SHORT = 100 };
+
+static const uint32_t start = UINT32_MAX - 2500u;
+
+static uint32_t clock_us;
+static uint32_t sleeps;
+static uint8_t self = PORT_TASK_NONE;
+static uint32_t began[RUNS];
+static uint32_t runs;
+static uint32_t told;
+static uint32_t made;
+
+bool port_task_create(uint8_t task, const port_task_t * setting)
+{
+  CHECK(task == made && setting == &rclc_task_settings[task] && setting->stack_size % 8u == 0u);
+  ++made;
+  return true;
+}
+
+void port_task_join(uint8_t task)
+{
+  CHECK(task < made);
+}
+
+uint8_t port_task_self(void)
+{
+  return self;
+}
+
+bool port_task_has_priorities(void)
+{
+  return false;
+}
+
+void port_task_set(uint8_t task)
+{
+  CHECK(task < made);
+}
+
+void port_task_wait(uint8_t task, uint32_t timeout_ms)
+{
+  (void)task;
+  (void)timeout_ms;
+}
+
+uint32_t port_task_time_us(void)
+{
+  return clock_us;
+}
+
+void port_task_sleep_until(uint32_t time_us)
+{
+  const uint32_t left_us = time_us - clock_us;
+
+  if (left_us != 0u && left_us < 0x80000000u) {
+    clock_us = time_us + sleeps % 7u; /* the system is up to 6 us late */
+    ++sleeps;
+  }
+}
+
+uint32_t port_task_stack_peak(uint8_t task)
+{
+  return task + 1u;
+}
+
+static void on_release(uint8_t task)
+{
+  CHECK(task == self);
+  began[runs] = clock_us - start;
+  clock_us += runs == (uint32_t)LONG_RUN ? LONG : SHORT;
+  ++runs;
+  if (runs == (uint32_t)RUNS) {
+    CHECK(rclc_tasks_stop() == RCL_RET_ERROR); /* a task cannot wait for itself */
+    self = PORT_TASK_NONE;
+    CHECK(rclc_tasks_stop() == RCL_RET_OK);
+    self = task;
+  }
+}
+
+static void on_overrun(uint8_t task, uint32_t missed)
+{
+  CHECK(task == self);
+  told += missed;
+}
+
+/* Runs a task as the system would, and returns its counters. */
+static rclc_task_counters_t run(uint8_t task)
+{
+  rclc_task_counters_t counters;
+
+  runs = 0;
+  sleeps = 0;
+  made = 0;
+  clock_us = start;
+  CHECK(rclc_tasks_start() == RCL_RET_OK);
+  CHECK(made == (uint32_t)MICROROS_TASKS && rclc_tasks_start() == RCL_RET_ERROR);
+  self = task;
+  rclc_task_settings[task].entry(task);
+  self = PORT_TASK_NONE;
+  CHECK(rclc_task_get_counters(task, &counters) == RCL_RET_OK);
+  CHECK(counters.runs == (uint32_t)RUNS && counters.failed == 0u);
+  return counters;
+}
+
+/* The releases keep to multiples of the period: what is late at one of them does not move the next one. */
+static void check_grid(uint32_t first, uint32_t run_index)
+{
+  for (uint32_t i = first; i < (uint32_t)RUNS; ++i) {
+    const uint32_t release = (run_index + i - first) * (uint32_t)PERIOD;
+
+    CHECK(began[i] >= release && began[i] - release < 7u);
+  }
+}
+
+int main(void)
+{
+  rcl_allocator_t allocator = rcl_get_default_allocator();
+  rclc_support_t support;
+  rclc_executor_t executors[3];
+  rclc_task_counters_t counters;
+
+  CHECK(rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK);
+  for (uint8_t i = 0; i < 3u; ++i) {
+    executors[i] = rclc_executor_get_zero_initialized_executor();
+    CHECK(rclc_executor_init(&executors[i], &support.context, 1, &allocator) == RCL_RET_OK);
+    CHECK(rclc_tasks_start() == RCL_RET_ERROR); /* not every task has an executor */
+    CHECK(rclc_task_set_executor(i, &executors[i], on_release) == RCL_RET_OK);
+  }
+  CHECK(rclc_task_set_executor(RCLC_TASK_SESSION, &executors[0], NULL) == RCL_RET_INVALID_ARGUMENT);
+  CHECK(rclc_tasks_start() == RCL_RET_ERROR); /* nor a function for its overruns */
+  CHECK(rclc_task_set_overrun(RCLC_TASK_SKIPS, on_overrun) == RCL_RET_INVALID_ARGUMENT);
+  CHECK(rclc_task_set_overrun(RCLC_TASK_TELLS, on_overrun) == RCL_RET_OK);
+  CHECK(rclc_tasks_stop() == RCL_RET_ERROR);
+
+  /* Run 3 takes from 3000 to 5500: the releases at 4000 and 5000 are left out. */
+  counters = run(RCLC_TASK_SKIPS);
+  CHECK(counters.missed == 2u && counters.overruns == 1u && counters.latest_us == 6u);
+  CHECK(counters.longest_us == (uint32_t)LONG);
+  check_grid(LONG_RUN + 1, 6);
+
+  /* They follow at once: the one of 4000 at 5500, that of 5000 at 5600; that of 6000 comes in time. */
+  counters = run(RCLC_TASK_CATCHES);
+  CHECK(counters.missed == 0u && counters.overruns == 2u);
+  CHECK(began[LONG_RUN + 1] == began[LONG_RUN] + (uint32_t)LONG);
+  CHECK(began[LONG_RUN + 2] == began[LONG_RUN] + (uint32_t)LONG + (uint32_t)SHORT);
+  check_grid(LONG_RUN + 3, 6);
+
+  CHECK(told == 0u);
+  counters = run(RCLC_TASK_TELLS);
+  CHECK(counters.missed == 2u && told == 2u);
+  check_grid(LONG_RUN + 1, 6);
+
+  CHECK(rcl_tasks_missed() == 4u && rcl_tasks_overruns() == 4u); /* of all tasks */
+  CHECK(rclc_task_stack_peak(RCLC_TASK_TELLS) == 3u && rclc_task_stack_peak(MICROROS_TASKS) == 0u);
+  CHECK(rclc_task_stack_size(MICROROS_TASKS) == 0u && !rclc_tasks_are_prioritized());
+  CHECK(rclc_task_get_counters(MICROROS_TASKS, &counters) == RCL_RET_INVALID_ARGUMENT);
+  return 0;
+}
