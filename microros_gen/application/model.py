@@ -14,8 +14,8 @@ from microros_gen.application.log_decl import LogWriter
 from microros_gen.application.mode_decl import ModeDecl
 from microros_gen.application.silence import SilenceDecl
 from microros_gen.application.system_decl import Link, SystemRef
-from microros_gen.application.time_source import TimeSourceDecl
 from microros_gen.application.task_decl import TaskDecl
+from microros_gen.application.time_source import TimeSourceDecl
 from microros_gen.application.transport_decl import Transport
 from microros_gen.diagnostics import Span
 from microros_gen.documents.named import Named

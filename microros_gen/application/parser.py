@@ -9,8 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from types import MappingProxyType
 
-from microros_gen.application import diagnosis_decl, time_source
-from microros_gen.application import diagnosis_decl, task_decl
+from microros_gen.application import diagnosis_decl, task_decl, time_source
 from microros_gen.application.diagnosis import parse_diagnosis
 from microros_gen.application.limits import application_limits, endpoint_limits
 from microros_gen.application.log_decl import BUFFERED_LOG_WRITERS, LogWriter

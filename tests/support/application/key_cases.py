@@ -11,8 +11,8 @@ from microros_gen.application.model import Application, LimitRule, ParameterDecl
 from microros_gen.application.silence import SilenceDecl
 from tests.support.application.diagnosis_cases import DIAGNOSIS_CASES
 from tests.support.application.key_case import KeyCase
-from tests.support.application.time_source_cases import TIME_SOURCE_CASES
 from tests.support.application.task_cases import TASK_CASES
+from tests.support.application.time_source_cases import TIME_SOURCE_CASES
 
 
 def _node(app: Application) -> Any:
