@@ -68,8 +68,7 @@ def test_firmware_follows_pause_and_jumps(
                 assert answer["results"][0]["successful"]
 
             output = Output(process)
-            assert output.next("jump") == 50_000
-            assert output.next("tick") == 50_000
+            assert output.next("now") == 50_000  # perhaps before its jump callback was there
             set_time(90.03)
             assert output.next("jump") == 40_030
             set_time(20.0)
