@@ -54,7 +54,7 @@ def test_firmware_follows_pause_and_jumps(
     command = ("-m", "microros_gen", "time-server", "--start", "50", "--paused")
     with (
         pytest.MonkeyPatch.context() as patch,
-        server_process(domain, "time server ready: /microros_time\n", command),
+        server_process(domain, "time server ready: /microros_time\n", command) as server,
     ):
         for name, value in environment(domain).items():
             patch.setenv(name, value)
@@ -77,3 +77,5 @@ def test_firmware_follows_pause_and_jumps(
             assert output.next("tick") == 20_100
             set_time(END_S)
             ends_well(process)
+        server.terminate()  # what is killed leaves its shared memory to the next process with its ports
+        assert server.wait(seconds(15)) == 0

@@ -14,7 +14,7 @@ import pytest
 
 from tests.support.agent.process import environment, own_domain
 from tests.support.e2e.server_process import server_process
-from tests.support.patience import deadline
+from tests.support.patience import deadline, seconds
 
 pytestmark = pytest.mark.ros
 READY = "time server ready: /microros_time\n"
@@ -51,7 +51,7 @@ class Node:
 def node() -> Iterator[Node]:
     domain = own_domain()
     with (
-        server_process(domain, READY, (*COMMAND, "--start", "100", "--paused")),
+        server_process(domain, READY, (*COMMAND, "--start", "100", "--paused")) as server,
         subprocess.Popen(
             [sys.executable, "-m", "tests.support.time_server.simulated"],
             env=environment(domain),
@@ -64,6 +64,8 @@ def node() -> Iterator[Node]:
             yield Node(process)
         finally:
             process.kill()
+            server.terminate()
+            assert server.wait(seconds(15)) == 0
 
 
 def test_pause_speed_and_jumps(node: Node) -> None:
