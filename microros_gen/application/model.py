@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import field
 from fractions import Fraction
+from pathlib import Path
 
 from microros_gen.application.action_decl import ActionClientDecl, ActionDecl
 from microros_gen.application.diagnosis_decl import DiagnosisDecl
@@ -113,7 +114,7 @@ class EndpointDecl:
     @property
     def exists_at_agent(self) -> bool:
         """Whether an agent knows it."""
-        return "only" not in (self.local, self.peer)
+        return "only" not in (self.local, self.peer) and self.local != "chip"
 
     @property
     def takes_handle(self) -> bool:
@@ -315,6 +316,21 @@ class SessionTimes:
 
 
 @dataclass(frozen=True)
+class ChipImage:
+    """The other image of this one's chip: the board that it is in the system, and its application.
+
+    `position`: whether this one is the chip's first (0) or second image.
+    `hashes`: of the types that its own interface files define, by name. `files` were read for it.
+    """
+
+    board: str
+    position: int
+    application: Application
+    hashes: Mapping[str, str]
+    files: tuple[Path, ...]
+
+
+@dataclass(frozen=True)
 class Application:
     """The whole file. `interfaces` are `pkg` or `pkg/msg/Type`.
 
@@ -323,7 +339,8 @@ class Application:
     best effort. `clock` (steady, ros) is an axis like `entities` and `liveliness`. `interface_paths` are relative to
     the file. `implied` are the endpoints of the library itself where there are no nodes (with nodes they are among
     their endpoints), `endpoints` what the file changes of those. `spans` holds the places of top-level keys and of
-    the keys of `pools` (as `pools.history`), for later steps. `links` are those of this board in its `system`.
+    the keys of `pools` (as `pools.history`), for later steps. `links` are those of this board in its `system`,
+    `chip` the image that has the other core there.
     """
 
     distro: str = "jazzy"
@@ -355,4 +372,5 @@ class Application:
     system: SystemRef | None = None
     links: tuple[Link, ...] = ()
     tasks: tuple[TaskDecl, ...] = ()
+    chip: ChipImage | None = None
     spans: Mapping[str, Span] = field(default_factory=dict)

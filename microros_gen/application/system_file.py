@@ -34,10 +34,14 @@ class LinkDecl:
 
 @dataclass(frozen=True)
 class SystemFile:
-    """`boards`: the path of the application file of each, relative to the system file."""
+    """`boards`: the path of the application file of each, relative to the system file.
+
+    `chips`: pairs of boards that are images of one chip.
+    """
 
     boards: Mapping[str, Named]
     links: tuple[LinkDecl, ...]
+    chips: tuple[tuple[Named, ...], ...] = ()
 
 
 @reads
@@ -54,7 +58,9 @@ def parse_system(source: Source, diagnostics: Diagnostics) -> SystemFile | None:
         }
         links = tuple(_link(item, boards, found) for item in items(child(tree, "links")))
         _check_twins(links, found)
-        system = SystemFile(boards, links)
+        chips = tuple(_chip(item, boards, found) for item in items(child(tree, "chips")))
+        _check_chips(chips, found)
+        system = SystemFile(boards, links, chips)
     diagnostics.extend(found)
     return None if found.has_errors() else system
 
@@ -79,10 +85,7 @@ def _link(item: YamlNode, boards: Mapping[str, Named], diagnostics: Diagnostics)
         message = f"a link joins two boards; this one has {len(ends)} ends"
         diagnostics.error(message, ends[2].key_span, "Write a link for each pair of boards", id="MG-3192")
     for end in ends:
-        if end.key not in boards:
-            hint = nearest(end.key, boards) or f"Available: {', '.join(sorted(boards))}"
-            message = f"the system has no board '{end.key}'"
-            diagnostics.error(message, end.key_span, hint, id="MG-3191")
+        _check_board(end.key, end.key_span, boards, diagnostics)
         if kind == "udp" and address_of(text_of(end.value) or "") is None:
             message = f"'{text_of(end.value)}' is no IPv4 or IPv6 address with a port"
             diagnostics.error(message, end.value.span, "Write it as 192.168.1.20:7500", id="MG-3193")
@@ -93,6 +96,35 @@ def _link(item: YamlNode, boards: Mapping[str, Named], diagnostics: Diagnostics)
         history=int_of(child(item, "history")) or DEFAULT_HISTORY,
         span=item.span,
     )
+
+
+def _check_board(name: str, span: Span | None, boards: Mapping[str, Named], diagnostics: Diagnostics) -> None:
+    if name not in boards:
+        hint = nearest(name, boards) or f"Available: {', '.join(sorted(boards))}"
+        diagnostics.error(f"the system has no board '{name}'", span, hint, id="MG-3191")
+
+
+def _chip(item: YamlNode, boards: Mapping[str, Named], diagnostics: Diagnostics) -> tuple[Named, ...]:
+    images = tuple(named for image in items(item) if (named := named_of(image)) is not None)
+    for image in images:
+        _check_board(image.name, image.span, boards, diagnostics)
+    if len(images) != 2:
+        message = f"a chip has two images; this one has {len(images)}"
+        diagnostics.error(message, item.span, "Name the two boards that share a memory", id="MG-3199")
+    return images
+
+
+def _check_chips(chips: tuple[tuple[Named, ...], ...], diagnostics: Diagnostics) -> None:
+    """Report a board that is named twice."""
+    seen: dict[str, Named] = {}
+    for image in (image for chip in chips for image in chip):
+        first = seen.setdefault(image.name, image)
+        if first is not image:
+            where = f", first in line {first.span.line}" if first.span else ""
+            message = f"the board '{image.name}' is named twice in `chips`{where}"
+            diagnostics.error(
+                message, image.span, "Name it once: it shares a memory with one other", id="MG-3198"
+            )
 
 
 def _check_twins(links: tuple[LinkDecl, ...], diagnostics: Diagnostics) -> None:

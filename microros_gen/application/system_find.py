@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from microros_gen.application.find import APPLICATION_FILE
-from microros_gen.application.model import Application, EndpointDecl, NodeDecl
+from microros_gen.application.model import Application, ChipImage, EndpointDecl, NodeDecl
 from microros_gen.application.names import expand_topic_name
 from microros_gen.application.parser import parse_application
 from microros_gen.application.system_decl import Link, PeerEnd, SystemRef
@@ -26,7 +26,7 @@ PEER_KINDS = ("publisher", "subscription")
 def with_system(
     application: Application, config: Path | None, near: Path, diagnostics: Diagnostics
 ) -> tuple[Application, Mapping[str, Source]]:
-    """Return the application with the links of its board, and the files that were read for them, by name.
+    """Return the application with the links and the chip of its board, and the files that were read for them, by name.
 
     What the other applications say wrong is an error at its place there.
     """
@@ -50,7 +50,10 @@ def with_system(
             if linked is not None:
                 links.append(linked[0])
                 files[f"{linked[0].board}: {Path(linked[1].name).name}"] = linked[1]
-    return replace(application, links=tuple(links)), files
+    image = _image(reference.board.name, system, path, diagnostics)
+    if image is not None:
+        files[f"{image[0].board}: {Path(image[1].name).name}"] = image[1]
+    return replace(application, links=tuple(links), chip=image[0] if image else None), files
 
 
 def system_paths(application: Application, near: Path) -> Iterator[Path]:
@@ -59,6 +62,8 @@ def system_paths(application: Application, near: Path) -> Iterator[Path]:
         yield near / application.system.file.name
     for link in application.links:
         yield from link.files
+    if application.chip is not None:
+        yield from application.chip.files
 
 
 def peer_ends(application: Application) -> Iterator[tuple[int, EndpointDecl, PeerEnd]]:
@@ -113,13 +118,10 @@ def _link(
     link: LinkDecl, position: int, system: SystemFile, path: Path, diagnostics: Diagnostics
 ) -> tuple[Link, Source] | None:
     board, place = link.ends[1 - position]
-    named = system.boards[board]
-    file = path.parent / named.name
-    source = _read(file, "application file", named.span, diagnostics)
-    other = parse_application(source, diagnostics) if source else None
-    if source is None or other is None:
+    found = _other(board, system, path, diagnostics)
+    if found is None:
         return None
-    _check_names_system(other, board, named, file, path, diagnostics)
+    other, source, file = found
     ends = tuple(end for _, _, end in peer_ends(other))
     hashes, files = _hashes(other, ends, file.parent, diagnostics)
     linked = Link(
@@ -139,6 +141,43 @@ def _link(
         client_key=client_key(other),
     )
     return linked, source
+
+
+def _other(
+    board: str, system: SystemFile, path: Path, diagnostics: Diagnostics
+) -> tuple[Application, Source, Path] | None:
+    """Return the application of another board, and its file."""
+    named = system.boards[board]
+    file = path.parent / named.name
+    source = _read(file, "application file", named.span, diagnostics)
+    other = parse_application(source, diagnostics) if source else None
+    if source is None or other is None:
+        return None
+    _check_names_system(other, board, named, file, path, diagnostics)
+    return other, source, file
+
+
+def _image(
+    board: str, system: SystemFile, path: Path, diagnostics: Diagnostics
+) -> tuple[ChipImage, Source] | None:
+    """Return the other image of the chip that a board is an image of."""
+    chip = next((names for chip in system.chips if board in (names := [i.name for i in chip])), None)
+    if chip is None:
+        return None
+    position = chip.index(board)
+    name = chip[1 - position]
+    found = _other(name, system, path, diagnostics)
+    if found is None:
+        return None
+    other, source, file = found
+    ends = tuple(
+        _end(node, e)
+        for node in other.nodes
+        for e in node.endpoints
+        if e.kind in PEER_KINDS and e.local == "chip"
+    )
+    hashes, files = _hashes(other, ends, file.parent, diagnostics)
+    return ChipImage(name, position, other, hashes, (file, *files)), source
 
 
 def _check_names_system(

@@ -199,7 +199,7 @@ def test_interface_files_that_differ(tmp_path: Path) -> None:
             "a link joins two boards; this one has 3 ends",
         ),
         (SYSTEM.replace("udp,", "udp, mtu: 20,"), "must be a whole number of bytes between 64 and 16384"),
-        (SYSTEM[: SYSTEM.index("links")], "missing key 'links'"),
+        (SYSTEM[: SYSTEM.index("links")], "no link of the system ends at the board 'sensor'"),
     ],
 )
 def test_faults_of_a_system_file(tmp_path: Path, system: str, words: str) -> None:

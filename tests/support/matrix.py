@@ -14,7 +14,7 @@ from microros_gen import compiler
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.toolchain.toolchain import WARNINGS
 from tests.support.paths import ROOT
-from tests.support.quality.corpus import APPLICATIONS, EVERY_PARAMETER, OTHER_BOARD, SYSTEMS
+from tests.support.quality.corpus import APPLICATIONS, EVERY_PARAMETER, OTHERS, SYSTEMS
 
 DEMO = ROOT / "examples" / "demo" / "microros.yaml"
 
@@ -91,7 +91,7 @@ busy:
 
 def _of_numbers(application: str) -> str:
     """Return a board of the corpus with the messages that other variants here have, too."""
-    return application.replace("UInt8", "Int32")
+    return application.replace("UInt8", "Int32").replace("quality_msgs/msg/Tree", "std_msgs/msg/String")
 
 
 VARIANTS: Mapping[str, str] = MappingProxyType(
@@ -190,7 +190,7 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "    publishers: [{topic: far, type: std_msgs/msg/Int32}]\n"
         + "profiles: [pure_sender]\ncomponents: [+sleep_cycles]\ncreation: reliable\ntransport: {type: canfd, id: 7}\n"
         + "errors: code\n",
-        **{name: _of_numbers(APPLICATIONS[name]) for name in ("peer", "peer_serial")},
+        **{name: _of_numbers(APPLICATIONS[name]) for name in ("peer", "peer_serial", "local_chip")},
         "diagnosis": _BUSY
         + "    parameters: [{name: speed, type: double}]\n    modes: {SLOW: {speed: 0.5}}\n"
         + "    timers: [{name: tick, period: 50 ms}]\nprofiles: [managed_service]\n"
@@ -302,7 +302,7 @@ def make_tree(name: str, text: str, folder: Path) -> Tree:
     (folder / "rules.yaml").write_text(_RULES, encoding="utf-8")
     if name in SYSTEMS:
         (folder / "system.yaml").write_text(SYSTEMS[name], encoding="utf-8")
-        (folder / "other.yaml").write_text(_of_numbers(OTHER_BOARD), encoding="utf-8")
+        (folder / "other.yaml").write_text(_of_numbers(OTHERS[name]), encoding="utf-8")
     options = compiler.Options(config=config, interface_paths=(shipped_folder(),))
     out = compiler.generate(options, folder / "out").out
     return Tree(name, out)

@@ -41,7 +41,12 @@ def check_topics(context: PlanContext, diagnostics: Diagnostics) -> None:
     topics: dict[tuple[int, str], list[End]] = {}
     for kind in ("publisher", "subscription"):
         for index, (_, node, endpoint) in enumerate(declarations(context.application, kind)):
-            topics.setdefault((node.domain_id, full_name(node, endpoint)), []).append(End(index, endpoint))
+            if endpoint.local == "chip":
+                _check_qos(full_name(node, endpoint), End(index, endpoint), diagnostics)
+            else:
+                topics.setdefault((node.domain_id, full_name(node, endpoint)), []).append(
+                    End(index, endpoint)
+                )
     if all(end.local == "never" for node in context.application.nodes for end in node.endpoints):
         diagnostics.error(
             "the component 'local_delivery' is for endpoints with `local:`",

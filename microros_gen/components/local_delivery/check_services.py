@@ -45,7 +45,8 @@ def check_services(context: PlanContext, diagnostics: Diagnostics) -> None:
     for kind in SERVICE_KINDS:
         for index, (_, node, endpoint) in enumerate(declarations(context.application, kind)):
             ends = services.setdefault((node.domain_id, full_name(node, endpoint)), ([], []))
-            ends[kind == "client"].append(ServiceEnd(index, endpoint))
+            if endpoint.local != "chip":
+                ends[kind == "client"].append(ServiceEnd(index, endpoint))
     for (_, name), (servers, clients) in services.items():
         local = [end for end in (*servers, *clients) if end.endpoint.local != "never"]
         if local:

@@ -12,7 +12,9 @@ from microros_gen.client.plan.features import PlanContext
 from microros_gen.components.agentless.plan import in_c, is_alone
 from microros_gen.components.local_delivery.check import MOST_SLOTS, check_topics
 from microros_gen.components.local_delivery.check_services import SERVICE_SLOTS, check_services
+from microros_gen.components.local_delivery.check_shared import check_shared
 from microros_gen.components.local_delivery.copies import copy_lines, get_body, put_body
+from microros_gen.components.local_delivery.shared import IMAGE_WORDS, SharedRing, key_of, rings
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.derived import derived_name
 from microros_gen.interfaces.types import TypeName
@@ -126,6 +128,8 @@ class LocalPlan:
     """`queue_of`: of each receiver, as C.
 
     `server_of`: the queue of each client's server, as C, and an end. `services`: there is such a server.
+    `rings` are those of topics between two images, `ring_of`: of each endpoint, as C. `shared_image`:
+    whether this image is the first (0) or the second one of its chip.
     `copies` are functions that the queues call, as lines of C; `headers`: of the types and of their storage.
     """
 
@@ -136,7 +140,45 @@ class LocalPlan:
     routes: tuple[LocalRoute, ...]
     copies: tuple[str, ...]
     headers: tuple[str, ...]
+    rings: tuple[SharedRing, ...]
+    ring_of: tuple[str, ...]
+    shared_image: int
     shown: str
+
+    @property
+    def shared(self) -> bool:
+        """Return whether a topic leads to another image of the chip."""
+        return bool(self.rings)
+
+    @property
+    def hears(self) -> bool:
+        """Return whether messages of another image arrive."""
+        return any(not ring.sends for ring in self.rings)
+
+    @property
+    def shared_key(self) -> int:
+        """Return the number that both images have."""
+        return key_of(self.rings)
+
+    @property
+    def shared_own(self) -> int:
+        """Return where the words of this image are in the shared memory."""
+        return self.shared_image * IMAGE_WORDS
+
+    @property
+    def shared_other(self) -> int:
+        """Return where those of the other image are."""
+        return IMAGE_WORDS - self.shared_own
+
+    @property
+    def ring_count(self) -> int:
+        """Return the number of such topics."""
+        return len(self.rings)
+
+    @property
+    def ring_words(self) -> int:
+        """Return the size of the shared memory, words of 4 bytes."""
+        return max((ring.at + ring.slots * ring.words for ring in self.rings), default=0)
 
     @property
     def queue_count(self) -> int:
@@ -149,10 +191,14 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LocalPlan:
     application = context.application
     check_topics(context, diagnostics)
     check_services(context, diagnostics)
+    check_shared(context, diagnostics)
     queues = tuple(_queues(context))
     receivers = [_NONE] * sum(context.runtime.entities.places(kind.name).max for kind in RECEIVING)
     for queue in queues:
         receivers[queue.receiver] = str(queue.index)
+    shared = rings(context)
+    ring_of = {ring.endpoint: str(index) for index, ring in enumerate(shared)}
+    endpoints = context.runtime.entities.publisher_places + len(receivers)
     servers = tuple(_servers(context, queues))
     types = [queue.type for queue in queues]
     messages = {name: known.message for name, known in context.types.items()}
@@ -164,6 +210,9 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LocalPlan:
         routes=tuple(_routes(context, queues)),
         copies=copy_lines(types, messages),
         headers=tuple(sorted({h for name in types for h in _headers(context.types[name])})),
+        rings=shared,
+        shared_image=application.chip.position if application.chip else 0,
+        ring_of=tuple(ring_of.get(place, _NONE) for place in range(endpoints)),
         shown=_shown(application, is_alone(application)),
     )
 
@@ -174,6 +223,7 @@ def record(part: LocalPlan) -> object:
         "queues": [[q.receiver, q.slots] for q in part.queues],
         "routes": [[list(r.queues), r.only] for r in part.routes],
         "servers": list(part.server_of),
+        "rings": [part.shared_key, part.shared_image, [ring.endpoint for ring in part.rings]],
     }
 
 
@@ -197,7 +247,7 @@ def _queues(context: PlanContext) -> Iterable[LocalQueue]:
             yield LocalQueue(
                 *(index, kind.name, place, topic, name, types[name].c_name),
                 *(_slots(kind, endpoint), storage, put_body(name, messages, slot)),
-                *(get_body(name, messages, slot), in_c(endpoint.local == "only")),
+                *(get_body(name, messages, slot), in_c(endpoint.local != "also")),
             )
             index += 1
         first += context.runtime.entities.places(kind.name).max
@@ -261,7 +311,7 @@ def _shown(application: Application, alone: bool) -> str:
     """Return what a report says: the topics, and of each whether its messages leave the image."""
     words = {
         full_name(node, endpoint): f"{full_name(node, endpoint)} ({endpoint.local})"
-        for _, node, endpoint in declarations(application, "subscription", "service")
-        if endpoint.local != "never"
+        for _, node, endpoint in declarations(application, "publisher", "subscription", "service")
+        if endpoint.local == "chip" or (endpoint.local != "never" and endpoint.kind != "publisher")
     }
     return ", ".join(words.values()) + ("; no agent is needed" if alone else "")

@@ -108,23 +108,45 @@ _PEER = (
     "    subscriptions:\n"
     "      - {topic: /answer, type: std_msgs/msg/UInt8, peer: only, qos: {reliability: best_effort}, queue: 1}\n"
 )
-SYSTEM = "version: 1\nboards: {own: {application: microros.yaml}, other: {application: other.yaml}}\nlinks:\n"
-OTHER_BOARD = (
-    _PEER.replace("own", "other")
-    .replace("publishers", "subscriptions_")
-    .replace("subscriptions:", "publishers:")
-    .replace("subscriptions_", "subscriptions")
-    .replace(", queue: 1", "")
+_CHIP = (
+    "version: 1\nprofiles: [pure_sender, pure_reader]\nsystem: {file: system.yaml, board: own}\n"
+    "limits: {'*': {string: 12, sequence: 3}}\nnodes:\n  - name: probe\n    publishers:\n"
+    "      - {topic: to, type: quality_msgs/msg/Tree, local: chip}\n"
+    "      - {topic: best, type: std_msgs/msg/UInt8, local: chip, qos: {reliability: best_effort}}\n"
+    "    subscriptions:\n"
+    "      - {topic: fro, type: quality_msgs/msg/Tree, local: chip, queue: 2}\n"
 )
+SYSTEM = "version: 1\nboards: {own: {application: microros.yaml}, other: {application: other.yaml}}\nlinks:\n"
+
+
+def _other(text: str) -> str:
+    """Return the application of the other board, which has the other ends."""
+    return (
+        text.replace("own", "other")
+        .replace("publishers", "subscriptions_")
+        .replace("subscriptions:", "publishers:")
+        .replace("subscriptions_", "subscriptions")
+        .replace(", queue: 1", "")
+        .replace(", queue: 2", "")
+    )
+
+
 SYSTEMS: Mapping[str, str] = MappingProxyType(
     {
         "peer": SYSTEM + '  - {type: udp, ends: {own: "10.0.0.1:7500", other: "10.0.0.2:7500"}}\n',
         "peer_also": SYSTEM + '  - {type: udp, ends: {other: "10.0.0.1:7500", own: "10.0.0.2:7500"}}\n',
         "peer_serial": SYSTEM + "  - {type: serial, ends: {own: /dev/ttyS1, other: uart}}\n",
         "peer_board": SYSTEM + "  - {type: serial, ends: {own: uart, other: uart}}\n",
+        "local_chip": SYSTEM.replace("links:", "chips: [[own, other]]"),
+        "local_chip_tasks": SYSTEM.replace("links:", "chips: [[other, own]]"),
     }
 )
-"""The system files of applications that have one; OTHER_BOARD is the application of their other board."""
+"""The system files of applications that have one."""
+
+OTHERS: Mapping[str, str] = MappingProxyType(
+    {name: _other(_CHIP if name.startswith("local") else _PEER) for name in SYSTEMS}
+)
+"""The applications of their other boards."""
 
 APPLICATIONS: Mapping[str, str] = MappingProxyType(
     {
@@ -304,6 +326,8 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "lifecycle": _NODES + _SURE + "components: [+lifecycle, +multithread]\n",
         "local": _LOCAL,
         "local_services": _LOCAL_SERVICES,
+        "local_chip": _CHIP,
+        "local_chip_tasks": _CHIP + "components: [+multithread, +executor]\nerrors: code\n",
         "local_also": _LOCAL.replace("local: only", "local: also", 1)
         + "components: [+multithread]\nerrors: code\n",
         "peer": _PEER,
@@ -394,7 +418,7 @@ def make_tree(name: str, folder: Path) -> Tree:
     (place / "parameters.yaml").write_text(PARAMETER_FILE, encoding="utf-8")
     if name in SYSTEMS:
         (place / "system.yaml").write_text(SYSTEMS[name], encoding="utf-8")
-        (place / "other.yaml").write_text(OTHER_BOARD, encoding="utf-8")
+        (place / "other.yaml").write_text(OTHERS[name], encoding="utf-8")
     options = compiler.Options(
         config=place / "microros.yaml", interface_paths=(INTERFACES / "quality_msgs", shipped_folder())
     )

@@ -6,6 +6,7 @@
 #include "microros/rmw_encode.h"
 #include "microros/rmw_local_deliver.h"
 #include "microros/rmw_local_publish.h"
+#include "microros/rmw_local_shared.h"
 #include "microros/rmw_local_wake.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_drops.h"
@@ -47,7 +48,7 @@ static bool local_may(const xrce_endpoint_t * writer, const rmw_local_route_t * 
 
 bool rmw_local_has_route(const xrce_endpoint_t * writer)
 {
-  return rmw_local_routes[writer->index].deliver != NULL;
+  return rmw_local_routes[writer->index].deliver != NULL || rmw_shared_has_ring(writer);
 }
 
 bool rmw_local_publish(const xrce_endpoint_t * writer, const void * message, rmw_ret_t * result)
@@ -55,6 +56,10 @@ bool rmw_local_publish(const xrce_endpoint_t * writer, const void * message, rmw
   const rmw_local_route_t * route = &rmw_local_routes[writer->index];
   cdr_fault_t fault; /* set if the message is refused */
 
+  if (rmw_shared_has_ring(writer)) {
+    *result = rmw_shared_publish(writer, message);
+    return true;
+  }
   *result = RMW_RET_OK;
   if (!local_may(writer, route)) {
     return route->only;
@@ -75,6 +80,10 @@ bool rmw_local_publish_body(
   const rmw_local_route_t * route = &rmw_local_routes[writer->index];
   xrce_client_t * client = writer->client;
 
+  if (rmw_shared_has_ring(writer)) {
+    *result = rmw_shared_publish_body(writer, body, size);
+    return true;
+  }
   *result = RMW_RET_OK;
   if (!local_may(writer, route)) {
     return route->only;

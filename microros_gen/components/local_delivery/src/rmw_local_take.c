@@ -6,6 +6,7 @@
 #include "microros/rmw_client.h"
 #include "microros/rmw_encode.h"
 #include "microros/rmw_local.h"
+#include "microros/rmw_local_shared.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_read.h"
 #include "microros/xrce_wire.h"
@@ -23,7 +24,8 @@ bool rmw_local_is_ready(const xrce_endpoint_t * reader)
 {
   const uint8_t index = rmw_local_queue_of[reader->index - MICROROS_PUBLISHERS_MAX];
 
-  return index != (uint8_t)RMW_LOCAL_NONE && rmw_local_states[index].count != 0u;
+  return (index != (uint8_t)RMW_LOCAL_NONE && rmw_local_states[index].count != 0u) ||
+         rmw_shared_is_wrong(reader);
 }
 
 bool rmw_local_may_wait(const xrce_endpoint_t * reader)
@@ -87,6 +89,10 @@ bool rmw_local_take(const xrce_endpoint_t * reader, void * message, rmw_ret_t * 
   const rmw_local_queue_t * queue;
   rmw_local_state_t * state;
 
+  if (rmw_shared_is_wrong(reader)) {
+    *result = rmw_shared_report(reader);
+    return true;
+  }
   if (index == (uint8_t)RMW_LOCAL_NONE) {
     return false;
   }
@@ -127,6 +133,10 @@ bool rmw_local_take_serialized(
   const rmw_local_queue_t * queue;
   rmw_local_state_t * state;
 
+  if (rmw_shared_is_wrong(reader)) {
+    *result = rmw_shared_report(reader);
+    return true;
+  }
   if (index == (uint8_t)RMW_LOCAL_NONE) {
     return false;
   }

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Two images of one chip, here two processes with a file as the memory that both have."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from pathlib import Path
+
+from tests.support.components.rendered import SANITIZE, UNITS, rendered
+from tests.support.e2e.commanded import CommandedProgram
+from tests.support.runtime.harness import SANITIZER, Tree, compile_merged, link
+
+SYSTEM = """\
+version: 1
+boards:
+  first: {application: first/microros.yaml}
+  second: {application: second/microros.yaml}
+chips:
+  - [first, second]
+"""
+HEAD = """\
+version: 1
+profiles: [pure_sender, pure_reader]
+components: [+executor]
+limits: {"*": {string: 12}}
+"""
+PING, PONG = "topic: ping, type: std_msgs/msg/String", "topic: pong, type: std_msgs/msg/Int32"
+CHIP = "local: chip, qos: {depth: 2}"
+
+
+def _application(board: str, sent: str, received: str) -> str:
+    return f"""\
+{HEAD}system: {{file: ../system.yaml, board: {board}}}
+nodes:
+  - name: {board}
+    publishers: [{{{sent}, {CHIP}}}]
+    subscriptions: [{{{received}, {CHIP}}}]
+"""
+
+
+FIRST, SECOND = _application("first", PING, PONG), _application("second", PONG, PING)
+
+TOPICS = """\
+version: 1
+profiles: [pure_sender, pure_reader]
+components: [+executor]
+limits: {"*": {string: 40}}
+system: {file: ../system.yaml, board: OWN}
+nodes:
+  - name: OWN
+    publishers:
+      - {topic: /OWN/best, type: std_msgs/msg/String, local: chip, qos: {depth: 3, reliability: best_effort}}
+      - {topic: /OWN/sure, type: std_msgs/msg/String, local: chip, qos: {depth: 3}}
+    subscriptions:
+      - topic: /OTHER/best
+        type: std_msgs/msg/String
+        local: chip
+        qos: {depth: 3, reliability: best_effort}
+        queue: 8
+      - {topic: /OTHER/sure, type: std_msgs/msg/String, local: chip, qos: {depth: 3}, queue: 8}
+"""
+BOARDS = ("first", "second")
+
+
+def written(folder: Path, system: str = SYSTEM, first: str = FIRST, second: str = SECOND) -> Path:
+    """Write a system and the applications of its two images; return the folder."""
+    (folder / "system.yaml").write_text(system)
+    for board, text in (("first", first), ("second", second)):
+        (folder / board).mkdir(parents=True, exist_ok=True)
+        (folder / board / "microros.yaml").write_text(text)
+    return folder
+
+
+def program(folder: Path, own: str, text: str = TOPICS) -> Path:
+    """Build the image `own` of a system whose images have the application `text`."""
+    first, second = (text.replace("OWN", a).replace("OTHER", b) for a, b in (BOARDS, BOARDS[::-1]))
+    home = folder / f"of_{own}"
+    home.mkdir()
+    written(home, SYSTEM, first, second)
+    out = rendered(home / own, (home / own / "microros.yaml").read_text())
+    flags = (*SANITIZE, f'-DOWN="{own}"', f'-DOTHER="{BOARDS[1 - BOARDS.index(own)]}"')
+    sources = sorted((out / "src").rglob("*.c"))
+    objects = compile_merged(Tree(out, ()), sources, [UNITS / "shared_image.c"], SANITIZER, flags)
+    return link(objects, SANITIZER, flags, out / "unit")
+
+
+class Image(CommandedProgram):
+    """A process that is an image."""
+
+    def __init__(self, program: Path, memory: Path) -> None:
+        self.process = subprocess.Popen(
+            [program],
+            env={**os.environ, "MICROROS_SHARED": str(memory)},
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        super().__init__(self.process)
+
+    def __enter__(self) -> Image:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.kill()
+
+    def publish(self, topic: int, text: str, how: str = "publish") -> str:
+        """Publish; return the error text, empty for none."""
+        return self.call(f"{how} {topic} {text}")[1]
+
+    def spin(self, milliseconds: int = 2) -> list[str]:
+        """Return what it hears, and what the executor reports."""
+        return self.call(f"spin {milliseconds}")[2]
+
+    def counts(self, command: str) -> dict[str, int]:
+        """Return the numbers that a command prints, by their names."""
+        return {name: int(count) for name, count in (line.split() for line in self.call(command)[2])}
+
+    def kill(self) -> None:
+        """End it as if it lost its supply."""
+        self.process.kill()
+        self.process.communicate()
