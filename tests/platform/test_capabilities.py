@@ -20,6 +20,7 @@ _OF_OTHERS = {
     ("session", "wake"): "executor",
     ("session", "lock"): "multithread",
     ("multithread", "wake"): "executor",
+    ("peer", "wake"): "executor",
 }
 _OF_THE_PLAN = {
     "support": {"port_unique_id"},
