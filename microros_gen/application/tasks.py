@@ -30,8 +30,8 @@ LONGEST_US = 1_000_000_000
 MOST_TASKS = 30
 """Tasks of an application besides that of the session."""
 
-_TIMES = ("period", "interval", "deadline", "time")
-_OF_EXECUTORS = ("rate", "period", "interval", "time", "overrun")
+_TIMES = ("period", "interval", "deadline", "time", "lock")
+_OF_EXECUTORS = ("rate", "period", "overrun")
 
 
 def parse_tasks(
@@ -69,6 +69,7 @@ def _task(item: YamlNode, nodes: Sequence[NodeDecl], diagnostics: Diagnostics) -
         deadline_us=times["deadline"],
         criticality=text_of(child(item, "criticality")) or "",
         time_us=times["time"],
+        lock_us=times["lock"],
         overrun=text_of(child(item, "overrun")) or TaskDecl.overrun,
         stack=size_of(child(item, "stack")),
         priority=int_of(child(item, "priority")) or 0,
@@ -152,6 +153,13 @@ def _check_times(item: YamlNode, task: TaskDecl, diagnostics: Diagnostics) -> No
         message = f"the task '{task.name}' runs {task.time_us} us, longer than its deadline of {deadline} us"
         hint = f"Write time: {deadline} us or less, or a later deadline"
         diagnostics.error(message, span_of(child(item, "time")), hint, id="MG-3229")
+    if task.lock_us and not task.time_us:
+        message = f"'lock' of the task '{task.name}' has no effect without 'time', its longest execution time"
+        diagnostics.error(message, span_of(child(item, "lock")), "Add `time`, or remove it", id="MG-3235")
+    elif task.lock_us > task.time_us:
+        message = f"the task '{task.name}' holds the lock for {task.lock_us} us, longer than it runs"
+        hint = f"Write lock: {task.time_us} us or less"
+        diagnostics.error(message, span_of(child(item, "lock")), hint, id="MG-3236")
 
 
 def _check_runners(tasks: Sequence[TaskDecl], nodes: Sequence[NodeDecl], diagnostics: Diagnostics) -> None:

@@ -11,6 +11,9 @@ from microros_gen.schedule.report import blocked_by
 from microros_gen.schedule.response import Response, analyze, utilization
 from microros_gen.schedule.task import Task
 
+INTERVAL = "interval"
+"""What the period of a task is called that no clock releases."""
+
 
 def check_deadlines(
     tasks: Sequence[Task], places: Mapping[str, Span], diagnostics: Diagnostics
@@ -24,7 +27,7 @@ def check_deadlines(
         if response.meets:
             continue
         name, span = response.task.name, places.get(response.task.name)
-        hint = _hint(remedies(tasks, name), name)
+        hint = _hint(remedies(tasks, name), tasks, name)
         if response.overloaded:
             load = utilization([r.task for r in responses[: index + 1]]) * 1000
             tenths = -(-load.numerator // load.denominator)
@@ -55,12 +58,14 @@ def _parts(response: Response) -> str:
     return "; ".join(parts)
 
 
-def _hint(found: Sequence[Remedy], name: str) -> str:
+def _hint(found: Sequence[Remedy], tasks: Sequence[Task], name: str) -> str:
     if not found:
         return "No number of one task is enough: give several tasks less time or longer periods"
     texts = []
+    by_interval = {task.name for task in tasks if task.sporadic or task.session}
     for remedy in found:
         of = "" if remedy.task == name else f" of '{remedy.task}'"
         direction = "more" if remedy.what in (PERIOD, DEADLINE) else "less"
-        texts.append(f"`{remedy.what}: {remedy.value_us} us`{of} or {direction}")
+        what = INTERVAL if remedy.what == PERIOD and remedy.task in by_interval else remedy.what
+        texts.append(f"`{what}: {remedy.value_us} us`{of} or {direction}")
     return f"Write {', or '.join(texts)}"

@@ -5,18 +5,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 
 from microros_gen.records import dataclass
+from microros_gen.schedule.priorities import by_priority
 from microros_gen.schedule.response import meeting
 from microros_gen.schedule.task import LONGEST_US, Task
 
-PERIOD, DEADLINE, TIME = "period", "deadline", "time"
+PERIOD, DEADLINE, TIME, LOCK = "period", "deadline", "time", "lock"
 """What a remedy changes."""
 
 
 @dataclass(frozen=True)
 class Remedy:
-    """With `value_us` as `what` of `task` the deadline is met: the smallest period or deadline, or the largest time."""
+    """With `value_us` as `what` of `task` the deadline is met.
+
+    This is the smallest period or deadline, the largest time, or the longest time for which it holds a lock.
+    """
 
     task: str
     what: str
@@ -26,14 +31,30 @@ class Remedy:
 def remedies(tasks: Sequence[Task], late: str) -> tuple[Remedy, ...]:
     """Return what makes the task `late` meet its deadline, and none miss it that meets it now.
 
-    These are changes of the task itself; where none of them is enough, those of the other tasks. Each number is exact:
-    the next smaller period or deadline, or the next larger time, is not enough. A deadline above the period is proposed
-    only where the task has one. Priorities follow from the numbers again. Empty: no number alone is enough.
+    These are changes of the task itself; where none of them is enough, those of the other tasks; and locks that tasks
+    of lower priority hold for less time. Each number is exact: the next smaller period or deadline, or the next larger
+    time, is not enough. A deadline above the period is proposed only where the task has one. A lock that is held as
+    long as the task runs stays so with less time. Priorities follow from the numbers again. Empty: no number alone is
+    enough.
     """
     own = tuple(_changes(tasks, late, late))
-    if own:
-        return own
-    return tuple(remedy for task in tasks if task.name != late for remedy in _changes(tasks, task.name, late))
+    others = (remedy for task in tasks if task.name != late for remedy in _changes(tasks, task.name, late))
+    return (*(own or others), *_locks(tasks, late))
+
+
+def _locks(tasks: Sequence[Task], late: str) -> Iterator[Remedy]:
+    kept = meeting(tasks) | {late}
+    order = by_priority(tasks)
+    index = next(i for i, task in enumerate(order) if task.name == late)
+    for task in order[index + 1 :]:
+        longest = max((section.time_us for section in task.sections), default=0)
+        most = _largest(partial(_fits_holding, tasks, task, kept), 1, longest - 1)
+        if most is not None:
+            yield Remedy(task.name, LOCK, most)
+
+
+def _fits_holding(tasks: Sequence[Task], changed: Task, kept: frozenset[str], most_us: int) -> bool:
+    return kept <= meeting([_holding(task, most_us) if task is changed else task for task in tasks])
 
 
 def _changes(tasks: Sequence[Task], changed: str, late: str) -> Iterator[Remedy]:
@@ -57,10 +78,20 @@ def _changes(tasks: Sequence[Task], changed: str, late: str) -> Iterator[Remedy]
         )
         if deadline is not None:
             yield Remedy(changed, DEADLINE, deadline)
-    longest = max((section.time_us for section in task.sections), default=1)
-    time = _largest(lambda value: fits(replace(task, time_us=value)), longest, task.time_us - 1)
+    longest = max((s.time_us for s in task.sections if s.time_us < task.time_us), default=1)
+    time = _largest(lambda value: fits(_shorter(task, value)), longest, task.time_us - 1)
     if time is not None:
         yield Remedy(changed, TIME, time)
+
+
+def _shorter(task: Task, time_us: int) -> Task:
+    return replace(_holding(task, time_us), time_us=time_us)
+
+
+def _holding(task: Task, most_us: int) -> Task:
+    """Return a task that holds each lock for at most `most_us`."""
+    sections = (replace(section, time_us=min(section.time_us, most_us)) for section in task.sections)
+    return replace(task, sections=tuple(sections))
 
 
 def _spans(first: int, last: int, marks: Sequence[int]) -> Iterator[tuple[int, int]]:

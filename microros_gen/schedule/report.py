@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
-from microros_gen.schedule.response import Response
+from microros_gen.schedule.response import Blocker, Interference, Response
+from microros_gen.schedule.task import BANDS, MIDDLE, SESSION, Task
 
 HEAD = ("TASK", "BAND", "PRIORITY", "T", "C", "B", "R", "D", "SLACK", "BLOCKED BY")
 UNKNOWN = "-"
@@ -53,3 +55,30 @@ def schedule_data(responses: Sequence[Response]) -> list[dict[str, object]]:
         }
         for r in responses
     ]
+
+
+def schedule_of(data: Sequence[Mapping[str, Any]]) -> tuple[Response, ...]:
+    """Return the analysis whose schedule_data is `data`. KeyError, TypeError or ValueError: it is that of none.
+
+    The tasks have no sections: what they block is in the responses.
+    """
+    return tuple(_response(row) for row in data)
+
+
+def _response(row: Mapping[str, Any]) -> Response:
+    band = row["band"]
+    if band not in (*BANDS, SESSION):
+        raise ValueError(f"no band '{band}'")
+    held = tuple(Blocker(b["task"], b["lock"], b["time"]) for b in row["blocked_by"])
+    task = Task(
+        row["task"],
+        row["t"],
+        row["c"],
+        MIDDLE if band == SESSION else band,
+        deadline_us=row["d"],
+        jitter_us=row["j"],
+        blocking_us=row["b"] - sum(blocker.time_us for blocker in held),
+        session=band == SESSION,
+    )
+    delayed = tuple(Interference(i["task"], i["times"], i["time"]) for i in row["delayed_by"])
+    return Response(task, row["priority"], row["b"], held, row["r"], row["overloaded"], delayed)

@@ -7,12 +7,18 @@ import json
 import socket
 import subprocess
 import threading
+from dataclasses import replace
 from pathlib import Path
+from random import Random
 
 import pytest
 
-from microros_gen.components.tasks.plan import TasksPlan
+from microros_gen.application.task_decl import CRITICALITIES, TaskDecl
+from microros_gen.components.tasks.analysis import gaps, task_of
+from microros_gen.components.tasks.plan import TasksPlan, priorities_of
 from microros_gen.diagnostics import UserError
+from microros_gen.documents.named import Named
+from microros_gen.schedule.priorities import by_priority
 from tests.support.components.rendered import SANITIZE, UNITS, planned, program_of, rendered, run
 from tests.support.ids import without_id
 from tests.support.patience import seconds
@@ -66,6 +72,13 @@ nodes:
 tasks:
   - {{name: control, executor: fast, rate: 100 Hz, overrun: call}}
   - {{name: worker, executor: slow, interval: 1 ms}}
+"""
+TIMES = """\
+tasks:
+  - {name: control, executor: a, rate: 1 kHz, deadline: 800 us, criticality: high, time: 200 us}
+  - {name: worker, executor: b, interval: 5 ms, time: 2 ms, lock: 40 us}
+  - {name: log, executor: c, interval: 50 ms, time: 3 ms, lock: 30 us, criticality: low}
+  - {name: line, session: true, interval: 1 ms, time: 100 us, lock: 60 us}
 """
 SENT, RECEIVED = 40, 20
 THREAD_SANITIZER = ("-std=gnu99", "-g", "-O0", "-fsanitize=thread", f"-I{UNITS}")
@@ -188,11 +201,84 @@ def test_a_stack_is_at_least_that_of_the_operating_system(tmp_path: Path) -> Non
         "deadline_us": 0,
         "criticality": "middle",
         "time_us": 0,
+        "lock_us": 0,
         "overrun": "skip",
         "stack": 300_008,
         "priority": 3,
         "level": 1,
     }
+
+
+def test_deadlines_that_are_met_are_in_the_report_and_the_manifest(tmp_path: Path) -> None:
+    part = tasks(tmp_path, TIMES)
+    assert part.analysis == "every deadline is met, control with the least slack: 540 us"
+    values = json.loads((rendered(tmp_path, HEAD + NODES + OTHER + TIMES) / "manifest.json").read_text())
+    rows = values["features"]["tasks"]["values"]["schedule"]
+    names = ("task", "band", "priority", "t", "c", "b", "r", "d", "slack")
+    assert [tuple(row[name] for name in names) for row in rows] == [
+        ("control", "high", 1, 1000, 200, 60, 260, 800, 540),
+        ("line", "session", 2, 1000, 100, 40, 340, 1000, 660),
+        ("worker", "middle", 3, 5000, 2000, 30, 2930, 5000, 2070),
+        ("log", "low", 4, 50_000, 3000, 0, 10_000, 50_000, 40_000),
+    ]
+    assert {t.name: t.priority for t in part.tasks} == {row["task"]: row["priority"] for row in rows}
+
+
+def test_a_deadline_that_cannot_be_met_is_refused_with_what_would_do(tmp_path: Path) -> None:
+    """Without `lock` a task may hold the library's lock as long as it runs."""
+    with pytest.raises(UserError) as caught:
+        tasks(tmp_path, TIMES.replace(", lock: 40 us", ""))
+    assert (
+        "microros.yaml:17:5: error: the task 'control' may end 2200 us after its release is due, and its deadline is"
+        " 800 us (time 200; blocking 2000: worker holds library for 2000 us)."
+    ) in without_id(str(caught.value))
+    assert "Write `interval: 2700 us` or more, or `lock: 700 us` of 'worker' or less" in str(caught.value)
+    assert "Write `time: 600 us` of 'worker' or less, or `lock: 600 us` of" in str(caught.value)
+    tasks(tmp_path, TIMES.replace("lock: 40 us", "lock: 600 us"))
+    with pytest.raises(UserError, match="the task 'control' may end 801 us"):
+        tasks(tmp_path, TIMES.replace("lock: 40 us", "lock: 601 us"))
+
+
+def test_tasks_of_which_something_is_not_said_are_named(tmp_path: Path) -> None:
+    text = TIMES.replace("interval: 5 ms, time: 2 ms, lock: 40 us", "time: 2 ms").replace("time: 200 us", "")
+    part = tasks(tmp_path, text)
+    assert part.analysis == "not analyzed: control has no time, worker has no interval"
+    assert part.schedule == []
+    assert tasks(tmp_path, THREADS).gaps[-1] == "session has no time and no interval"
+
+
+def test_what_is_analyzed_alone_does_not_change_the_library(tmp_path: Path) -> None:
+    text = TIMES.replace("time: 3 ms, lock: 30 us", "time: 4 ms, lock: 50 us")
+    first, second = (
+        planned(tmp_path, HEAD + NODES + OTHER + each).project.runtime.plan_id for each in (TIMES, text)
+    )
+    assert first == second
+
+
+def test_the_analysis_has_the_priorities_of_the_generated_tasks() -> None:
+    random, kinds = Random(3), set()
+    for _ in range(300):
+        count = random.randint(1, 6)
+        decls = [
+            TaskDecl(
+                f"t{i}",
+                None if i == count else Named(f"e{i}"),
+                period_us=0 if i == count else (period := random.choice([0, 1000, 2000, 3000])),
+                interval_us=1000 if i == count or not period else 0,
+                deadline_us=random.choice([0, 0, 500, 900]),
+                criticality=random.choice(["", *CRITICALITIES]),
+                time_us=random.randint(1, 900),
+            )
+            for i in range(count + 1)
+        ]
+        fixed = random.randrange(count + 1)
+        decls[fixed] = replace(decls[fixed], priority=random.choice([0, random.randint(1, count + 1)]))
+        assert gaps(decls) == ()
+        order = by_priority([task_of(decl) for decl in decls])
+        places = {task.name: place for place, task in enumerate(order, start=1)}
+        assert [places[decl.name] for decl in decls] == list(priorities_of(decls)), decls
+        kinds |= {task.band for task in order}
+    assert kinds == {"session", *CRITICALITIES}
 
 
 @pytest.mark.parametrize(
@@ -215,6 +301,12 @@ def test_a_stack_is_at_least_that_of_the_operating_system(tmp_path: Path) -> Non
             "{name: t, executor: a, period: 1 ms, time: 2 ms}",
             "runs 2000 us, longer than its deadline of 1000 us",
         ),
+        ("{name: t, executor: a, lock: 2 ms}", "'lock' of the task 't' has no effect without 'time'"),
+        (
+            "{name: t, executor: a, period: 1 ms, time: 200 us, lock: 300 us}",
+            "the task 't' holds the lock for 300 us, longer than it runs. Write lock: 200 us or less",
+        ),
+        ("{name: t, session: true, overrun: call}", "'overrun' has no effect for the task of the session"),
         ("{name: t, executor: a}\n- {name: T, executor: b}", "duplicate task 't'; the first is in line 16"),
         ("{name: t, executor: a}\n- {name: u, executor: a}", "two tasks run the executor 'a': 't' and 'u'"),
         ("{name: t, session: true}\n- {name: u, session: true}", "two tasks run the session: 't' and 'u'"),

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from random import Random
 
-from microros_gen.schedule.remedies import DEADLINE, PERIOD, TIME, Remedy, remedies
+from microros_gen.schedule.remedies import DEADLINE, LOCK, PERIOD, TIME, Remedy, remedies
 from microros_gen.schedule.response import meeting
 from microros_gen.schedule.task import HIGH, Section, Task
 from tests.support.ticks import random_tasks
@@ -18,8 +18,14 @@ MOST = 150
 CHANGES: dict[str, Callable[[Task, int], Task]] = {
     PERIOD: lambda task, value: replace(task, period_us=value),
     DEADLINE: lambda task, value: replace(task, deadline_us=value),
-    TIME: lambda task, value: replace(task, time_us=value),
+    TIME: lambda task, value: replace(task, time_us=value, sections=shorter(task, value, task.time_us)),
+    LOCK: lambda task, value: replace(task, sections=shorter(task, value, 0)),
 }
+
+
+def shorter(task: Task, most: int, least: int) -> tuple[Section, ...]:
+    """The sections, those of `least` and more for at most `most`."""
+    return tuple(Section(s.lock, min(s.time_us, most)) if s.time_us >= least else s for s in task.sections)
 
 
 def first_that_fits(
@@ -35,7 +41,7 @@ def first_that_fits(
 
 def tried_in_turn(tasks: Sequence[Task], index: int, late: str) -> set[Remedy]:
     task = tasks[index]
-    least = max((section.time_us for section in task.sections), default=1)
+    least = max((s.time_us for s in task.sections if s.time_us < task.time_us), default=1)
     tries: dict[str, Iterable[int]] = {
         PERIOD: range(task.period_us + 1, MOST),
         TIME: range(task.time_us - 1, least - 1, -1),
@@ -57,9 +63,13 @@ def test_each_number_is_the_first_that_fits() -> None:
             expected = tried_in_turn(tasks, own, late)
             if not expected and not any(r.task == late for r in remedies(tasks, late)):
                 expected = {r for i in range(len(tasks)) if i != own for r in tried_in_turn(tasks, i, late)}
+            for i in (i for i in range(len(tasks)) if i != own):
+                longest = max((section.time_us for section in tasks[i].sections), default=0)
+                most = first_that_fits(tasks, i, LOCK, range(longest - 1, 0, -1), late)
+                expected |= {Remedy(tasks[i].name, LOCK, most)} if most is not None else set()
             assert found == expected, tasks
             kinds |= {remedy.what for remedy in found}
-    assert kinds == {PERIOD, DEADLINE, TIME}
+    assert kinds == {PERIOD, DEADLINE, TIME, LOCK}
 
 
 def test_a_task_that_is_late_by_itself_needs_another_deadline_or_less_time() -> None:
@@ -83,6 +93,20 @@ def test_a_lock_is_not_held_for_longer_than_the_time_that_is_proposed() -> None:
     assert remedies(tasks, "b") == (Remedy("a", TIME, 6),)
     longer = replace(tasks[0], sections=(Section("session", 7),))
     assert remedies([longer, tasks[1]], "b") == ()
+
+
+def test_a_lock_that_is_held_all_the_time_is_held_for_less_with_less_time() -> None:
+    tasks = [
+        Task("first", 100, 2),
+        Task("second", 500, 20, deadline_us=15, sections=(Section("session", 20),)),
+    ]
+    assert Remedy("second", TIME, 15) in remedies(tasks, "second")
+
+
+def test_a_task_that_blocks_may_hold_the_lock_for_less() -> None:
+    first = Task("first", 100, 2, criticality=HIGH, deadline_us=12, sections=(Section("session", 1),))
+    second = Task("second", 500, 20, sections=(Section("session", 20),))
+    assert remedies([second, first], "first") == (Remedy("first", DEADLINE, 22), Remedy("second", LOCK, 10))
 
 
 def test_nothing_helps_where_two_tasks_are_late_for_a_third() -> None:

@@ -7,9 +7,11 @@ import json
 import re
 import xml.etree.ElementTree as ElementTree
 
+import pytest
+
 from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.schedule.check import check_deadlines
-from microros_gen.schedule.report import HEAD, schedule_data, schedule_rows
+from microros_gen.schedule.report import HEAD, schedule_data, schedule_of, schedule_rows
 from microros_gen.schedule.response import analyze
 from microros_gen.schedule.task import HIGH, LONGEST_US, Section, Task
 from microros_gen.schedule.timeline import draw
@@ -63,6 +65,24 @@ def test_the_data_has_the_names_of_the_table_in_lower_case() -> None:
     }
 
 
+def test_the_data_is_the_whole_analysis() -> None:
+    """What is read from it prints, and draws, the same."""
+    for tasks in (TASKS, [Task("a", 10, 6), Task("b", 10, 6, deadline_us=20, jitter_us=3)]):
+        responses = analyze(tasks)
+        data = schedule_data(responses)
+        read = schedule_of(json.loads(json.dumps(data)))
+        assert schedule_data(read) == data
+        assert list(schedule_rows(read)) == list(schedule_rows(responses))
+        assert draw(read, tasks[0].name) == draw(responses, tasks[0].name)
+
+
+@pytest.mark.parametrize("change", [{"band": "upper"}, {"t": 0}, {"c": "1"}, {"blocked_by": None}])
+def test_other_data_is_refused(change: dict[str, object]) -> None:
+    (first, *_) = schedule_data(analyze(TASKS))
+    with pytest.raises((TypeError, ValueError)):
+        schedule_of([{**first, **change}])
+
+
 def test_a_response_without_bound_is_a_dash_and_null() -> None:
     responses = analyze([Task("a", 10, 6), Task("b", 10, 6, deadline_us=20)])
     assert list(schedule_rows(responses))[1][6:9] == ("-", "20", "-")
@@ -98,13 +118,18 @@ def test_a_missed_deadline_is_refused_with_the_numbers_that_would_do() -> None:
     ]
 
 
+def test_a_task_that_no_clock_releases_gets_another_interval() -> None:
+    tasks = [Task("fast", 10, 4), Task("slow", 15, 9, sporadic=True)]
+    assert "Write `interval: 17 us` or more" in messages(tasks)[0]
+
+
 def test_what_blocks_and_jitter_are_named() -> None:
     late = Task("late", 100, 10, deadline_us=20, jitter_us=3, sections=(Section("session", 1),))
     below = Task("below", 1000, 50, sections=(Section("session", 30),))
     (message,) = messages([late, below])
     assert "may end 43 us after its release is due" in message
     assert "(time 10; jitter 3; blocking 30: below holds session for 30 us)" in message
-    assert message.endswith("Write `deadline: 43 us` or more [MG-7142]")
+    assert message.endswith("Write `deadline: 43 us` or more, or `lock: 7 us` of 'below' or less [MG-7142]")
 
 
 def test_an_overload_is_refused_with_its_share() -> None:

@@ -8,9 +8,12 @@ from collections.abc import Iterable, Sequence
 from microros_gen.application.model import Application
 from microros_gen.application.task_decl import CRITICALITIES, TaskDecl
 from microros_gen.client.plan.features import PlanContext
+from microros_gen.components.tasks.analysis import analyze_tasks, gaps, is_placed_by_rule
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
+from microros_gen.schedule.report import schedule_data
+from microros_gen.schedule.response import Response
 
 _ALIGNMENT = 8
 _USUAL = "middle"
@@ -34,6 +37,7 @@ class TaskPlan:
     deadline_us: int
     criticality: str
     time_us: int
+    lock_us: int
     overrun: str
     stack: int
     priority: int
@@ -60,9 +64,14 @@ class TaskPlan:
 
 @dataclass(frozen=True, kw_only=True)
 class TasksPlan:
-    """The tasks in the order of the application file, that of the session last."""
+    """The tasks in the order of the application file, that of the session last.
+
+    `responses` is the analysis of their deadlines, by priority; empty where it cannot be made, because of `gaps`.
+    """
 
     tasks: tuple[TaskPlan, ...]
+    responses: tuple[Response, ...] = ()
+    gaps: tuple[str, ...] = ()
 
     @property
     def count(self) -> int:
@@ -84,6 +93,20 @@ class TasksPlan:
     def stacks(self) -> str:
         """Return what a report says of the stacks."""
         return f"{', '.join(f'{task.name} {task.stack}' for task in self.tasks)} bytes"
+
+    @property
+    def schedule(self) -> list[dict[str, object]]:
+        """Return the rows of `microros-gen schedule` as data; empty: the deadlines were not analyzed."""
+        return schedule_data(self.responses)
+
+    @property
+    def analysis(self) -> str:
+        """Return what a report says of the deadlines."""
+        if self.gaps:
+            return f"not analyzed: {', '.join(self.gaps)}"
+        slacks = [(r.slack_us, r.task.name) for r in self.responses if r.slack_us is not None]
+        least, name = min(slacks, default=(0, ""))
+        return f"every deadline is met, {name} with the least slack: {least} us"
 
     @property
     def example_calls(self) -> tuple[str, ...]:
@@ -140,6 +163,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> TasksPlan:
     tasks = [*(task for task in application.tasks if not task.is_session)]
     tasks.append(session or TaskDecl(_session_name(tasks)))
     priorities = priorities_of(tasks)
+    lacking = gaps(tasks)
     os = context.target.os
     return TasksPlan(
         tasks=tuple(
@@ -151,13 +175,16 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> TasksPlan:
                 deadline_us=_deadline(task),
                 criticality=task.criticality or (_CRITICALITY_OF_SESSION if task.is_session else _USUAL),
                 time_us=task.time_us,
+                lock_us=task.lock_us or task.time_us,
                 overrun=task.overrun,
                 stack=_aligned(max(task.stack or os.task_stack, os.task_stack_least)),
                 priority=priority,
                 level=len(tasks) + 1 - priority,
             )
             for task, priority in zip(tasks, priorities, strict=True)
-        )
+        ),
+        responses=() if lacking else analyze_tasks(tasks, diagnostics),
+        gaps=lacking,
     )
 
 
@@ -199,18 +226,14 @@ def priorities_of(tasks: Sequence[TaskDecl]) -> tuple[int, ...]:
     release, since it is what wakes that; without one it is the last.
     """
     free = [task for task in tasks if not task.priority]
-    ordered = sorted((task for task in free if not _is_placed_by_rule(task)), key=_rank)
-    for session in (task for task in free if _is_placed_by_rule(task)):
+    ordered = sorted((task for task in free if not is_placed_by_rule(task)), key=_rank)
+    for session in (task for task in free if is_placed_by_rule(task)):
         woken = (i for i, task in enumerate(ordered) if not task.period_us)
         ordered.insert(next(woken, len(ordered)), session)
     fixed = {task.priority for task in tasks if task.priority}
     places = (place for place in range(1, len(tasks) + 1) if place not in fixed)
     assigned = {id(task): place for task, place in zip(ordered, places, strict=True)}
     return tuple(task.priority or assigned[id(task)] for task in tasks)
-
-
-def _is_placed_by_rule(task: TaskDecl) -> bool:
-    return task.is_session and not (task.criticality or task.deadline_us)
 
 
 def _rank(task: TaskDecl) -> tuple[int, int]:

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`schedule`: the deadlines of what was generated as a table, as JSON and as a time line; what it says without them."""
+
+from __future__ import annotations
+
+import json
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import pytest
+
+from tests.support.command_line import Runner
+
+NODES = """\
+version: 1
+profiles: [pure_sender]
+components: [+executor]
+nodes: [{name: arm, publishers: [{topic: p, type: std_msgs/msg/Int32}], executors: [{name: motor}, {name: log}]}]
+"""
+TASKS = """\
+tasks:
+  - {name: control, executor: motor, rate: 1 kHz, deadline: 800 us, criticality: high, time: 200 us, lock: 20 us}
+  - {name: log, executor: log, period: 50 ms, time: 3 ms, lock: 30 us, criticality: low}
+  - {name: session, session: true, interval: 2 ms, time: 100 us, lock: 60 us}
+"""
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def generated(run: Runner, folder: Path, text: str) -> str:
+    (folder / "microros.yaml").write_text(text, encoding="utf-8")
+    done = run("generate", "-o", "out")
+    assert done.status == 0, done.err
+    return done.out
+
+
+def test_a_missed_deadline_ends_every_command_that_plans(run: Runner, folder: Path) -> None:
+    (folder / "microros.yaml").write_text(NODES + TASKS, encoding="utf-8")
+    for command in (("generate", "-o", "out"), ("build", "-o", "out"), ("resolve",)):
+        done = run(*command)
+        assert done.status == 2
+        assert done.err.startswith(
+            "microros.yaml:8:5: error: the task 'session' may end 3900 us after its release is due, and its deadline"
+            " is 2000 us (time 100; control 4 x 200; log 1 x 3000)."
+        )
+
+
+def test_the_table_json_and_picture_are_those_of_the_analysis(run: Runner, folder: Path) -> None:
+    out = generated(run, folder, NODES + TASKS.replace("true, interval: 2 ms", "true, interval: 5 ms"))
+    assert "schedule   every deadline is met, control with the least slack: 540 us (tasks)\n" in out
+    assert (
+        run("schedule", "out").out
+        == """\
+TASK     BAND     PRIORITY  T      C     B   R     D      SLACK  BLOCKED BY
+control  high     1         1000   200   60  260   800    540    session holds library for 60 us
+log      low      2         50000  3000  60  3860  50000  46140  session holds library for 60 us
+session  session  3         5000   100   0   3900  5000   1100
+"""
+    )
+    data = json.loads(run("schedule", "out", "--format", "json").out)
+    manifest = json.loads((folder / "out" / "manifest.json").read_text(encoding="utf-8"))
+    assert data == {"version": 1, "tasks": manifest["features"]["tasks"]["values"]["schedule"]}
+    assert [(row["task"], row["slack"]) for row in data["tasks"]] == [
+        ("control", 540),
+        ("log", 46_140),
+        ("session", 1100),
+    ]
+    for arguments, title in (((), "control"), (("--task", "log"), "log")):
+        assert run("schedule", "out", "--format", "svg", *arguments, "-o", "line.svg").out == ""
+        root = ElementTree.parse(folder / "line.svg").getroot()
+        assert root.findtext(f"{SVG}title") == f"Worst phasing of {title}"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "error: out has no tasks. Declare them in microros.yaml"),
+        (
+            TASKS.replace(", time: 200 us, lock: 20 us", "").replace("interval: 2 ms, ", ""),
+            "error: the deadlines of out were not analyzed: control has no time, session has no interval.",
+        ),
+    ],
+)
+def test_without_an_analysis_it_says_what_is_missing(
+    run: Runner, folder: Path, text: str, words: str
+) -> None:
+    generated(run, folder, NODES + text)
+    done = run("schedule", "out")
+    assert (done.status, done.out) == (2, "")
+    assert words in done.err
+
+
+def test_wrong_use(run: Runner, folder: Path) -> None:
+    assert run("schedule", "out").status == 2
+    generated(run, folder, NODES + TASKS.replace("true, interval: 2 ms", "true, interval: 5 ms"))
+    unused = run("schedule", "out", "--task", "log")
+    assert (unused.status, "--task chooses the time line" in unused.err) == (2, True)
+    unknown = run("schedule", "out", "--format", "svg", "--task", "lgo")
+    assert (unknown.status, "no task 'lgo'. Did you mean 'log'?" in unknown.err) == (2, True)
+    manifest = folder / "out" / "manifest.json"
+    for text in ("[]", "{", manifest.read_text(encoding="utf-8").replace('"band": "low"', '"band": "wide"')):
+        manifest.write_text(text, encoding="utf-8")
+        done = run("schedule", "out")
+        assert done.status == 2
+        assert "was not written by this version of microros-gen. Generate the folder again" in done.err
