@@ -20,14 +20,18 @@ def check_deadlines(
 ) -> tuple[Response, ...]:
     """Return the analysis of the tasks; each that misses its deadline is an error at its place.
 
+    Numbers of other tasks are proposed for the first one alone: they may help those of lower priority, too.
+
     `places` has where a task is declared, by its name. The priorities must be possible (priorities.py).
     """
     responses = analyze(tasks)
+    first = next((response.task.name for response in responses if not response.meets), "")
     for index, response in enumerate(responses):
         if response.meets:
             continue
         name, span = response.task.name, places.get(response.task.name)
-        hint = _hint(remedies(tasks, name), tasks, name)
+        found = remedies(tasks, name, of_others=name == first)
+        hint = f"Correct '{first}' first" if name != first and not found else _hint(found, tasks, name)
         if response.overloaded:
             load = utilization([r.task for r in responses[: index + 1]]) * 1000
             tenths = -(-load.numerator // load.denominator)

@@ -28,17 +28,22 @@ class Remedy:
     value_us: int
 
 
-def remedies(tasks: Sequence[Task], late: str) -> tuple[Remedy, ...]:
+def remedies(tasks: Sequence[Task], late: str, of_others: bool = True) -> tuple[Remedy, ...]:
     """Return what makes the task `late` meet its deadline, and none miss it that meets it now.
 
-    These are changes of the task itself; where none of them is enough, those of the other tasks; and locks that tasks
-    of lower priority hold for less time. Each number is exact: the next smaller period or deadline, or the next larger
-    time, is not enough. A deadline above the period is proposed only where the task has one. A lock that is held as
-    long as the task runs stays so with less time. Priorities follow from the numbers again. Empty: no number alone is
-    enough.
+    These are changes of the task itself; where none of them is enough, those of the other tasks, unless `of_others` is
+    false: they are most of the search; and locks that tasks of lower priority hold for less time. Each number is exact:
+    the next smaller period or deadline, or the next larger time, is not enough. A deadline above the period is proposed
+    only where the task has one. A lock that is held as long as the task runs stays so with less time. Priorities follow
+    from the numbers again. Empty: no number alone is enough.
     """
     own = tuple(_changes(tasks, late, late))
-    others = (remedy for task in tasks if task.name != late for remedy in _changes(tasks, task.name, late))
+    others = (
+        remedy
+        for task in tasks
+        if of_others and task.name != late
+        for remedy in _changes(tasks, task.name, late)
+    )
     return (*(own or others), *_locks(tasks, late))
 
 

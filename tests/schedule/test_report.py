@@ -154,6 +154,7 @@ def test_tasks_that_leave_next_to_nothing_are_refused() -> None:
 
 def test_where_no_number_is_enough_the_hint_says_so() -> None:
     tasks = [Task(name, 10, 10, criticality=HIGH, deadline_us=25) for name in ("first", "second")]
-    assert messages([*tasks, Task("third", 10, 1)])[-1].endswith(
-        "No number of one task is enough: give several tasks less time or longer periods [MG-7140]"
-    )
+    first, second = messages([*tasks, Task("third", 10, 1)])
+    hint = "No number of one task is enough: give several tasks less time or longer periods [MG-7140]"
+    assert first.endswith(hint)
+    assert second.endswith("Correct 'second' first [MG-7140]")

@@ -12,7 +12,7 @@ from microros_gen.schedule.response import Response
 from microros_gen.schedule.task import MIDDLE, Section, Task
 
 LOCK = "library"
-"""Name of the library's lock, which every task takes: publishers, executors and the session are behind it."""
+"""Name of the lock of the library, which every task takes: publishers, executors and the session need it."""
 
 
 def is_placed_by_rule(task: TaskDecl) -> bool:
@@ -27,10 +27,10 @@ def gaps(tasks: Sequence[TaskDecl]) -> tuple[str, ...]:
     """
     found = []
     for task in tasks:
-        lacks = [] if task.time_us else ["time"]
-        lacks += [] if task.period_us or task.interval_us else ["interval"]
-        if lacks:
-            found.append(f"{task.name} has no {' and no '.join(lacks)}")
+        missing = [] if task.time_us else ["time"]
+        missing += [] if task.period_us or task.interval_us else ["interval"]
+        if missing:
+            found.append(f"{task.name} has no {' and no '.join(missing)}")
     return tuple(found)
 
 

@@ -163,7 +163,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> TasksPlan:
     tasks = [*(task for task in application.tasks if not task.is_session)]
     tasks.append(session or TaskDecl(_session_name(tasks)))
     priorities = priorities_of(tasks)
-    lacking = gaps(tasks)
+    open_gaps = gaps(tasks)
     os = context.target.os
     return TasksPlan(
         tasks=tuple(
@@ -183,8 +183,8 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> TasksPlan:
             )
             for task, priority in zip(tasks, priorities, strict=True)
         ),
-        responses=() if lacking else analyze_tasks(tasks, diagnostics),
-        gaps=lacking,
+        responses=() if open_gaps else analyze_tasks(tasks, diagnostics),
+        gaps=open_gaps,
     )
 
 
