@@ -81,6 +81,7 @@ TASK_CASES = {
     "tasks[].interval": _time("interval", ""),
     "tasks[].deadline": _time("deadline"),
     "tasks[].time": _time("time"),
+    "tasks[].lock": _time("lock", "rate: 1 Hz, time: 30 ms, "),
     "tasks[].criticality": KeyCase(
         _in_task("criticality: low"),
         _task(lambda t: t.criticality),
