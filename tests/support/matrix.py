@@ -199,7 +199,9 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         "on-silence": _BUSY
         + "    subscriptions: [{topic: near, type: std_msgs/msg/Int32, on_silence: {after: 1 s, call: stop_motors}}]\n"
         + "profiles: [pure_reader]\n",
-        "time-source": _BUSY + "profiles: [pure_sender]\ncomponents: [+time_source]\n",
+        "time-source": _BUSY
+        + "    publishers: [{topic: sure, type: std_msgs/msg/Int32}]\n"
+        + "profiles: [pure_sender]\ncomponents: [+time_source]\n",
         "diagnosis-threads": _BUSY + "profiles: [pure_sender]\ncomponents: [+diagnosis, +multithread]\n",
         "lifecycle": _BUSY + "profiles: [managed_service]\nerrors: code\n",
         "lifecycle-managed": _BUSY
@@ -212,6 +214,7 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "    modes: {SLOW: {speed: 0.5, label: slow}, FAST: {speed: $(parent speed), path: [1, 2]}}\n"
         + "profiles: [managed_service]\ncomponents: [+node_modes]\nerrors: code\n",
         "tasks": _BUSY
+        + "    publishers: [{topic: sure, type: std_msgs/msg/Int32}]\n"
         + "    timers: [{name: tick, period: 50 ms}]\n    executors: [{name: all}]\n"
         + "profiles: [pure_sender]\ncomponents: [+executor, +timers]\nerrors: code\n"
         + "tasks: [{name: all, executor: all, rate: 20 Hz, overrun: call}]\n",

@@ -76,7 +76,7 @@ rmw_ret_t rmw_uros_sync_session(const int timeout_ms)
 bool rmw_epoch_now(int64_t * epoch_ns)
 {
   const xrce_client_t * client = rmw_client_instance();
-  int64_t now_ns;
+  int64_t now_ns = 0;
   bool synchronized;
 
   microros_lock();

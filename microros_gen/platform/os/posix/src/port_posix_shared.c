@@ -43,7 +43,7 @@ uint32_t * port_shared_region(size_t bytes)
 
 void port_shared_barrier(void)
 {
-  __sync_synchronize();
+  __atomic_thread_fence(__ATOMIC_SEQ_CST);
 }
 
 void port_shared_notify(void)

@@ -178,7 +178,7 @@ static void line_find(serial_line_t * line)
 /* Returns whether a failed call found that the device is gone. */
 static bool serial_is_lost(int error)
 {
-  return error != EAGAIN && error != EWOULDBLOCK && error != EINTR;
+  return error != EAGAIN && error != EINTR;
 }
 
 /* Writes as much as the system has room for, and returns the number of bytes. */
