@@ -80,6 +80,20 @@ tasks:
   - {name: log, executor: c, interval: 50 ms, time: 3 ms, lock: 30 us, criticality: low}
   - {name: line, session: true, interval: 1 ms, time: 100 us, lock: 60 us}
 """
+WAITS = """\
+version: 1
+profiles: [pure_sender, pure_reader]
+components: [+executor, +timers]
+session: {{key: 7}}
+pools: {{guard_conditions: 2, wait_sets: 1, handles: 4}}
+transport: {{type: udp, agent: "127.0.0.1:{port}"}}
+nodes:
+  - name: device
+    subscriptions: [{{topic: target, type: std_msgs/msg/Int32, qos: {{depth: 1}}}}]
+    timers: [{{name: beat, period: 100 s}}]
+    executors: [{{name: reads, handles: [target]}}, {{name: waits, handles: [beat]}}]
+tasks: [{{name: reader, executor: reads}}, {{name: waiter, executor: waits}}]
+"""
 SENT, RECEIVED = 40, 20
 THREAD_SANITIZER = ("-std=gnu99", "-g", "-O0", "-fsanitize=thread", f"-I{UNITS}")
 
@@ -132,6 +146,14 @@ def test_the_example_exchanges_messages_with_an_agent(tmp_path: Path) -> None:
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout == "".join(f"target: {value}\n" for value in range(RECEIVED))
     assert agent.values(0)[:SENT] == list(range(SENT))
+
+
+def test_whatever_happens_ends_the_wait_of_a_task(tmp_path: Path) -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as served:
+        served.bind(("127.0.0.1", 0))
+        threading.Thread(target=serve, args=(ReadingAgent(), served), daemon=True).start()
+        out = rendered(tmp_path, WAITS.format(port=served.getsockname()[1]))
+        run(program_of(out, "task_waits.c", more=("-pthread",)))
 
 
 @pytest.mark.system

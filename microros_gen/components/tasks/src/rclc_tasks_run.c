@@ -115,6 +115,7 @@ void rclc_tasks_round_begins(const rclc_executor_t * executor)
     state->began_us = port_task_time_us();
     microros_lock();
     state->released_us = rmw_tasks_released(task, state->began_us);
+    state->is_in_round = true;
     microros_unlock();
   }
 }
@@ -125,6 +126,9 @@ void rclc_tasks_round_ends(const rclc_executor_t * executor)
 
   if (task < (uint8_t)MICROROS_TASKS) {
     rclc_task_states[task].has_run = true;
+    microros_lock();
+    rclc_task_states[task].is_in_round = false;
+    microros_unlock();
     task_count(task);
   }
 }
@@ -166,13 +170,27 @@ static bool executor_has_news(const rclc_executor_t * executor)
   return false;
 }
 
+/* What a callback waits for may be in no executor: the task looks itself. */
+static void session_release_task(uint8_t task)
+{
+  const rclc_task_state_t * state = &rclc_task_states[task];
+
+  if (state->is_in_round || rclc_task_plans[task].period_us != 0u) {
+    rmw_tasks_wake(task);
+  } else if (executor_has_news(state->executor)) {
+    rmw_tasks_release(task, port_task_time_us());
+  } else {
+    /* it goes on waiting */
+  }
+}
+
 /* A task that waits is in the wait as long as this one holds the lock, so its executor is at rest. Of those that do not
  * wait, each looks by itself before it does. */
 static void session_release_tasks(void)
 {
   for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS - 1u; ++task) {
-    if (rmw_tasks_waits(task) && executor_has_news(rclc_task_states[task].executor)) {
-      rmw_tasks_release(task, port_task_time_us());
+    if (rmw_tasks_waits(task)) {
+      session_release_task(task);
     }
   }
 }

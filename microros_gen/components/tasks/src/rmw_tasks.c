@@ -56,12 +56,17 @@ bool rmw_tasks_waits(uint8_t task)
   return waiting_tasks[task].waits;
 }
 
-void rmw_tasks_release(uint8_t task, uint32_t now_us)
+void rmw_tasks_wake(uint8_t task)
 {
   waiting_tasks[task].waits = false;
+  port_task_set(task);
+}
+
+void rmw_tasks_release(uint8_t task, uint32_t now_us)
+{
   waiting_tasks[task].is_released = true;
   waiting_tasks[task].released_us = now_us;
-  port_task_set(task);
+  rmw_tasks_wake(task);
 }
 
 uint32_t rmw_tasks_released(uint8_t task, uint32_t now_us)

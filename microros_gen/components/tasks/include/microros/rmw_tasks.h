@@ -14,6 +14,9 @@ extern "C" {
  * not change its executor. */
 bool rmw_tasks_waits(uint8_t task);
 
+/* Ends the wait of a task that waits, which looks again. */
+void rmw_tasks_wake(uint8_t task);
+
 /* Ends the wait of a task that waits; `now_us` is the time of its release. */
 void rmw_tasks_release(uint8_t task, uint32_t now_us);
 

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What ends a wait in a task without a period, with an agent that sends no more than was asked for. Each part lasts
+ * milliseconds; if nothing ended the waits, it would last many seconds. The application file is that of test_tasks.py.
+ */
+#include "unit.h"
+
+#include <microros/port.h>
+#include <microros/tasks.h>
+#include <rcl/rcl.h>
+#include <rclc/executor.h>
+#include <rclc/rclc.h>
+#include <std_msgs/msg/int32.h>
+
+#include <stdbool.h>
+
+enum { WAIT_S = 20, MOST_MS = 4000 };
+
+static rclc_support_t support;
+static rcl_guard_condition_t begins;
+static rcl_guard_condition_t ends;
+static volatile bool has_begun;
+static volatile bool has_ended;
+
+/* Waits in a callback for something that is in no executor. */
+static void on_begin(void)
+{
+  rcl_wait_set_t wait_set = rcl_get_zero_initialized_wait_set();
+
+  CHECK(
+    rcl_wait_set_init(&wait_set, 0, 1, 0, 0, 0, 0, &support.context, rcl_get_default_allocator()) ==
+    RCL_RET_OK);
+  CHECK(rcl_wait_set_add_guard_condition(&wait_set, &ends, NULL) == RCL_RET_OK);
+  has_begun = true;
+  CHECK(rcl_wait(&wait_set, (int64_t)WAIT_S * 1000000000) == RCL_RET_OK);
+  CHECK(wait_set.guard_conditions[0] == &ends);
+  has_ended = true;
+  CHECK(rcl_wait_set_fini(&wait_set) == RCL_RET_OK);
+}
+
+/* Fails if it takes much longer than a computer under load needs. */
+static void wait_for(const volatile bool * what)
+{
+  const uint32_t start_ms = port_time_ms();
+
+  while (!*what) {
+    CHECK(port_time_ms() - start_ms < (uint32_t)MOST_MS);
+    port_sleep_ms(1);
+  }
+}
+
+static void check_callback(void)
+{
+  CHECK(rcl_trigger_guard_condition(&begins) == RCL_RET_OK);
+  wait_for(&has_begun);
+  port_sleep_ms(20); /* most likely it waits now */
+  CHECK(rcl_trigger_guard_condition(&ends) == RCL_RET_OK);
+  wait_for(&has_ended);
+}
+
+int main(void)
+{
+  rcl_allocator_t allocator = rcl_get_default_allocator();
+  rclc_executor_t executors[2];
+
+  CHECK(rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK);
+  begins = rcl_get_zero_initialized_guard_condition();
+  ends = rcl_get_zero_initialized_guard_condition();
+  CHECK(
+    rcl_guard_condition_init(&begins, &support.context, rcl_guard_condition_get_default_options()) ==
+    RCL_RET_OK);
+  CHECK(
+    rcl_guard_condition_init(&ends, &support.context, rcl_guard_condition_get_default_options()) ==
+    RCL_RET_OK);
+  for (uint8_t i = 0; i < 2u; ++i) {
+    executors[i] = rclc_executor_get_zero_initialized_executor();
+    CHECK(rclc_executor_init(&executors[i], &support.context, 2, &allocator) == RCL_RET_OK);
+    CHECK(rclc_task_set_executor(i, &executors[i], NULL) == RCL_RET_OK);
+  }
+  CHECK(rclc_executor_add_guard_condition(&executors[1], &begins, on_begin) == RCL_RET_OK);
+  CHECK(rclc_tasks_start() == RCL_RET_OK);
+  check_callback();
+  CHECK(rclc_tasks_stop() == RCL_RET_OK);
+  return 0;
+}
