@@ -98,7 +98,7 @@ SENT, RECEIVED = 40, 20
 THREAD_SANITIZER = ("-std=gnu99", "-g", "-O0", "-fsanitize=thread", f"-I{UNITS}")
 
 
-def serve(agent: ReadingAgent, served: socket.socket) -> None:
+def serve(agent: ReadingAgent, served: socket.socket, received: int = RECEIVED) -> None:
     """Answer datagrams until the socket is closed; offer a sample with each of the first messages of the device."""
     offered = 0
     while True:
@@ -107,7 +107,7 @@ def serve(agent: ReadingAgent, served: socket.socket) -> None:
         except OSError:
             return
         answers = agent.receive(datagram)
-        if agent.reads and offered < RECEIVED:
+        if agent.reads and offered < received:
             answers += agent.numbers(1, offered)
             offered += 1
         for answer in [*answers, *(agent.tick() if agent.unacknowledged else [])]:
@@ -151,7 +151,9 @@ def test_the_example_exchanges_messages_with_an_agent(tmp_path: Path) -> None:
 def test_whatever_happens_ends_the_wait_of_a_task(tmp_path: Path) -> None:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as served:
         served.bind(("127.0.0.1", 0))
-        threading.Thread(target=serve, args=(ReadingAgent(), served), daemon=True).start()
+        agent = ReadingAgent()
+        agent.numbers(1, *range(12))  # each is sent when the task has taken the one before
+        threading.Thread(target=serve, args=(agent, served, 0), daemon=True).start()
         out = rendered(tmp_path, WAITS.format(port=served.getsockname()[1]))
         run(program_of(out, "task_waits.c", more=("-pthread",)))
 

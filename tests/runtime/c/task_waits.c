@@ -14,13 +14,15 @@
 
 #include <stdbool.h>
 
-enum { WAIT_S = 20, MOST_MS = 4000 };
+enum { WAIT_S = 20, MOST_MS = 4000, SAMPLES = 12 };
 
 static rclc_support_t support;
 static rcl_guard_condition_t begins;
 static rcl_guard_condition_t ends;
 static volatile bool has_begun;
 static volatile bool has_ended;
+static volatile bool has_read;
+static int32_t samples;
 
 /* Waits in a callback for something that is in no executor. */
 static void on_begin(void)
@@ -36,6 +38,26 @@ static void on_begin(void)
   CHECK(wait_set.guard_conditions[0] == &ends);
   has_ended = true;
   CHECK(rcl_wait_set_fini(&wait_set) == RCL_RET_OK);
+}
+
+static void on_sample(const void * message)
+{
+  const std_msgs__msg__Int32 * number = message;
+
+  CHECK(number->data == samples);
+  ++samples;
+  has_read = samples == (int32_t)SAMPLES;
+}
+
+/* The task of the session has long begun to wait when this one takes a sample. */
+static bool waits_first(rclc_executor_handle_t * handles, unsigned int size, void * object)
+{
+  const bool is_ready = rclc_executor_trigger_any(handles, size, object);
+
+  if (is_ready) {
+    port_sleep_ms(10);
+  }
+  return is_ready;
 }
 
 /* Fails if it takes much longer than a computer under load needs. */
@@ -60,10 +82,16 @@ static void check_callback(void)
 
 int main(void)
 {
+  static std_msgs__msg__Int32 sample;
+  const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
   rcl_allocator_t allocator = rcl_get_default_allocator();
+  rcl_node_t node = rcl_get_zero_initialized_node();
+  rcl_subscription_t subscription;
   rclc_executor_t executors[2];
 
   CHECK(rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK);
+  CHECK(rclc_node_init_default(&node, "device", "", &support) == RCL_RET_OK);
+  CHECK(rclc_subscription_init_default(&subscription, &node, type, "target") == RCL_RET_OK);
   begins = rcl_get_zero_initialized_guard_condition();
   ends = rcl_get_zero_initialized_guard_condition();
   CHECK(
@@ -77,8 +105,13 @@ int main(void)
     CHECK(rclc_executor_init(&executors[i], &support.context, 2, &allocator) == RCL_RET_OK);
     CHECK(rclc_task_set_executor(i, &executors[i], NULL) == RCL_RET_OK);
   }
+  CHECK(
+    rclc_executor_add_subscription(&executors[0], &subscription, &sample, on_sample, ON_NEW_DATA) ==
+    RCL_RET_OK);
+  CHECK(rclc_executor_set_trigger(&executors[0], waits_first, NULL) == RCL_RET_OK);
   CHECK(rclc_executor_add_guard_condition(&executors[1], &begins, on_begin) == RCL_RET_OK);
   CHECK(rclc_tasks_start() == RCL_RET_OK);
+  wait_for(&has_read);
   check_callback();
   CHECK(rclc_tasks_stop() == RCL_RET_OK);
   return 0;

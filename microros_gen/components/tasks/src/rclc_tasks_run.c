@@ -6,9 +6,11 @@
 #include "microros/rcl_waiting.h"
 #include "microros/rclc_tasks.h"
 #include "microros/rclc_tasks_state.h"
+#include "microros/rmw_client.h"
 #include "microros/rmw_client_wait.h"
 #include "microros/rmw_tasks.h"
 #include "microros/wake.h"
+#include "microros/xrce_client.h"
 
 #include <stddef.h>
 
@@ -16,6 +18,9 @@
 enum { WAIT_MOST_MS = 1000 };
 
 rclc_task_state_t rclc_task_states[MICROROS_TASKS];
+
+/* A round may have taken samples since the session was last run; the lock guards it. */
+static bool session_is_due;
 
 static uint32_t larger(uint32_t a, uint32_t b)
 {
@@ -120,10 +125,24 @@ void rclc_tasks_round_begins(const rclc_executor_t * executor)
   }
 }
 
+/* There may be room for further samples, which the session asks for. It counts as news, so that the task of the session
+ * does not begin to wait before it has seen it. */
+static void session_ask(void)
+{
+  microros_lock();
+  session_is_due = true;
+  microros_note();
+  if (rmw_client_instance()->waiting != 0u) {
+    port_wake();
+  }
+  microros_unlock();
+}
+
 void rclc_tasks_round_ends(const rclc_executor_t * executor)
 {
   const uint8_t task = task_of(executor);
 
+  session_ask();
   if (task < (uint8_t)MICROROS_TASKS) {
     rclc_task_states[task].has_run = true;
     microros_lock();
@@ -202,9 +221,12 @@ void rclc_tasks_run_session(uint8_t task)
   while (rclc_tasks_continue()) {
     rclc_task_states[task].began_us = port_task_time_us();
     rclc_task_states[task].released_us = rclc_task_states[task].began_us; /* nothing knows the release */
+    microros_lock();
+    session_is_due = false;
+    microros_unlock();
     rcl_waiting_receive();
     microros_lock();
-    news = microros_news;
+    news = microros_news - (session_is_due ? 1u : 0u); /* due since it was run: it does not wait */
     session_release_tasks();
     microros_unlock();
     task_count(task);
