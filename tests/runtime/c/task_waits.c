@@ -14,7 +14,7 @@
 
 #include <stdbool.h>
 
-enum { WAIT_S = 20, MOST_MS = 4000, SAMPLES = 12 };
+enum { WAIT_S = 20, MOST_MS = 4000, SAMPLES = 12, TURNS = 6, SOON_MS = 5 };
 
 static rclc_support_t support;
 static rcl_guard_condition_t begins;
@@ -23,6 +23,9 @@ static volatile bool has_begun;
 static volatile bool has_ended;
 static volatile bool has_read;
 static int32_t samples;
+static rcl_timer_t timer;
+static volatile bool is_called[TURNS];
+static volatile uint32_t calls;
 
 /* Waits in a callback for something that is in no executor. */
 static void on_begin(void)
@@ -80,6 +83,32 @@ static void check_callback(void)
   wait_for(&has_ended);
 }
 
+static void on_time(rcl_timer_t * which, int64_t last_ns)
+{
+  (void)last_ns;
+  CHECK(rcl_timer_cancel(which) == RCL_RET_OK);
+  if (calls < (uint32_t)TURNS) {
+    is_called[calls] = true;
+    ++calls;
+  }
+}
+
+/* The task waits for a second with a timer of 100 s, and another one makes it due at once: several times, for it may just
+ * have waited for that second. */
+static void check_timer(void)
+{
+  const uint32_t start_ms = port_time_ms();
+  int64_t before_ns;
+
+  for (uint32_t turn = 0; turn < (uint32_t)TURNS; ++turn) {
+    CHECK(rcl_timer_exchange_period(&timer, (int64_t)SOON_MS * 1000000, &before_ns) == RCL_RET_OK);
+    CHECK(rcl_timer_reset(&timer) == RCL_RET_OK);
+    wait_for(&is_called[turn]);
+    port_sleep_ms(20); /* most likely it waits now */
+  }
+  CHECK(port_time_ms() - start_ms < (uint32_t)MOST_MS);
+}
+
 int main(void)
 {
   static std_msgs__msg__Int32 sample;
@@ -109,10 +138,14 @@ int main(void)
     rclc_executor_add_subscription(&executors[0], &subscription, &sample, on_sample, ON_NEW_DATA) ==
     RCL_RET_OK);
   CHECK(rclc_executor_set_trigger(&executors[0], waits_first, NULL) == RCL_RET_OK);
+  timer = rcl_get_zero_initialized_timer();
+  CHECK(rclc_timer_init_default2(&timer, &support, (uint64_t)100 * 1000000000u, on_time, true) == RCL_RET_OK);
+  CHECK(rclc_executor_add_timer(&executors[1], &timer) == RCL_RET_OK);
   CHECK(rclc_executor_add_guard_condition(&executors[1], &begins, on_begin) == RCL_RET_OK);
   CHECK(rclc_tasks_start() == RCL_RET_OK);
   wait_for(&has_read);
   check_callback();
+  check_timer();
   CHECK(rclc_tasks_stop() == RCL_RET_OK);
   return 0;
 }

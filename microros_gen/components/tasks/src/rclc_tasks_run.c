@@ -17,6 +17,8 @@
 /* Longest wait of a round: only trigger functions that look at other state depend on it. */
 enum { WAIT_MOST_MS = 1000 };
 
+static const int64_t ns_per_ms = 1000000;
+
 rclc_task_state_t rclc_task_states[MICROROS_TASKS];
 
 /* A round may have taken samples since the session was last run; the lock guards it. */
@@ -169,16 +171,15 @@ void rclc_tasks_run_events(uint8_t task)
   }
 }
 
-/* Returns whether a handle has become ready since the executor looked. */
-static bool executor_has_news(const rclc_executor_t * executor)
+/* Returns whether a handle has become ready since the executor looked; else *look_again_ns is the time until one may be. */
+static bool executor_has_news(const rclc_executor_t * executor, int64_t * look_again_ns)
 {
   const rclc_executor_handle_t * handle = executor->handles;
 
   for (size_t left = executor->index; left != 0u; --left) {
-    int64_t look_again_ns = INT64_MAX;
     bool is_ready = false;
 
-    if (handle->kind->look(handle, &is_ready, &look_again_ns) != RCL_RET_OK) {
+    if (handle->kind->look(handle, &is_ready, look_again_ns) != RCL_RET_OK) {
       return true; /* the task reports it */
     }
     if (is_ready && !handle->data_available) {
@@ -189,15 +190,27 @@ static bool executor_has_news(const rclc_executor_t * executor)
   return false;
 }
 
+/* Returns whether the task has to look before its wait ends: another task set a timer, or a clock jumped. Times that were
+ * rounded up at different moments differ by a millisecond. */
+static bool task_is_sooner(uint8_t task, int64_t look_again_ns)
+{
+  const uint32_t left_ms = rmw_tasks_until_ms(task) - port_time_ms();
+
+  return left_ms <= (uint32_t)WAIT_MOST_MS && look_again_ns < ((int64_t)left_ms - 1) * ns_per_ms;
+}
+
 /* What a callback waits for may be in no executor: the task looks itself. */
 static void session_release_task(uint8_t task)
 {
   const rclc_task_state_t * state = &rclc_task_states[task];
+  int64_t look_again_ns = INT64_MAX;
 
   if (state->is_in_round || rclc_task_plans[task].period_us != 0u) {
     rmw_tasks_wake(task);
-  } else if (executor_has_news(state->executor)) {
+  } else if (executor_has_news(state->executor, &look_again_ns)) {
     rmw_tasks_release(task, port_task_time_us());
+  } else if (task_is_sooner(task, look_again_ns)) {
+    rmw_tasks_wake(task);
   } else {
     /* it goes on waiting */
   }

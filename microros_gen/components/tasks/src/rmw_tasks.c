@@ -2,6 +2,7 @@
 #include "microros/rmw_tasks.h"
 
 #include "microros/lock.h"
+#include "microros/port.h"
 #include "microros/port_tasks.h"
 #include "microros/rmw_turn.h"
 #include "microros/wake.h"
@@ -9,6 +10,7 @@
 
 typedef struct waiting_task_t {
   uint32_t released_us;
+  uint32_t until_ms; /* end of the wait */
   bool waits;
   bool is_released;
 } waiting_task_t;
@@ -39,6 +41,7 @@ bool rmw_turn_waits(uint32_t timeout_ms, uint32_t * news)
   microros_lock();
   waits = *news == microros_news;
   waiting_tasks[task].waits = waits;
+  waiting_tasks[task].until_ms = port_time_ms() + timeout_ms;
   *news = microros_news;
   microros_unlock();
   if (waits) {
@@ -54,6 +57,11 @@ bool rmw_turn_waits(uint32_t timeout_ms, uint32_t * news)
 bool rmw_tasks_waits(uint8_t task)
 {
   return waiting_tasks[task].waits;
+}
+
+uint32_t rmw_tasks_until_ms(uint8_t task)
+{
+  return waiting_tasks[task].until_ms;
 }
 
 void rmw_tasks_wake(uint8_t task)

@@ -14,6 +14,9 @@ extern "C" {
  * not change its executor. */
 bool rmw_tasks_waits(uint8_t task);
 
+/* Returns when the wait of a task that waits ends by itself, as port_time_ms counts. */
+uint32_t rmw_tasks_until_ms(uint8_t task);
+
 /* Ends the wait of a task that waits, which looks again. */
 void rmw_tasks_wake(uint8_t task);
 
