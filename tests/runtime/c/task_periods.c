@@ -26,6 +26,7 @@ static uint32_t began[RUNS];
 static uint32_t runs;
 static uint32_t told;
 static uint32_t made;
+static bool stops_in_sleep;
 
 bool port_task_create(uint8_t task, const port_task_t * setting)
 {
@@ -72,6 +73,10 @@ void port_task_sleep_until(uint32_t time_us)
   if (left_us != 0u && left_us < 0x80000000u) {
     clock_us = time_us + sleeps % 7u; /* the system is up to 6 us late */
     ++sleeps;
+  }
+  if (stops_in_sleep) {
+    self = PORT_TASK_NONE;
+    CHECK(rclc_tasks_stop() == RCL_RET_OK);
   }
 }
 
@@ -166,6 +171,12 @@ int main(void)
   counters = run(RCLC_TASK_TELLS);
   CHECK(counters.missed == 2u && told == 2u);
   check_grid(LONG_RUN + 1, 6);
+
+  stops_in_sleep = true;
+  made = 0;
+  CHECK(rclc_tasks_start() == RCL_RET_OK);
+  rclc_task_settings[RCLC_TASK_SKIPS].entry(RCLC_TASK_SKIPS);
+  CHECK(rclc_task_get_counters(RCLC_TASK_SKIPS, &counters) == RCL_RET_OK && counters.runs == 0u);
 
   CHECK(rcl_tasks_missed() == 4u && rcl_tasks_overruns() == 4u); /* of all tasks */
   CHECK(rclc_task_stack_peak(RCLC_TASK_TELLS) == 3u && rclc_task_stack_peak(MICROROS_TASKS) == 0u);

@@ -109,6 +109,19 @@ static void check_timer(void)
   CHECK(port_time_ms() - start_ms < (uint32_t)MOST_MS);
 }
 
+/* Their waits last a second, and begin with the start. */
+static void check_stop(void)
+{
+  const uint32_t start_ms = port_time_ms();
+
+  for (uint32_t turn = 0; turn < (uint32_t)TURNS; ++turn) {
+    CHECK(rclc_tasks_start() == RCL_RET_OK);
+    port_sleep_ms(turn % 2u * 20u); /* they wait already, or are about to */
+    CHECK(rclc_tasks_stop() == RCL_RET_OK);
+  }
+  CHECK(port_time_ms() - start_ms < (uint32_t)MOST_MS);
+}
+
 int main(void)
 {
   static std_msgs__msg__Int32 sample;
@@ -147,5 +160,6 @@ int main(void)
   check_callback();
   check_timer();
   CHECK(rclc_tasks_stop() == RCL_RET_OK);
+  check_stop();
   return 0;
 }

@@ -3,9 +3,10 @@
 
 #include "microros/error.h"
 #include "microros/lock.h"
-#include "microros/port.h"
 #include "microros/rclc_tasks.h"
 #include "microros/rclc_tasks_state.h"
+#include "microros/rmw_tasks.h"
+#include "microros/wake.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -70,11 +71,12 @@ static void tasks_end(uint8_t count)
 {
   microros_lock();
   tasks_run = false;
+  rmw_tasks_set_running(false);
   microros_unlock();
+  microros_wake(); /* the session waits for the line; what is about to wait looks again */
   for (uint8_t task = 0; task < count; ++task) {
     port_task_set(task);
   }
-  port_wake(); /* the session waits for the line */
   for (uint8_t task = 0; task < count; ++task) {
     port_task_join(task);
   }
@@ -94,6 +96,7 @@ rcl_ret_t rclc_tasks_start(void)
   }
   microros_lock();
   tasks_run = true;
+  rmw_tasks_set_running(true);
   microros_unlock();
   for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS; ++task) {
     if (!port_task_create(task, &rclc_task_settings[task])) {

@@ -85,6 +85,9 @@ void rclc_tasks_run_period(uint8_t task)
 
   while (rclc_tasks_continue()) {
     port_task_sleep_until(state->next_us);
+    if (!rclc_tasks_continue()) {
+      break; /* they were stopped meanwhile */
+    }
     state->released_us = state->next_us;
     state->began_us = port_task_time_us();
     if (state->callback != NULL) {

@@ -16,6 +16,7 @@ typedef struct waiting_task_t {
 } waiting_task_t;
 
 static waiting_task_t waiting_tasks[MICROROS_TASKS];
+static bool tasks_are_over; /* the lock guards it */
 
 /* The last task is that of the session, and runs it as every other task of the application does. */
 static bool runs_an_executor(uint8_t task)
@@ -26,6 +27,16 @@ static bool runs_an_executor(uint8_t task)
 bool rmw_turn_pumps(void)
 {
   return !runs_an_executor(port_task_self());
+}
+
+bool rmw_turn_is_over(void)
+{
+  bool is_over;
+
+  microros_lock();
+  is_over = tasks_are_over && runs_an_executor(port_task_self());
+  microros_unlock();
+  return is_over;
 }
 
 /* Everything that was counted before the task last looked was seen. From then on the task of the session looks at the
@@ -52,6 +63,11 @@ bool rmw_turn_waits(uint32_t timeout_ms, uint32_t * news)
     microros_unlock();
   }
   return true;
+}
+
+void rmw_tasks_set_running(bool is_running)
+{
+  tasks_are_over = !is_running;
 }
 
 bool rmw_tasks_waits(uint8_t task)

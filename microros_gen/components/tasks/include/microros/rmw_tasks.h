@@ -10,6 +10,9 @@
 extern "C" {
 #endif
 
+/* Says whether tasks of executors go on, or are to end. */
+void rmw_tasks_set_running(bool is_running);
+
 /* Returns whether the task waits for its event. While the caller holds the lock, the task stays in that wait and so does
  * not change its executor. */
 bool rmw_tasks_waits(uint8_t task);

@@ -18,6 +18,9 @@ bool rmw_turn_pumps(void);
  * executor. */
 bool rmw_turn_waits(uint32_t timeout_ms, uint32_t * news);
 
+/* Returns whether the calling task is that of an executor, and is to end. */
+bool rmw_turn_is_over(void);
+
 #ifdef __cplusplus
 }
 #endif
