@@ -8,6 +8,7 @@
 #include <microros/port_tasks.h>
 #include <microros/rcl_tasks.h>
 #include <microros/rclc_tasks.h>
+#include <microros/rmw_tasks.h>
 #include <microros/tasks.h>
 #include <rcl/rcl.h>
 #include <rclc/executor.h>
@@ -27,6 +28,7 @@ static uint32_t runs;
 static uint32_t told;
 static uint32_t made;
 static bool stops_in_sleep;
+static uint32_t waits;
 
 bool port_task_create(uint8_t task, const port_task_t * setting)
 {
@@ -57,8 +59,16 @@ void port_task_set(uint8_t task)
 
 void port_task_wait(uint8_t task, uint32_t timeout_ms)
 {
-  (void)task;
   (void)timeout_ms;
+  ++waits;
+  if (waits == 1u) {
+    rmw_tasks_release(task, 5); /* for nothing */
+  } else {
+    CHECK(rmw_tasks_released(task, 7) == 7u);
+    self = PORT_TASK_NONE;
+    CHECK(rclc_tasks_stop() == RCL_RET_OK);
+    self = task;
+  }
 }
 
 uint32_t port_task_time_us(void)
@@ -171,6 +181,19 @@ int main(void)
   counters = run(RCLC_TASK_TELLS);
   CHECK(counters.missed == 2u && told == 2u);
   check_grid(LONG_RUN + 1, 6);
+
+  /* A release without a run is forgotten: by the task, and by the next start. */
+  made = 0;
+  CHECK(rclc_tasks_start() == RCL_RET_OK);
+  self = RCLC_TASK_CATCHES;
+  rclc_tasks_run_events(RCLC_TASK_CATCHES);
+  CHECK(waits == 2u);
+  rmw_tasks_release(RCLC_TASK_CATCHES, 5);
+  made = 0;
+  self = PORT_TASK_NONE;
+  CHECK(rclc_tasks_start() == RCL_RET_OK);
+  CHECK(rmw_tasks_released(RCLC_TASK_CATCHES, 7) == 7u);
+  CHECK(rclc_tasks_stop() == RCL_RET_OK);
 
   stops_in_sleep = true;
   made = 0;

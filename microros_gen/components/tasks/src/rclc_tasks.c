@@ -95,6 +95,9 @@ rcl_ret_t rclc_tasks_start(void)
     (void)memset(&rclc_task_states[task].counters, 0, sizeof(rclc_task_states[task].counters));
   }
   microros_lock();
+  for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS - 1u; ++task) {
+    (void)rmw_tasks_released(task, 0); /* of a start before */
+  }
   tasks_run = true;
   rmw_tasks_set_running(true);
   microros_unlock();

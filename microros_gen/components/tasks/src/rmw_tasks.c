@@ -39,8 +39,9 @@ bool rmw_turn_is_over(void)
   return is_over;
 }
 
-/* Everything that was counted before the task last looked was seen. From then on the task of the session looks at the
- * executor of this one before it waits for news itself. */
+/* Everything that was counted before the task last looked was seen, and left nothing to run: a release before must not
+ * count for a later run. From then on the task of the session looks at the executor of this one before it waits for news
+ * itself. */
 bool rmw_turn_waits(uint32_t timeout_ms, uint32_t * news)
 {
   const uint8_t task = port_task_self();
@@ -52,6 +53,7 @@ bool rmw_turn_waits(uint32_t timeout_ms, uint32_t * news)
   microros_lock();
   waits = *news == microros_news;
   waiting_tasks[task].waits = waits;
+  waiting_tasks[task].is_released = false;
   waiting_tasks[task].until_ms = port_time_ms() + timeout_ms;
   *news = microros_news;
   microros_unlock();
