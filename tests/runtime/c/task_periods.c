@@ -8,6 +8,7 @@
 #include <microros/port_tasks.h>
 #include <microros/rcl_tasks.h>
 #include <microros/rclc_tasks.h>
+#include <microros/rclc_tasks_state.h>
 #include <microros/rmw_tasks.h>
 #include <microros/tasks.h>
 #include <rcl/rcl.h>
@@ -191,7 +192,9 @@ int main(void)
   rmw_tasks_release(RCLC_TASK_CATCHES, 5);
   made = 0;
   self = PORT_TASK_NONE;
+  rclc_task_states[RCLC_TASK_SESSION].counters.runs = 3; /* as if it had run */
   CHECK(rclc_tasks_start() == RCL_RET_OK);
+  CHECK(rclc_task_get_counters(RCLC_TASK_SESSION, &counters) == RCL_RET_OK && counters.runs == 0u);
   CHECK(rmw_tasks_released(RCLC_TASK_CATCHES, 7) == 7u);
   CHECK(rclc_tasks_stop() == RCL_RET_OK);
 

@@ -92,10 +92,10 @@ rcl_ret_t rclc_tasks_start(void)
       return tasks_refuse("a task has no executor, or no function for its overruns");
     }
     rclc_task_states[task].next_us = port_task_time_us();
-    (void)memset(&rclc_task_states[task].counters, 0, sizeof(rclc_task_states[task].counters));
   }
   microros_lock();
-  for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS - 1u; ++task) {
+  for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS; ++task) {
+    (void)memset(&rclc_task_states[task].counters, 0, sizeof(rclc_task_states[task].counters));
     (void)rmw_tasks_released(task, 0); /* of a start before */
   }
   tasks_run = true;
