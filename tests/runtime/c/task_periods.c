@@ -30,6 +30,7 @@ static uint32_t told;
 static uint32_t made;
 static bool stops_in_sleep;
 static uint32_t waits;
+static bool is_joining;
 
 bool port_task_create(uint8_t task, const port_task_t * setting)
 {
@@ -41,6 +42,9 @@ bool port_task_create(uint8_t task, const port_task_t * setting)
 void port_task_join(uint8_t task)
 {
   CHECK(task < made);
+  is_joining = true;
+  CHECK(rclc_task_stack_peak(task) == task + 1u); /* the port is not asked meanwhile */
+  is_joining = false;
 }
 
 uint8_t port_task_self(void)
@@ -93,6 +97,7 @@ void port_task_sleep_until(uint32_t time_us)
 
 uint32_t port_task_stack_peak(uint8_t task)
 {
+  CHECK(!is_joining);
   return task + 1u;
 }
 

@@ -66,6 +66,26 @@ static bool task_is_ready(uint8_t task)
          (rclc_task_plans[task].overrun != RCLC_TASK_CALL || state->on_overrun != NULL);
 }
 
+/* Meanwhile nobody asks the port for the task. Some ports do not know the stack any more when the task has ended, so its
+ * last mark is read before, too. */
+static void task_join(uint8_t task)
+{
+  rclc_task_state_t * state = &rclc_task_states[task];
+  uint32_t before;
+  uint32_t after;
+
+  microros_lock();
+  before = port_task_stack_peak(task);
+  state->stack_peak = before;
+  state->is_made = false;
+  microros_unlock();
+  port_task_join(task);
+  after = port_task_stack_peak(task);
+  microros_lock();
+  state->stack_peak = after > before ? after : before;
+  microros_unlock();
+}
+
 /* Ends the first `count` tasks. */
 static void tasks_end(uint8_t count)
 {
@@ -78,7 +98,7 @@ static void tasks_end(uint8_t count)
     port_task_set(task);
   }
   for (uint8_t task = 0; task < count; ++task) {
-    port_task_join(task);
+    task_join(task);
   }
 }
 
@@ -97,6 +117,7 @@ rcl_ret_t rclc_tasks_start(void)
   for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS; ++task) {
     (void)memset(&rclc_task_states[task].counters, 0, sizeof(rclc_task_states[task].counters));
     (void)rmw_tasks_released(task, 0); /* of a start before */
+    rclc_task_states[task].stack_peak = 0;
   }
   tasks_run = true;
   rmw_tasks_set_running(true);
@@ -140,14 +161,14 @@ rcl_ret_t rclc_task_get_counters(uint8_t task, rclc_task_counters_t * counters)
 
 uint32_t rclc_task_stack_peak(uint8_t task)
 {
-  bool is_made = false;
+  uint32_t peak = 0;
 
   if (task < (uint8_t)MICROROS_TASKS) {
     microros_lock();
-    is_made = rclc_task_states[task].is_made;
+    peak = rclc_task_states[task].is_made ? port_task_stack_peak(task) : rclc_task_states[task].stack_peak;
     microros_unlock();
   }
-  return is_made ? port_task_stack_peak(task) : 0u;
+  return peak;
 }
 
 uint32_t rclc_task_stack_size(uint8_t task)

@@ -51,8 +51,8 @@ uint32_t port_task_time_us(void);
 /* Sleeps until port_task_time_us has reached `time_us`, at most 2^31 - 1 microseconds; returns at once if it has. */
 void port_task_sleep_until(uint32_t time_us);
 
-/* Returns the high-water mark of the stack of a task since it was made, bytes. It reads the stack while the task may
- * run, so the mark may already be higher. */
+/* Returns the high-water mark of the stack of a task since it was made, bytes; 0 if the port forgets it when the task
+ * is joined. It reads the stack while the task may run, so the mark may already be higher. */
 uint32_t port_task_stack_peak(uint8_t task);
 
 #ifdef __cplusplus

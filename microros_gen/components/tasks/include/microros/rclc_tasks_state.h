@@ -13,7 +13,8 @@
 extern "C" {
 #endif
 
-/* Only the task itself uses its state while it runs; the lock of the library guards the counters and `is_in_round`. */
+/* Only the task itself uses its state while it runs; the lock of the library guards the counters,
+ * `is_in_round`, `is_made` and `stack_peak`. */
 typedef struct rclc_task_state_t {
   rclc_executor_t * executor;
   rclc_task_callback_t callback;
@@ -22,9 +23,10 @@ typedef struct rclc_task_state_t {
   uint32_t next_us;     /* the next release of a task with a period */
   uint32_t released_us; /* the release of a run in progress */
   uint32_t began_us;
+  uint32_t stack_peak; /* of a task that was joined, bytes */
   bool has_run;     /* a round since the last look; tasks without a period */
   bool is_in_round; /* a callback may wait for anything; tasks without a period */
-  bool is_made;
+  bool is_made;        /* and not joined: the port may be asked */
 } rclc_task_state_t;
 
 extern rclc_task_state_t rclc_task_states[MICROROS_TASKS];
