@@ -17,8 +17,6 @@
 /* Longest wait of a round: only trigger functions that look at other state depend on it. */
 enum { WAIT_MOST_MS = 1000 };
 
-static const int64_t ns_per_ms = 1000000;
-
 rclc_task_state_t rclc_task_states[MICROROS_TASKS];
 
 /* A round may have taken samples since the session was last run; the lock guards it. */
@@ -197,6 +195,7 @@ static bool executor_has_news(const rclc_executor_t * executor, int64_t * look_a
  * rounded up at different moments differ by a millisecond. */
 static bool task_is_sooner(uint8_t task, int64_t look_again_ns)
 {
+  const int64_t ns_per_ms = 1000000;
   const uint32_t left_ms = rmw_tasks_until_ms(task) - port_time_ms();
 
   return left_ms <= (uint32_t)WAIT_MOST_MS && look_again_ns < ((int64_t)left_ms - 1) * ns_per_ms;
