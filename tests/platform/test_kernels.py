@@ -16,6 +16,7 @@ import pytest
 from microros_gen.platform.part_file import builtin_parts
 from microros_gen.selection.find_components import parts_folder
 from tests.support.command_line import Runner
+from tests.support.components.rendered import UNITS
 from tests.support.paths import TESTS
 
 KERNELS = TESTS / "platform" / "kernels"
@@ -44,7 +45,13 @@ VARIANTS = (
 WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Werror")
 COMPILERS = (
     ("arm-none-eabi-gcc",),
-    ("clang", "-DKERNEL_TICK_RATE_HZ=1024", "-DLWIP_IPV6=0", "-DPORT_FREERTOS_TIME_US=kernel_time_us"),
+    (
+        "clang",
+        "-DKERNEL_TICK_RATE_HZ=1024",
+        "-DLWIP_IPV6=0",
+        "-DKERNEL_CORES=2",
+        "-DPORT_FREERTOS_TIME_US=kernel_time_us",
+    ),
     ("gcc", "-DKERNEL_TICK_RATE_HZ=100", "-DLWIP_NETIF_TX_SINGLE_PBUF=1"),
 )
 SETTINGS = (
@@ -52,6 +59,7 @@ SETTINGS = (
     "configUSE_MUTEXES",
     "configUSE_RECURSIVE_MUTEXES",
     "configUSE_TIMERS",
+    "INCLUDE_eTaskGetState",
     "INCLUDE_vTaskDelete",
     "INCLUDE_vTaskSuspend",
     "INCLUDE_xTaskDelayUntil",
@@ -102,11 +110,30 @@ def test_a_missing_setting_of_freertos_stops_the_compiler(folder: Path, run: Run
         changed = folder / "changed" / "FreeRTOS.h"
         changed.parent.mkdir(exist_ok=True)
         changed.write_text(re.sub(rf"(#define {name}) 1", r"\1 0", header.read_text()))
-        messages = complaints("gcc", folder / "out", ("freertos", "lwip"), f"-I{changed.parent}")
+        messages = complaints(
+            "gcc", folder / "out", ("freertos", "lwip"), f"-I{changed.parent}", "-DKERNEL_CORES=2"
+        )
         found[name] = messages
     assert {
         name: f'#error "FreeRTOSConfig.h: set {name} to 1"' in messages for name, messages in found.items()
     } == dict.fromkeys(found, True)
+
+
+@pytest.mark.builds
+def test_a_task_of_freertos_is_deleted_when_its_processor_has_left_it(folder: Path, run: Runner) -> None:
+    (folder / "board.yaml").write_text(TARGET.format(cpu="cortex-m4", os="freertos", network="lwip"))
+    (folder / "microros.yaml").write_text(APPLICATION.format(**VARIANTS[0]) + TASKS)
+    assert run("generate", "-o", "out").status == 0
+    sources = [folder / "out" / "src" / "port_freertos" / "port_freertos_tasks.c", UNITS / "freertos_join.c"]
+    folders = [
+        f"-I{path}" for path in (folder / "out" / "include", KERNELS / "freertos", KERNELS / "lwip", UNITS)
+    ]
+    for cores in (1, 2):
+        program = folder / f"join{cores}"
+        call = ["gcc", "-std=gnu99", f"-DKERNEL_CORES={cores}", *folders, *sources, "-o", program]
+        subprocess.run(call, check=True)
+        done = subprocess.run([program], capture_output=True, text=True, check=False)
+        assert (done.returncode, done.stderr) == (0, "")
 
 
 def test_every_port_to_a_kernel_is_checked() -> None:

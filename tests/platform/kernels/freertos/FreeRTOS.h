@@ -20,6 +20,10 @@
 #define INCLUDE_xTaskDelayUntil 1
 #define INCLUDE_xTaskGetCurrentTaskHandle 1
 #define INCLUDE_uxTaskGetStackHighWaterMark 1
+#ifdef KERNEL_CORES
+#define configNUMBER_OF_CORES KERNEL_CORES
+#define INCLUDE_eTaskGetState 1
+#endif
 
 typedef long BaseType_t;
 typedef unsigned long UBaseType_t;

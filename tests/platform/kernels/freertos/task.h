@@ -23,6 +23,11 @@ TaskHandle_t xTaskCreateStatic(
   UBaseType_t priority, StackType_t * stack, StaticTask_t * storage);
 BaseType_t xTaskDelayUntil(TickType_t * previous, TickType_t increment);
 TaskHandle_t xTaskGetCurrentTaskHandle(void);
+#ifdef INCLUDE_eTaskGetState
+typedef enum { eRunning, eReady, eBlocked, eSuspended, eDeleted, eInvalid } eTaskState;
+
+eTaskState eTaskGetState(TaskHandle_t task);
+#endif
 UBaseType_t uxTaskGetStackHighWaterMark(TaskHandle_t task);
 void vTaskDelete(TaskHandle_t task);
 void vTaskSuspend(TaskHandle_t task);

@@ -24,8 +24,8 @@ typedef struct rclc_task_state_t {
   uint32_t released_us; /* the release of a run in progress */
   uint32_t began_us;
   uint32_t stack_peak; /* of a task that was joined, bytes */
-  bool has_run;     /* a round since the last look; tasks without a period */
-  bool is_in_round; /* a callback may wait for anything; tasks without a period */
+  bool has_run;        /* a round since the last look; tasks without a period */
+  bool is_in_round;    /* a callback may wait for anything; tasks without a period */
   bool is_made;        /* and not joined: the port may be asked */
 } rclc_task_state_t;
 

@@ -27,6 +27,15 @@
 #error "FreeRTOSConfig.h: set INCLUDE_uxTaskGetStackHighWaterMark to 1"
 #endif
 
+#if defined(configNUMBER_OF_CORES) && configNUMBER_OF_CORES > 1
+#define TASKS_RUN_AT_ONCE 1
+#if !defined(INCLUDE_eTaskGetState) || INCLUDE_eTaskGetState != 1
+#error "FreeRTOSConfig.h: set INCLUDE_eTaskGetState to 1"
+#endif
+#else
+#define TASKS_RUN_AT_ONCE 0
+#endif
+
 typedef struct kernel_task_t {
   StaticTask_t storage;
   StaticSemaphore_t event_storage;
@@ -71,11 +80,25 @@ bool port_task_create(uint8_t task, const port_task_t * setting)
   return place->handle != NULL;
 }
 
+#if TASKS_RUN_AT_ONCE == 1
+/* On another processor it may still be on its way to its suspension; its stack and storage are used until then. */
+static bool task_is_over(const kernel_task_t * place)
+{
+  return place->has_ended && eTaskGetState(place->handle) == eSuspended;
+}
+#else
+/* The caller runs, so the task does not. */
+static bool task_is_over(const kernel_task_t * place)
+{
+  return place->has_ended;
+}
+#endif
+
 void port_task_join(uint8_t task)
 {
   kernel_task_t * place = &kernel_tasks[task];
 
-  while (!place->has_ended) {
+  while (!task_is_over(place)) {
     vTaskDelay(1);
   }
   vTaskDelete(place->handle);
