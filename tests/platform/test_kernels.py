@@ -130,7 +130,15 @@ def test_a_task_of_freertos_is_deleted_when_its_processor_has_left_it(folder: Pa
     ]
     for cores in (1, 2):
         program = folder / f"join{cores}"
-        call = ["gcc", "-std=gnu99", f"-DKERNEL_CORES={cores}", *folders, *sources, "-o", program]
+        call: list[str | Path] = [
+            "gcc",
+            "-std=gnu99",
+            f"-DKERNEL_CORES={cores}",
+            *folders,
+            *sources,
+            "-o",
+            program,
+        ]
         subprocess.run(call, check=True)
         done = subprocess.run([program], capture_output=True, text=True, check=False)
         assert (done.returncode, done.stderr) == (0, "")
