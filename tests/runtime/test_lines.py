@@ -142,6 +142,29 @@ def test_an_unread_terminal_blocks_nothing_and_gets_everything_later(tmp_path: P
     os.close(slave)
 
 
+def test_a_line_without_room_takes_no_processor_time(tmp_path: Path) -> None:
+    """A reliable stream whose output waits for room asks for waits of 0 ms, 40 of them here."""
+    plan = changed(SERIAL, executor__max=1, executor__handles_max=1)
+    tree = render(tmp_path, plan, components(plan))
+    wanted = ("port_posix_serial.c", "port_posix_wait.c", "port_posix_time.c")
+    alone = Tree(tree.folder, tuple(s for s in tree.sources if s.name in wanted))
+    program = build(alone, ["lost_line.c"], "lost")
+    master, slave = os.openpty()
+    tty.setraw(slave)
+    running = subprocess.Popen(
+        [program, os.ttyname(slave)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    )
+    assert running.stdin is not None
+    assert running.stdout is not None
+    assert running.stdout.readline() == "full\n"
+    os.close(master)
+    os.close(slave)
+    running.stdin.write("\n")
+    running.stdin.flush()
+    assert int(running.stdout.readline()) >= 38, "waits of 0 ms at a lost line"
+    assert running.wait(20) == 0
+
+
 def test_room_in_the_line_ends_a_wait_that_began_before_there_was_output(tmp_path: Path) -> None:
     """One task waits for the line, another one writes more than the system has room for."""
     plan = changed(SERIAL, executor__max=1, executor__handles_max=1, session__multithread=True)
