@@ -73,6 +73,16 @@ UNITS = {
         times__retry_most_ms=4000,
         features=Features((FeatureSlice("time_source", ASKING, "[]"),)),
     ),
+    "unit_woken.c": changed(
+        EXECUTOR,
+        session__multithread=True,
+        session__has_sleep=True,
+        session__has_state=True,
+        session__has_time_sync=True,
+        times__retry_first_ms=100,
+        times__retry_most_ms=4000,
+        features=Features((FeatureSlice("time_source", ASKING, "[]"),)),
+    ),
 }
 
 SELECTED = {
@@ -84,6 +94,7 @@ SELECTED = {
     "unit_silence.c": ("on_silence",),
     "unit_stamp.c": ("clock_stamp",),
     "unit_time_source.c": ("time_source",),
+    "unit_woken.c": ("time_source",),
 }
 """Components that a unit has besides those of its plan."""
 

@@ -16,9 +16,15 @@ static inline void xrce_time_source_connected(xrce_time_source_t * source, uint3
   source->since_ms = now;
 }
 
-/* After a sleep the time is not known: the clock has stopped for an unknown time. The drift is kept. */
-static inline void xrce_time_source_wake(xrce_time_source_t * source)
+/* After a sleep the time is not known: the clock has stopped for an unknown time, so it is asked for at once, and a reply from
+ * before says nothing. The drift is kept. */
+static inline void xrce_time_source_wake(xrce_client_t * client, uint32_t now)
 {
+  xrce_time_source_t * source = &client->time_source;
+
+  source->due_ms = now;
+  source->since_ms = now;
+  source->replies = client->time_sync.replies;
   source->asks = false;
   source->filter.is_set = false;
   source->filter.variance.offset = 0;
