@@ -36,8 +36,11 @@ static rcl_guard_condition_t guard;
 static int64_t asked_ns;
 static bool has_time = true; /* the agent */
 
+static uint32_t locked;
+
 void port_lock(void)
 {
+  ++locked;
 }
 
 void port_unlock(void)
@@ -144,6 +147,18 @@ static void test_time(void)
   CHECK(llabs(rmw_uros_epoch_nanos() - epoch_ns - agent_now_ns) < 5 * ms);
 }
 
+/* A task of the woken device waits already, and the other ones may call the library. */
+static void test_wake(rmw_uros_retained_t * retained)
+{
+  xrce_client_t * client = rmw_client_instance();
+
+  client->waiting = 1;
+  locked = 0;
+  CHECK(rmw_uros_wake(retained));
+  CHECK(locked == 1u && client->waiting == 1u);
+  ++client->time_sync.replies; /* one that came as the sleep began */
+}
+
 int main(void)
 {
   rmw_uros_retained_t * retained =
@@ -159,8 +174,8 @@ int main(void)
     _exit(0);
   }
   CHECK(waitpid(before, &status, 0) == before && status == 0);
-  CHECK(rmw_uros_wake(retained));
-  ++rmw_client_instance()->time_sync.replies; /* one that came as the sleep began */
+  test_wake(retained);
   test_time();
+  CHECK(rmw_client_instance()->waiting == 1u);
   return 0;
 }

@@ -13,13 +13,6 @@
 extern "C" {
 #endif
 
-/* After a sleep no task waits. */
-static inline void xrce_tasks_reset(xrce_client_t * client)
-{
-  client->waiting = 0;
-  client->wakes = false;
-}
-
 /* Received data may be for a task that waits for the transport, or is about to. */
 static inline void xrce_tasks_wake(xrce_client_t * client)
 {
