@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import shutil
+import signal
 import socket
 import subprocess
 import threading
@@ -49,6 +51,16 @@ def serve(agent: ReadingAgent, served: socket.socket) -> None:
             answers += agent.numbers(PLAN.entities.publisher_places, *range(RECEIVED))
         for answer in [*answers, *(agent.tick() if agent.unacknowledged else [])]:
             served.sendto(answer, peer)
+
+
+@pytest.mark.parametrize("system", ["any", "none", "late", "full"])
+def test_a_system_without_priority_inheritance_has_a_lock(tmp_path: Path, system: str) -> None:
+    tree = render(tmp_path, PLAN, components(PLAN))
+    source = next(s for s in tree.sources if s.name == "port_posix_lock.c")
+    shutil.copy(source, tree.include / "lock_source.h")  # a header: the cache of builds looks at these
+    program = build(Tree(tree.folder, ()), ["lock_kinds.c"], "kinds")
+    done = subprocess.run([program, system], capture_output=True, text=True, timeout=seconds(60), check=False)
+    assert (done.returncode, done.stdout) == ((-signal.SIGABRT, "") if system == "full" else (0, "40000\n"))
 
 
 @pytest.mark.parametrize("queue", first([QueuePlan(8, 16, 24), QueuePlan(8, 16)]), ids=["bytes", "slots"])

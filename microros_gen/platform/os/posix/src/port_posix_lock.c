@@ -3,17 +3,26 @@
 #include "microros/port.h"
 
 #include <pthread.h>
+#include <stdlib.h>
 
 static pthread_mutex_t lock;
 
+static bool lock_make_with(pthread_mutexattr_t * kind, int protocol)
+{
+  return pthread_mutexattr_setprotocol(kind, protocol) == 0 && pthread_mutex_init(&lock, kind) == 0;
+}
+
+/* A system may have no priority inheritance, which the first of these calls or only the second one says. Without any lock, tasks
+ * would spoil each other's data. */
 static void lock_make(void)
 {
   pthread_mutexattr_t kind;
 
-  (void)pthread_mutexattr_init(&kind); /* these calls need no memory, and POSIX defines this kind */
-  (void)pthread_mutexattr_settype(&kind, PTHREAD_MUTEX_RECURSIVE);
-  (void)pthread_mutexattr_setprotocol(&kind, PTHREAD_PRIO_INHERIT);
-  (void)pthread_mutex_init(&lock, &kind);
+  if (
+    pthread_mutexattr_init(&kind) != 0 || pthread_mutexattr_settype(&kind, PTHREAD_MUTEX_RECURSIVE) != 0 ||
+    (!lock_make_with(&kind, PTHREAD_PRIO_INHERIT) && !lock_make_with(&kind, PTHREAD_PRIO_NONE))) {
+    abort();
+  }
   (void)pthread_mutexattr_destroy(&kind);
 }
 
