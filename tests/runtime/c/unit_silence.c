@@ -205,6 +205,8 @@ int main(void)
   open_all(&rmw_qos_profile_sensor_data); /* a restart, and best effort */
   test_once_for_each_silence();
   test_closed();
-  close_all();
+  CHECK(rmw_uros_silences() != 0u);
+  CHECK(rclc_support_fini(&support) == RCL_RET_OK); /* its subscriptions are still there */
+  CHECK(rmw_uros_silences() == 0u);
   return 0;
 }
