@@ -18,7 +18,8 @@ extern "C" {
 /* Returns whether output waits for room in the system; a wait then also ends when there is room. */
 bool port_posix_serial_waits(int handle);
 
-/* Returns how long a wait may take, at most `left_ms`: a lost device does not report that it has returned. */
+/* Returns how long a wait may take, at most `left_ms`: a lost device does not report that it has returned. At least 1 ms while a
+ * line has no room. */
 uint32_t port_posix_serial_left(uint32_t left_ms);
 
 /* Sets the end of a pipe that ends a wait when output begins to wait for room. */

@@ -3,6 +3,7 @@
 #include "microros/executor_handles.h"
 #include "microros/port.h"
 #include "microros/rcl_waiting.h"
+#include "microros/rmw_turn.h"
 #include "microros/time_math.h"
 #include "microros_config.h"
 
@@ -43,7 +44,8 @@ static rcl_ret_t executor_wait(const rclc_executor_t * executor, int64_t timeout
 
     rcl_waiting_receive();
     result = executor_look(executor, &changed, &look_again_ns);
-    if (result != RCL_RET_OK || changed || rcl_waiting_is_over(&waiting)) {
+    /* cppcheck-suppress knownConditionTrueFalse ; without tasks of the application file no task ends */
+    if (result != RCL_RET_OK || changed || rcl_waiting_is_over(&waiting) || rmw_turn_is_over()) {
       return result;
     }
     rcl_waiting_rest(&waiting, look_again_ns);

@@ -226,14 +226,23 @@ bool port_posix_serial_waits(int handle)
   return line != NULL && line->size != 0u;
 }
 
+/* What waits for room in a line asks for waits of 0 ms. A lost line gets none before it is looked for, and room in another one
+ * ends a wait: these waits take a millisecond instead of all processor time. */
 uint32_t port_posix_serial_left(uint32_t left_ms)
 {
+  uint32_t left = left_ms;
+
   for (size_t i = 0; i < (size_t)LINES; ++i) {
-    if (lines[i].used && lines[i].descriptor < 0 && left_ms > PORT_POSIX_SERIAL_RETRY_MS) {
-      return PORT_POSIX_SERIAL_RETRY_MS;
+    const serial_line_t * line = &lines[i];
+
+    if (line->used && line->descriptor < 0 && left > PORT_POSIX_SERIAL_RETRY_MS) {
+      left = PORT_POSIX_SERIAL_RETRY_MS;
+    }
+    if (line->used && left == 0u && (line->descriptor < 0 || line->size != 0u)) {
+      left = 1;
     }
   }
-  return left_ms;
+  return left;
 }
 
 void port_posix_serial_set_wake(int end)

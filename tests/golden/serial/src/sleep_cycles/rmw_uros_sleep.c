@@ -80,22 +80,34 @@ rmw_ret_t rmw_uros_sleep(rmw_context_t * context, rmw_uros_retained_t * retained
   return is_asleep ? RMW_RET_OK : RMW_RET_TIMEOUT;
 }
 
+/* What tasks use while there is no session stays as it is. */
+static void wake_read(xrce_client_t * client, const rmw_uros_retained_t * retained)
+{
+  uint8_t * bytes = (uint8_t *)client;
+
+  (void)memcpy(bytes, retained->client, sizeof(retained->client));
+  (void)memcpy(xrce_reliable_slots, retained->xrce_reliable_slots, sizeof(retained->xrce_reliable_slots));
+  client->session.state = (uint8_t)XRCE_CLOSED; /* until rcl_init */
+  client->session.transport_open = false;
+}
+
 bool rmw_uros_wake(rmw_uros_retained_t * retained)
 {
   xrce_client_t * client = rmw_client_instance();
-  bool good;
+  bool good = false;
 
-  if (retained == NULL || client->session.state != (uint8_t)XRCE_CLOSED) {
+  if (retained == NULL) {
     return false;
   }
-  good = retained->magic == retained_magic && retained_has_plan(retained) &&
-         retained->check == retained_check(retained);
-  retained->magic = 0; /* invalidated: its sequence numbers are used from now on */
-  if (good) {
-    (void)memcpy((uint8_t *)client, retained->client, sizeof(retained->client));
-    (void)memcpy(xrce_reliable_slots, retained->xrce_reliable_slots, sizeof(retained->xrce_reliable_slots));
-    client->session.state = (uint8_t)XRCE_CLOSED; /* until rcl_init */
-    client->session.transport_open = false;
+  microros_lock();
+  if (client->session.state == (uint8_t)XRCE_CLOSED) {
+    good = retained->magic == retained_magic && retained_has_plan(retained) &&
+           retained->check == retained_check(retained);
+    retained->magic = 0; /* invalidated: its sequence numbers are used from now on */
   }
+  if (good) {
+    wake_read(client, retained);
+  }
+  microros_unlock();
   return good;
 }
