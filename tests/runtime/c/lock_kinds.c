@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The lock of POSIX on systems without priority inheritance: lock_kinds any|none|late|full. It is refused at once (`none`) or with the
- * mutex (`late`), or there is no mutex at all (`full`). Two tasks count, each under the lock, which it takes twice. */
+ * The lock of POSIX on systems without priority inheritance: lock_kinds any|none|late. It is refused at once (`none`) or with the
+ * mutex (`late`). Two tasks count, each under the lock, which it takes twice. */
 #define _XOPEN_SOURCE 700
 #include <errno.h>
 #include <pthread.h>
@@ -11,7 +11,6 @@
 
 static bool is_any;
 static bool is_none;
-static bool is_full;
 
 static int fake_setprotocol(pthread_mutexattr_t * kind, int protocol)
 {
@@ -24,7 +23,7 @@ static int fake_init(pthread_mutex_t * mutex, const pthread_mutexattr_t * kind)
   int protocol = PTHREAD_PRIO_NONE;
 
   (void)pthread_mutexattr_getprotocol(kind, &protocol);
-  return is_full || (protocol == PTHREAD_PRIO_INHERIT && !is_any) ? ENOTSUP : pthread_mutex_init(mutex, kind);
+  return protocol == PTHREAD_PRIO_INHERIT && !is_any ? ENOTSUP : pthread_mutex_init(mutex, kind);
 }
 
 #define pthread_mutexattr_setprotocol fake_setprotocol
@@ -57,7 +56,6 @@ int main(int argc, char ** argv)
   }
   is_any = strcmp(argv[1], "any") == 0;
   is_none = strcmp(argv[1], "none") == 0;
-  is_full = strcmp(argv[1], "full") == 0;
   if (pthread_create(&task, NULL, add, NULL) != 0) {
     return 3;
   }

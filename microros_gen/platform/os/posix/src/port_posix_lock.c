@@ -3,25 +3,27 @@
 #include "microros/port.h"
 
 #include <pthread.h>
-#include <stdlib.h>
 
-static pthread_mutex_t lock;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
 static bool lock_make_with(pthread_mutexattr_t * kind, int protocol)
 {
   return pthread_mutexattr_setprotocol(kind, protocol) == 0 && pthread_mutex_init(&lock, kind) == 0;
 }
 
-/* A system may have no priority inheritance, which the first of these calls or only the second one says. Without any lock, tasks
- * would spoil each other's data. */
+/* A system may have no priority inheritance, which the first of these calls or only the second one says. Without memory for a
+ * kind, the lock stays as it is, which excludes other tasks as well. */
 static void lock_make(void)
 {
   pthread_mutexattr_t kind;
 
+  if (pthread_mutexattr_init(&kind) != 0) {
+    return;
+  }
   if (
-    pthread_mutexattr_init(&kind) != 0 || pthread_mutexattr_settype(&kind, PTHREAD_MUTEX_RECURSIVE) != 0 ||
-    (!lock_make_with(&kind, PTHREAD_PRIO_INHERIT) && !lock_make_with(&kind, PTHREAD_PRIO_NONE))) {
-    abort();
+    pthread_mutexattr_settype(&kind, PTHREAD_MUTEX_RECURSIVE) == 0 &&
+    !lock_make_with(&kind, PTHREAD_PRIO_INHERIT)) {
+    (void)lock_make_with(&kind, PTHREAD_PRIO_NONE);
   }
   (void)pthread_mutexattr_destroy(&kind);
 }
