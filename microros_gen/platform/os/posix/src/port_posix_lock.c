@@ -11,8 +11,8 @@ static bool lock_make_with(pthread_mutexattr_t * kind, int protocol)
   return pthread_mutexattr_setprotocol(kind, protocol) == 0 && pthread_mutex_init(&lock, kind) == 0;
 }
 
-/* A system may have no priority inheritance, which the first of these calls or only the second one says. Without memory for a
- * kind, the lock stays as it is, which excludes other tasks as well. */
+/* A system may have no priority inheritance, which the first of these calls or only the second one says. Without memory for
+ * a kind, the lock stays as it is, which excludes other tasks as well. */
 static void lock_make(void)
 {
   pthread_mutexattr_t kind;
