@@ -107,6 +107,9 @@ def test_a_goal_with_feedback_and_result(server: Server) -> None:
 
     server.until(two_came)
     assert feedback == [[0, [0]], [0, [0, 1, 2]]]
+    server.until(
+        lambda: server.peer.ask(do="statuses")[-1:] == [[[0, EXECUTING]]]
+    )  # DDS connects topics one by one
     server.ok(f"end 0 {SUCCEEDED} 8")
     assert server.peer.result(0) == [SUCCEEDED, FIBONACCI]
     # The history has the last status alone, so an agent may overtake the first one.
