@@ -81,6 +81,23 @@ def output_option(function: F) -> F:
     )(function)
 
 
+file_option = click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="Write to FILE instead of standard output.",
+)
+
+
+def write_result(text: str, output: Path | None) -> None:
+    """Write what `file_option` is about: to the file, or to standard output."""
+    if output is None:
+        click.echo(text, nl=False)
+    else:
+        output.write_text(text, encoding="utf-8", newline="\n")
+
+
 def image_option(words: str) -> Callable[[F], F]:
     """Add `--image FILE`; `words` are its help."""
     kind = click.Path(path_type=Path, dir_okay=False, exists=True)

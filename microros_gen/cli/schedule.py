@@ -9,6 +9,7 @@ from typing import Any
 
 import click
 
+from microros_gen.cli.options import file_option, write_result
 from microros_gen.cli.tables import format_table
 from microros_gen.diagnostics import Diagnostic, UserError, nearest
 from microros_gen.documents.files import read_json
@@ -35,13 +36,7 @@ from microros_gen.schedule.timeline import draw
     metavar="NAME",
     help="Task whose worst case the time line shows. Default: that with the least slack.",
 )
-@click.option(
-    "-o",
-    "--output",
-    type=click.Path(path_type=Path, dir_okay=False),
-    metavar="FILE",
-    help="Write to FILE instead of standard output.",
-)
+@file_option
 def command(out: Path, kind: str, name: str | None, output: Path | None) -> None:
     """Show the response-time analysis of the tasks of OUT, the highest priority first. Times are microseconds.
 
@@ -64,10 +59,7 @@ def command(out: Path, kind: str, name: str | None, output: Path | None) -> None
         text = json.dumps(data, indent=2, sort_keys=True, ensure_ascii=False) + "\n"
     else:
         text = draw(responses, _chosen(responses, name))
-    if output is None:
-        click.echo(text, nl=False)
-    else:
-        output.write_text(text, encoding="utf-8", newline="\n")
+    write_result(text, output)
 
 
 def _responses(out: Path) -> tuple[Response, ...]:

@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from microros_gen.cli.budgets import check_recorded
-from microros_gen.cli.options import check_map, image_option, map_option
+from microros_gen.cli.options import check_map, file_option, image_option, map_option, write_result
 from microros_gen.cli.size.format import size_json, size_table
 from microros_gen.image.folder import read_folder
 from microros_gen.image.report import check_budgets, measure_folder
@@ -29,13 +29,7 @@ from microros_gen.image.report import check_budgets, measure_folder
 @click.option(
     "--all", "every", is_flag=True, help="Also list every symbol (table only; JSON and HTML always do)."
 )
-@click.option(
-    "-o",
-    "--output",
-    type=click.Path(path_type=Path, dir_okay=False),
-    metavar="FILE",
-    help="Write to FILE instead of standard output.",
-)
+@file_option
 @click.option(
     "--budgets",
     "check",
@@ -78,8 +72,5 @@ def command(
         text = size_html(report)
     else:
         text = size_json(report) if kind == "json" else size_table(report, every)
-    if output is None:
-        click.echo(text, nl=False)
-    else:
-        output.write_text(text, encoding="utf-8", newline="\n")
+    write_result(text, output)
     check_budgets(report.budgets, {}, {})

@@ -31,9 +31,7 @@ class End:
 
     def limits(self, types: Mapping[TypeName, TypePlan]) -> TypeLimits | None:
         """Return the limits of its messages."""
-        type_ = types[type_name(self.endpoint.type)]
-        own = type_.limit_set(self.endpoint.kind, self.index)
-        return own.limits if own else type_.limits
+        return types[type_name(self.endpoint.type)].limits_of(self.endpoint.kind, self.index)
 
 
 def check_topics(context: PlanContext, diagnostics: Diagnostics) -> None:

@@ -31,12 +31,8 @@ class ServiceEnd:
     def limits(self, context: PlanContext) -> tuple[TypeLimits | None, ...]:
         """Return the limits of its requests and of its responses."""
         name = type_name(self.endpoint.type, "srv")
-        found = []
-        for part in ("Request", "Response"):
-            type_ = context.types[derived_name(name, part)]
-            own = type_.limit_set(self.endpoint.kind, self.index)
-            found.append(own.limits if own else type_.limits)
-        return tuple(found)
+        parts = (context.types[derived_name(name, part)] for part in ("Request", "Response"))
+        return tuple(part.limits_of(self.endpoint.kind, self.index) for part in parts)
 
 
 def check_services(context: PlanContext, diagnostics: Diagnostics) -> None:

@@ -44,7 +44,7 @@ def check_limits(
     """
     name = type_name(end.type)
     messages = {known: plan.message for known, plan in context.types.items()}
-    own, other = _own_limits(endpoint, index, context), _limits_of(end, link, messages)
+    own, other = context.types[name].limits_of(endpoint.kind, index), _limits_of(end, link, messages)
     publishes = endpoint.kind == "publisher"
     sent, taken = (own, other) if publishes else (other, own)
     for longer in _longer(name, sent, taken, messages, ""):
@@ -72,12 +72,6 @@ def check_client_keys(application: Application, diagnostics: Diagnostics) -> Non
                 "Give each board its own `session: {key: N}`",
                 id="MG-7207",
             )
-
-
-def _own_limits(endpoint: EndpointDecl, index: int, context: PlanContext) -> TypeLimits | None:
-    plan = context.types[type_name(endpoint.type)]
-    own = plan.limit_set(endpoint.kind, index)
-    return own.limits if own else plan.limits
 
 
 def _limits_of(end: PeerEnd, link: Link, messages: dict[TypeName, Message]) -> TypeLimits | None:

@@ -79,6 +79,11 @@ class TypePlan:
             (s for s in self.limit_sets if any((e.kind, e.index) == (kind, index) for e in s.entities)), None
         )
 
+    def limits_of(self, kind: str, index: int) -> TypeLimits | None:
+        """Return the limits of that entity's messages: its own, or those of the type."""
+        own = self.limit_set(kind, index)
+        return own.limits if own else self.limits
+
     def largest(self, kind: str, index: int) -> int:
         """Return the largest encoded size of that entity's messages, bytes of the CDR body."""
         own = self.limit_set(kind, index)

@@ -27,7 +27,7 @@ typedef struct xrce_time_variance_t {
   int64_t drift;  /* ppb^2 */
 } xrce_time_variance_t;
 
-/* Zero-initialized: there is no time yet. */
+/* Zero-initialized: the time is not known yet. */
 typedef struct xrce_time_filter_t {
   int64_t local_ns;     /* of the newest accepted sample */
   int64_t reference_ns; /* estimate for that moment */

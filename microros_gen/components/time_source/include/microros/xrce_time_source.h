@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-/* Zero-initialized: there is no time yet. The members after `filter` are those of questions to the agent. */
+/* Zero-initialized: the time is not known yet. The members after `filter` are those of questions to the agent. */
 typedef struct xrce_time_source_t {
   xrce_time_filter_t filter;
   uint32_t due_ms;   /* when to ask */

@@ -80,7 +80,7 @@ rmw_ret_t rmw_uros_sleep(rmw_context_t * context, rmw_uros_retained_t * retained
   return is_asleep ? RMW_RET_OK : RMW_RET_TIMEOUT;
 }
 
-/* What tasks use while there is no session stays as it is. */
+/* What tasks use outside of a session stays as it is. */
 static void wake_read(xrce_client_t * client, const rmw_uros_retained_t * retained)
 {
   uint8_t * bytes = (uint8_t *)client;
