@@ -292,7 +292,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "    timers: [{name: tick, period: 50 ms}]\ncomponents: [+timers, +executor, +diagnosis]\n"
         + "diagnosis: {deadline: 5 ms, timers: true, checks: [{name: battery, below: {error: 11000}, mode: SLOW}]}\n",
         "on_silence": _READER
-        + "      - {topic: in, type: std_msgs/msg/Int32, on_silence: {after: 1 s, call: stop_motors}}\n"
+        + _ALONE.replace("queue: 1", "queue: 1, on_silence: {after: 1 s, call: stop_motors}")
         + "components: [+multithread]\n",
         "time_source": _NODES
         + _SURE
