@@ -17,8 +17,8 @@ from microros_gen.cli.tables import format_selection, format_table, selection_da
 from microros_gen.client.plan.streams import StreamSizes
 from microros_gen.client.views.presence import report_rows
 from microros_gen.compiler import Planned
-from microros_gen.typesupport.plan.layout import ILP32
-from microros_gen.typesupport.plan.types import DATA_MODELS, TypePlan
+from microros_gen.typesupport.plan.layout import ILP32, models_of
+from microros_gen.typesupport.plan.types import TypePlan
 
 
 @click.command()
@@ -98,8 +98,9 @@ def _capability_rows(planned: Planned) -> list[tuple[str, str, str]]:
 
 
 def _storage_rows(planned: Planned) -> list[tuple[str, str, str]]:
-    """Return the blocks of messages that are sent: what they take on 32 bits."""
-    runtime, model = planned.project.runtime, DATA_MODELS.index(ILP32)
+    """Return the blocks of messages that are sent: what they take on the target, on 32 bits for a host."""
+    runtime, models = planned.project.runtime, models_of(planned.project.target.data_model)
+    model = models.index(ILP32) if ILP32 in models else 0
     why = "memory.messages of each sender, under its limits; where a function that needs it is called"
     return [
         (

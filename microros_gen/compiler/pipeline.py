@@ -56,6 +56,7 @@ from microros_gen.selection.profile_nodes import with_profile_nodes
 from microros_gen.selection.profiles import resolve_profiles
 from microros_gen.selection.resolve import check_ready, resolve_selection
 from microros_gen.typesupport.plan.capacity import Capacities, Defaults, Entity, Root, plan_capacities
+from microros_gen.typesupport.plan.layout import models_of
 from microros_gen.typesupport.plan.types import plan_types
 
 DEFAULT_INTERFACE = "std_msgs/msg/Int32"
@@ -179,7 +180,8 @@ def _planned(resolved: Resolved, diagnostics: Diagnostics) -> Planned:
     capacities = _capacities(resolved, interfaces, diagnostics)
     diagnostics.check()
     received = _received(application, selection, capacities)
-    types = plan_types(interfaces.messages, capacities, interfaces.type_hash, diagnostics, received)
+    models = models_of(resolved.request.target.data_model)
+    types = plan_types(interfaces.messages, capacities, interfaces.type_hash, diagnostics, received, models)
     diagnostics.check()
     project = plan_project(
         application,

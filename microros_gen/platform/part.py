@@ -80,6 +80,8 @@ class Cpu:
 
     `timer_interrupt` is how a page names the interrupt of the system timer. `registers` are addresses that it must
     know of a board, `optional_registers` those that it can use. `stdio_heap`: its C library takes memory to print.
+    `starts_itself`: its C library has start-up code, vectors and linker script. `narrow`: an interrupt can come
+    between two bytes of a number.
     """
 
     image: Image | None = None
@@ -88,6 +90,8 @@ class Cpu:
     fpu_flags: tuple[str, ...] = ()
     stdio_heap: bool = False
     small_data: bool = False
+    starts_itself: bool = False
+    narrow: bool = False
     registers: tuple[str, ...] = ()
     optional_registers: tuple[str, ...] = ()
     drivers: tuple[Driver, ...] = ()

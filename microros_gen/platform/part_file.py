@@ -28,6 +28,8 @@ _CPU_KEYS = (
     "fpu_flags",
     "stdio_heap",
     "small_data",
+    "starts_itself",
+    "narrow",
     "registers",
     "optional_registers",
     "drivers",
@@ -202,6 +204,8 @@ def _cpu(node: MappingNode, diagnostics: Diagnostics) -> Cpu:
         fpu_flags=_texts(node.get("fpu_flags")),
         stdio_heap=bool_of(node.get("stdio_heap")) or False,
         small_data=bool_of(node.get("small_data")) or False,
+        starts_itself=bool_of(node.get("starts_itself")) or False,
+        narrow=bool_of(node.get("narrow")) or False,
         registers=_texts(node.get("registers")),
         optional_registers=_texts(node.get("optional_registers")),
         drivers=tuple(

@@ -127,7 +127,7 @@ class Target:
     without them it has the library alone. `clock_hz` counts the system timer. `interrupts` are handlers of the
     application by their number, `registers` addresses by name (Cpu.registers). `memories` are those besides flash
     and RAM; the hooks are functions of the application, empty: none.
-    `data_model` is lp64 or ilp32. `transport` is what holds where neither application nor profile say.
+    `data_model` is lp64, ilp32 or ip16. `transport` is what holds where neither application nor profile say.
     """
 
     name: str
@@ -195,10 +195,15 @@ class Target:
         return self.hosted or (self.knows_memory and bool(self.os.linker_script))
 
     @property
+    def has_start_up(self) -> bool:
+        """Whether the image begins with code of this project, and not with that of the C library."""
+        return self.has_image and not self.hosted and not self.cpu.starts_itself
+
+    @property
     def linker_script(self) -> str | None:
         """The path of the linker script below the output folder, where this project has the image's start-up."""
         os = self.part("os")
-        if self.hosted or not self.has_image or os is None:
+        if not self.has_start_up or os is None:
             return None
         return f"src/{os.component.name}/{self.os.linker_script}"
 

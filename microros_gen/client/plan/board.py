@@ -109,6 +109,16 @@ def plan_board(
             console_size=console_size(application, target),
         )
     uart = target.uart if driver not in ("none", OWN_DRIVER) else None
+    if target.cpu.starts_itself:
+        return BoardPlan(
+            ring_size=ring_size(runtime),
+            output_size=runtime.transport.send_buffer,
+            console_size=console_size(application, target),
+            ticks_per_ms=target.clock_hz // 1000,
+            serial_driver=driver,
+            uart_divisor=_divisor(uart, target, application, diagnostics) if uart else 0,
+            tx_irq=uart.tx_irq if uart else 0,
+        )
     image = target.cpu.image
     assert image is not None
     vectors = _vectors(target, uart, image)

@@ -39,6 +39,7 @@ from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
 from microros_gen.selection.declared import STREAM_BEST_EFFORT, STREAM_RELIABLE, STREAM_RELIABLE_INPUT
 from microros_gen.selection.model import Selection
+from microros_gen.typesupport.plan.layout import models_of
 from microros_gen.typesupport.plan.own_limits import LimitSet
 from microros_gen.typesupport.plan.types import TypePlan
 
@@ -167,7 +168,9 @@ def plan_project(
     receivers = receiving.subscriptions_max + serving.services_max + serving.clients_max
     receivers -= without_handle(application, "subscription", "service", "client")
     running = plan_running(application, selection, receivers, diagnostics)
-    storage = plan_sent_storage(application, selection, by_name, roots, services)
+    storage = plan_sent_storage(
+        application, selection, by_name, roots, services, models_of(target.data_model)
+    )
 
     medium = medium_of(selection.transport, application.transport)
 

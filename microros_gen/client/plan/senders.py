@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from microros_gen.application.kinds import KIND
 from microros_gen.application.model import Application
@@ -12,14 +12,14 @@ from microros_gen.interfaces.derived import derived_name
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
 from microros_gen.selection.model import Selection
-from microros_gen.typesupport.plan.layout import StructLayouts
+from microros_gen.typesupport.plan.layout import DataModel, StructLayouts
 from microros_gen.typesupport.plan.message_pools import (
     DEFAULT_MESSAGES,
     MessagePool,
     Sender,
     plan_message_pools,
 )
-from microros_gen.typesupport.plan.types import DATA_MODELS, TypePlan
+from microros_gen.typesupport.plan.types import TypePlan
 
 
 @dataclass(frozen=True)
@@ -37,8 +37,9 @@ def plan_sent_storage(
     types: Mapping[TypeName, TypePlan],
     roots: tuple[TypeName, ...],
     services: tuple[TypeName, ...],
+    models: Sequence[DataModel],
 ) -> SentStorage:
-    """Plan the storage of messages that are sent; `roots` and `services` as of plan_project.
+    """Plan the storage of messages that are sent; `roots`, `services` as of plan_project, `models` of the target.
 
     An arena serves them as it does everything else, unless the application file names a number of messages.
     """
@@ -49,7 +50,7 @@ def plan_sent_storage(
     else:
         senders = tuple(_pooled(application, selection, types, roots, services))
     messages = {name: plan.message for name, plan in types.items()}
-    layouts = [StructLayouts(messages, model) for model in DATA_MODELS]
+    layouts = [StructLayouts(messages, model) for model in models]
     return SentStorage(kept, senders, plan_message_pools(senders, messages, layouts, kept))
 
 

@@ -21,11 +21,16 @@ from microros_gen.typesupport.plan.size import align, members
 
 @dataclass(frozen=True)
 class DataModel:
-    """What a C compiler decides: bytes of a pointer and of `size_t`, and the alignment of 8-byte numbers."""
+    """What a C compiler decides: bytes of a pointer and of `size_t`, and the alignment of 8-byte numbers.
+
+    `align_most` is the largest alignment of anything, `double` the bytes of a double.
+    """
 
     pointer: int
     size: int
     align_8: int
+    align_most: int = 8
+    double: int = 8
 
 
 LP64 = DataModel(pointer=8, size=8, align_8=8)
@@ -36,6 +41,19 @@ ILP32 = DataModel(pointer=4, size=4, align_8=8)
 
 I386 = DataModel(pointer=4, size=4, align_8=4)
 """32-bit x86 System V: 8-byte numbers are aligned to 4 in structs."""
+
+IP16 = DataModel(pointer=2, size=2, align_8=1, align_most=1, double=4)
+"""AVR (avr-gcc's ABI): int and pointers of 16 bits, no padding, and a double that is a float."""
+
+WIDE_MODELS = (LP64, ILP32, I386)
+"""Those of the one output for all targets of 32 and 64 bits: its assertions choose by the size of a pointer."""
+
+_MODELS = {"lp64": WIDE_MODELS, "ilp32": WIDE_MODELS, "ip16": (IP16,)}
+
+
+def models_of(data_model: str) -> tuple[DataModel, ...]:
+    """Return the data models that the output for a target must be right for, from its `data_model`."""
+    return _MODELS[data_model]
 
 
 @dataclass(frozen=True)
@@ -71,19 +89,31 @@ class StructLayouts:
             return self.pointer_and_sizes()
         return self._element(field_type)
 
+    def character(self, wide: bool) -> Extent:
+        """Return the extent of a character of a string, or of a UTF-16 unit."""
+        return Extent(2, min(2, self.model.align_most)) if wide else Extent(1, 1)
+
     def pointer_and_sizes(self) -> Extent:
         """Return the extent of a string or sequence: a pointer and two `size_t`."""
-        alignment = max(self.model.pointer, self.model.size)
+        alignment = min(max(self.model.pointer, self.model.size), self.model.align_most)
         return Extent(
             align(align(self.model.pointer, self.model.size) + 2 * self.model.size, alignment), alignment
         )
 
     def _element(self, element: ElementType) -> Extent:
         if isinstance(element, Primitive):
-            return Extent(element.size, self.model.align_8 if element.size == 8 else element.size)
+            return self._number(element)
         if isinstance(element, StringType):
             return self.pointer_and_sizes()
         return self.extent(element.name)
+
+    def _number(self, number: Primitive) -> Extent:
+        if number is Primitive.FLOAT64:
+            size, alignment = self.model.double, min(self.model.double, self.model.align_8)
+        else:
+            size = number.size
+            alignment = self.model.align_8 if size == 8 else size
+        return Extent(size, min(alignment, self.model.align_most))
 
     def _struct(self, name: TypeName) -> tuple[Extent, dict[str, int]]:
         if name not in self._known:

@@ -99,8 +99,7 @@ def _member_extent(member: StorageMember, layouts: StructLayouts, unit: Callable
     elif member.primitive is not None:
         element = layouts.of(member.primitive)
     else:
-        wide = member.characters is not None and member.characters.wide
-        element = Extent(2, 2) if wide else Extent(1, 1)
+        element = layouts.character(member.characters is not None and member.characters.wide)
     size = element.size
     for dimension in member.dimensions:
         size *= dimension

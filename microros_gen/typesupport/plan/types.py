@@ -8,11 +8,11 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.dds_names import dds_type
 from microros_gen.interfaces.derived import declaring_name
-from microros_gen.interfaces.types import Message, TypeName
+from microros_gen.interfaces.types import Message, Primitive, TypeName, element_of
 from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.capacity import Capacities
 from microros_gen.typesupport.plan.decode import DecodePlan, decode_files, plan_decoders
-from microros_gen.typesupport.plan.layout import I386, ILP32, LP64, DataModel, StructLayouts
+from microros_gen.typesupport.plan.layout import WIDE_MODELS, DataModel, StructLayouts
 from microros_gen.typesupport.plan.names import TypeFiles, c_name, include_path, type_files
 from microros_gen.typesupport.plan.own_limits import LimitSet, plan_limit_sets, sent_limits, topic_names
 from microros_gen.typesupport.plan.size import TypeLimits, WireSizes, is_fixed
@@ -23,9 +23,6 @@ from microros_gen.typesupport.plan.wire import WirePlan, plan_wire
 LARGEST_BODY = 0x7FFFFFF0
 """Sizes are enumerators in C, which are int; rounding a position up must not wrap either."""
 
-DATA_MODELS = (LP64, ILP32, I386)
-"""The data models that the generated code asserts its sizes for; for any other it does not compile."""
-
 
 @dataclass(frozen=True)
 class TypePlan:
@@ -35,8 +32,8 @@ class TypePlan:
     `received`: its handle has a decoder; `decoder` is None where neither it nor a type that contains it is
     received. Encoded sizes are bytes of the CDR body under the limits (0 for a part
     that is never a root and whose limits differ from use to use). `limits` are those of its handle, `limit_sets`
-    those of entities that have lower ones. `struct_sizes` and `storage_sizes` are
-    bytes for each of DATA_MODELS; `storage_sizes` is empty for a type without storage, and `topic_sizes` holds
+    those of entities that have lower ones. `models` are the data models that the generated code asserts its sizes for;
+    for any other it does not compile. `struct_sizes` and `storage_sizes` are bytes for each of them; `storage_sizes` is empty for a type without storage, and `topic_sizes` holds
     those of storage for one topic, by the name of its struct.
     """
 
@@ -59,14 +56,15 @@ class TypePlan:
     struct_sizes: tuple[int, ...]
     storage_sizes: tuple[int, ...]
     topic_sizes: Mapping[str, tuple[int, ...]]
+    models: tuple[DataModel, ...] = WIDE_MODELS
 
     def struct_size(self, model: DataModel) -> int:
-        """Return the size of the struct for one of DATA_MODELS, bytes."""
-        return self.struct_sizes[DATA_MODELS.index(model)]
+        """Return the size of the struct for one of `models`, bytes."""
+        return self.struct_sizes[self.models.index(model)]
 
     def storage_size(self, model: DataModel) -> int:
-        """Return the size of the static storage for one of DATA_MODELS, bytes; 0 where it needs none."""
-        return self.storage_sizes[DATA_MODELS.index(model)] if self.storage_sizes else 0
+        """Return the size of the static storage for one of `models`, bytes; 0 where it needs none."""
+        return self.storage_sizes[self.models.index(model)] if self.storage_sizes else 0
 
     def storage_name(self, topic: str) -> str:
         """Return what the names of the storage for messages on `topic` begin with: `sensor_msgs__msg__Imu`."""
@@ -114,10 +112,11 @@ def plan_types(
     type_hash: Callable[[TypeName], str],
     diagnostics: Diagnostics,
     received: Collection[TypeName] = (),
+    models: tuple[DataModel, ...] = WIDE_MODELS,
 ) -> tuple[TypePlan, ...]:
     """Plan every type of `messages` (closed, in dependency order; the roots are those of `capacities`).
 
-    `received`: the roots that need a decoder.
+    `received`: the roots that need a decoder. `models`: those of the target.
     """
     decoders = plan_decoders(messages, received)
     names = topic_names(capacities)
@@ -127,7 +126,7 @@ def plan_types(
     storages = plan_storage(
         messages, capacities.limits, wires.home_limits, diagnostics, capacities.topics, names
     )
-    layouts = [StructLayouts(messages, model) for model in DATA_MODELS]
+    layouts = [StructLayouts(messages, model) for model in models]
     extents = [storage_extents(storages, layout) for layout in layouts]
     plans = []
     for name, message in messages.items():
@@ -159,9 +158,11 @@ def plan_types(
                     for unit in units
                     if unit.topic and not unit.private
                 },
+                models=models,
             )
         )
     _check_sizes(plans, diagnostics)
+    _check_doubles(plans, diagnostics)
     _check_files(plans, diagnostics)
     return tuple(plans)
 
@@ -175,6 +176,20 @@ def _check_sizes(plans: Iterable[TypePlan], diagnostics: Diagnostics) -> None:
                 f"Lower its limits: a message has at most {LARGEST_BODY} bytes",
                 id="MG-5011",
             )
+
+
+def _check_doubles(plans: Iterable[TypePlan], diagnostics: Diagnostics) -> None:
+    """Report messages with numbers that the C of the target does not have."""
+    for plan in plans:
+        for field in plan.message.fields:
+            is_double = element_of(field.type) is Primitive.FLOAT64
+            if is_double and any(model.double != Primitive.FLOAT64.size for model in plan.models):
+                diagnostics.error(
+                    f"{plan.name} has the float64 member '{field.name}', and a double has only 4 bytes on this target",
+                    field.span,
+                    "Use a message with float32 members",
+                    id="MG-5014",
+                )
 
 
 def _check_files(plans: Iterable[TypePlan], diagnostics: Diagnostics) -> None:

@@ -15,7 +15,7 @@ from microros_gen.interfaces.types import (
     StringType,
     element_of,
 )
-from microros_gen.typesupport.plan.layout import ILP32, LP64
+from microros_gen.typesupport.plan.layout import ILP32, LP64, DataModel
 from microros_gen.typesupport.plan.types import TypePlan
 from microros_gen.typesupport.views.text import comment_lines, number, string
 
@@ -29,18 +29,19 @@ def member_comment(field: Field) -> tuple[str, ...]:
 
 def message_note(plan: TypePlan) -> str:
     """Return what a message takes: its struct and storage with 32-bit (and 64-bit) pointers, its body; bytes."""
-    note = f"{plan.c_name}: {_sizes(plan.struct_size(ILP32), plan.struct_size(LP64))}"
+    note = f"{plan.c_name}: {_sizes(plan.models, plan.struct_sizes)}"
     if plan.storage:
-        note += f", storage {_sizes(plan.storage_size(ILP32), plan.storage_size(LP64))}"
+        note += f", storage {_sizes(plan.models, plan.storage_sizes)}"
     if plan.root:
         low, high = plan.min_encoded_size, plan.max_encoded_size
         note += f", body {high}" if low == high else f", body {low} to {high}"
     return note
 
 
-def storage_note(ilp32: int, lp64: int) -> str:
-    """Return the size of a storage struct as a comment says it."""
-    return f"{ilp32} bytes" if ilp32 == lp64 else f"{ilp32} bytes, {lp64} with 64-bit pointers"
+def storage_note(models: Sequence[DataModel], sizes: Sequence[int]) -> str:
+    """Return the size of a storage struct as a comment says it, from that for each of the data models."""
+    least, most = _least_and_most(models, sizes)
+    return f"{least} bytes" if least == most else f"{least} bytes, {most} with 64-bit pointers"
 
 
 def characters_note(dimensions: Sequence[int], wide: bool) -> str:
@@ -50,8 +51,16 @@ def characters_note(dimensions: Sequence[int], wide: bool) -> str:
     return f"{each}{dimensions[-1] - 1} {unit} and the terminator"
 
 
-def _sizes(ilp32: int, lp64: int) -> str:
-    return f"{ilp32}" if ilp32 == lp64 else f"{ilp32} ({lp64})"
+def _sizes(models: Sequence[DataModel], sizes: Sequence[int]) -> str:
+    least, most = _least_and_most(models, sizes)
+    return f"{least}" if least == most else f"{least} ({most})"
+
+
+def _least_and_most(models: Sequence[DataModel], sizes: Sequence[int]) -> tuple[int, int]:
+    """Return the sizes with 32-bit and 64-bit pointers; the only one twice where the output is for one data model."""
+    if len(models) == 1:
+        return sizes[0], sizes[0]
+    return sizes[models.index(ILP32)], sizes[models.index(LP64)]
 
 
 def _bounds(field: Field) -> Iterator[str]:

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
-from microros_gen.typesupport.plan.layout import ILP32, LP64
 from microros_gen.typesupport.plan.names import c_name, element_c_type, guard, include_path, type_files
 from microros_gen.typesupport.plan.size import PLACEHOLDER
 from microros_gen.typesupport.plan.storage import text_length
@@ -22,7 +21,7 @@ from microros_gen.typesupport.plan.storage_units import (
     StorageMember,
     StorageUnit,
 )
-from microros_gen.typesupport.plan.types import DATA_MODELS, TypePlan
+from microros_gen.typesupport.plan.types import TypePlan
 from microros_gen.typesupport.views.notes import characters_note, storage_note
 from microros_gen.typesupport.views.steps import cdr_size
 from microros_gen.typesupport.views.struct import WideDefault, wide_name
@@ -110,8 +109,7 @@ def _unit(unit: StorageUnit, plan: TypePlan) -> UnitView:
     on = f" on {unit.topic}" if unit.topic else ""
     comment = f"Storage of {unit.path} of {plan.c_name}{on}."
     if not unit.private:
-        known = sizes or plan.storage_sizes
-        size = storage_note(known[DATA_MODELS.index(ILP32)], known[DATA_MODELS.index(LP64)])
+        size = storage_note(plan.models, sizes or plan.storage_sizes)
         comment = f"Storage of one message{on}: {size}."
     is_unused = [member.name for member in unit.members] == [PLACEHOLDER.name]
     return UnitView(

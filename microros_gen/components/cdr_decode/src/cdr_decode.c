@@ -92,7 +92,7 @@ static inline void get_numbers(cdr_in_t * in, void * to, size_t count, uint32_t 
   if (from == NULL) {
     return;
   }
-  (void)memcpy(to, from, count * width);
+  (void)memcpy(to, from, count * (size_t)width);
   if (in->swap) {
     turn((uint8_t *)to, count, width);
   }
@@ -169,7 +169,7 @@ static void * get_size(
     cdr_in_refuse_above(in, field, length, limit, bound);
     length = 0U;
   }
-  known.size = length;
+  known.size = (size_t)length;
   (void)memcpy(sequence, &known, sizeof(known));
   *size = length;
   return known.data;
@@ -188,7 +188,7 @@ static void get_sequence(cdr_in_t * in, void * sequence, uint32_t bound, uint32_
     uint32_t size;
     void * const data = get_size(in, sequence, bound, width, field, &size);
 
-    get_numbers(in, data, size, width, field);
+    get_numbers(in, data, (size_t)size, width, field);
   }
 }
 
@@ -217,5 +217,5 @@ void cdr_get_sequence_bool(cdr_in_t * in, void * sequence, uint32_t bound, const
   uint32_t size;
   bool * const data = (bool *)get_size(in, sequence, bound, 1U, field, &size);
 
-  cdr_get_bool(in, data, size, field);
+  cdr_get_bool(in, data, (size_t)size, field);
 }

@@ -2,7 +2,9 @@
 #include "microros/cdr_decode.h"
 
 /* On the wire each UTF-16 unit takes four bytes. */
-enum { UNIT_SIZE = 4, LARGEST_UNIT = 0xFFFF };
+enum { UNIT_SIZE = 4 };
+
+static const uint32_t largest_unit = 0xFFFFU;
 
 void cdr_get_wstring(cdr_in_t * in, rosidl_runtime_c__U16String * text, uint32_t bound, const char * field)
 {
@@ -17,8 +19,8 @@ void cdr_get_wstring(cdr_in_t * in, rosidl_runtime_c__U16String * text, uint32_t
   for (uint32_t i = 0U; i < size; ++i) {
     uint32_t unit = 0U;
     cdr_get_4(in, &unit, 1U, field);
-    if (unit > (uint32_t)LARGEST_UNIT) {
-      cdr_in_refuse(in, CDR_FAULT_VALUE, field, unit, LARGEST_UNIT);
+    if (unit > largest_unit) {
+      cdr_in_refuse(in, CDR_FAULT_VALUE, field, unit, largest_unit);
       unit = 0U;
     }
     text->data[i] = (uint_least16_t)unit;
@@ -26,7 +28,7 @@ void cdr_get_wstring(cdr_in_t * in, rosidl_runtime_c__U16String * text, uint32_t
   if ((capacity > 1U) || ((capacity == 1U) && (text->data[0] != 0U))) {
     text->data[size] = 0U;
   }
-  text->size = size;
+  text->size = (size_t)size;
 }
 
 void cdr_get_wstrings(

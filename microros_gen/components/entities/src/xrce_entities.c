@@ -6,7 +6,9 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_wire.h"
 
-enum { NO_PLACE = 0xffff, STATUS_SIZE = 6, MOST_REFUSALS = 16 };
+static const uint16_t no_place = 0xffffu;
+
+enum { STATUS_SIZE = 6, MOST_REFUSALS = 16 };
 
 /* A search of few places takes less than the code that saves it. */
 static const bool NOTES_ONE = XRCE_PLACES > 4;
@@ -338,7 +340,7 @@ uint8_t xrce_entities_await(xrce_client_t * client, uint16_t place, uint32_t tim
 {
   const uint32_t start = port_time_ms();
 
-  client->entities.refused_place = NO_PLACE;
+  client->entities.refused_place = no_place;
   for (;;) {
     xrce_session_pump(client);
     if (entities_is_done(client, place)) {

@@ -57,7 +57,7 @@ static void * blocks_take(const microros_blocks_t * blocks)
   for (uint32_t block = 0; block < blocks->count; ++block) {
     if (!block_is_taken(blocks, block)) {
       block_turn(blocks, block);
-      (void)memset(block_memory(blocks, block), 0, blocks->size);
+      (void)memset(block_memory(blocks, block), 0, (size_t)blocks->size);
       return block_memory(blocks, block);
     }
   }
@@ -82,7 +82,7 @@ static void * pool_take(const microros_pool_t * pool, size_t * size)
     microros_error_set(
       microros_error_blocks_taken, NULL, NULL, blocks->size, (uint32_t)MICROROS_KEPT_MESSAGES + 1u);
   }
-  *size = blocks->size;
+  *size = (size_t)blocks->size;
   return memory;
 }
 
@@ -119,7 +119,7 @@ size_t microros_memory_room(const microros_pool_t * pool, const void * memory)
   microros_lock();
   blocks = pool_find(pool, memory, &block);
   microros_unlock();
-  return blocks == NULL ? 0u : blocks->size;
+  return blocks == NULL ? 0u : (size_t)blocks->size;
 }
 
 void microros_memory_give_back(const microros_pool_t * pool, void * memory)

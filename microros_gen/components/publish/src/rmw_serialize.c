@@ -22,7 +22,7 @@ rmw_ret_t rmw_serialize(
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "ros_message, type_support or serialized_message");
   }
   type = type_support->data;
-  size = type->encoded_size(ros_message, &fault);
+  size = (size_t)type->encoded_size(ros_message, &fault);
   if (size == 0u) {
     return rmw_encode_refuse(type, &fault);
   }
@@ -55,7 +55,7 @@ rmw_ret_t rmw_uros_get_serialized_message_size(
   if (body == 0u) {
     return rmw_encode_refuse(type, &fault);
   }
-  *size = sizeof(encapsulation) + body;
+  *size = sizeof(encapsulation) + (size_t)body;
   return RMW_RET_OK;
 }
 
@@ -70,6 +70,6 @@ rmw_ret_t rmw_get_serialized_message_size(
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "type_support or size");
   }
   type = type_support->data;
-  *size = sizeof(encapsulation) + type->max_encoded_size;
+  *size = sizeof(encapsulation) + (size_t)type->max_encoded_size;
   return RMW_RET_OK;
 }

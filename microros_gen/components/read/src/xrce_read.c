@@ -21,7 +21,7 @@ enum {
   READ_STATUS_SIZE = 6
 };
 
-enum { SAMPLES_UNLIMITED = 0xffff };
+static const uint16_t samples_unlimited = 0xffffu;
 
 static uint16_t read_index(const xrce_client_t * client, const xrce_receiver_t * receiver)
 {
@@ -102,7 +102,7 @@ static uint16_t read_samples(const xrce_client_t * client, uint16_t index)
   const xrce_receiver_t * receiver = &client->receivers[index];
 
   if (!read_is_reliable(client, index)) {
-    return receiver->request == XRCE_REQUEST_NONE ? (uint16_t)SAMPLES_UNLIMITED : 0u;
+    return receiver->request == XRCE_REQUEST_NONE ? samples_unlimited : 0u;
   }
   return receiver->granted == 0u ? xrce_read_room(client, receiver) : 0u;
 }
@@ -152,7 +152,7 @@ static void read_begin(xrce_client_t * client, uint16_t samples, uint32_t now)
     receiver->before = receiver->request;
   }
   receiver->request = samples != 0u ? reading->request : (uint16_t)XRCE_REQUEST_NONE;
-  receiver->granted = samples != SAMPLES_UNLIMITED ? samples : 0u;
+  receiver->granted = samples != samples_unlimited ? samples : 0u;
   read_send(client, now);
 }
 

@@ -8,7 +8,7 @@
 rcutils_ret_t rcutils_system_time_now(rcutils_time_point_value_t * now)
 {
   if (now == NULL) {
-    return microros_error_refuse(RCUTILS_RET_INVALID_ARGUMENT, "now");
+    return (rcutils_ret_t)microros_error_refuse(RCUTILS_RET_INVALID_ARGUMENT, "now");
   }
   *now = microros_epoch_ns();
   return RCUTILS_RET_OK;
@@ -17,7 +17,7 @@ rcutils_ret_t rcutils_system_time_now(rcutils_time_point_value_t * now)
 rcutils_ret_t rcutils_steady_time_now(rcutils_time_point_value_t * now)
 {
   if (now == NULL) {
-    return microros_error_refuse(RCUTILS_RET_INVALID_ARGUMENT, "now");
+    return (rcutils_ret_t)microros_error_refuse(RCUTILS_RET_INVALID_ARGUMENT, "now");
   }
   *now = port_time_steady_ns();
   return RCUTILS_RET_OK;

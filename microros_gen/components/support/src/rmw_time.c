@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "rmw/time.h"
 
-enum { NS_PER_S = 1000000000 };
+#define NS_PER_S 1000000000
 
 rmw_duration_t rmw_time_total_nsec(const rmw_time_t time)
 {

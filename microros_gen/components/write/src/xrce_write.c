@@ -102,7 +102,7 @@ xrce_write_t xrce_write_message(xrce_endpoint_t * writer, const void * message, 
   if (outcome != XRCE_WRITTEN) {
     return outcome;
   }
-  size = writer->type->encode(message, &room[WRITE_BODY_OFFSET], fault);
+  size = (size_t)writer->type->encode(message, &room[WRITE_BODY_OFFSET], fault);
   return size == 0u ? XRCE_WRITE_REFUSED : write_end(writer, room, size);
 }
 

@@ -45,7 +45,8 @@ extern "C" {
 
 CDR_STATIC_ASSERT(cdr_assert_byte_has_8_bits, UINT8_MAX == 255U);
 CDR_STATIC_ASSERT(cdr_assert_float_is_binary32, sizeof(float) == 4U);
-CDR_STATIC_ASSERT(cdr_assert_double_is_binary64, sizeof(double) == 8U);
+/* On AVR a double is a float; messages with float64 members are not generated for it. */
+CDR_STATIC_ASSERT(cdr_assert_double_is_binary64, (sizeof(double) == 8U) || (sizeof(void *) == 2U));
 CDR_STATIC_ASSERT(cdr_assert_character_has_16_bits, sizeof(uint_least16_t) == 2U);
 
 /** Probe for the alignment of an 8-byte number; never instantiated. */
@@ -354,7 +355,7 @@ static inline uint32_t cdr_put_packed_4(
   uint8_t * body, uint32_t position, const void * data, size_t size, uint32_t element)
 {
   const uint32_t start = cdr_put_length(body, position, size);
-  cdr_copy(&body[start], data, size * element);
+  cdr_copy(&body[start], data, size * (size_t)element);
   return start + ((uint32_t)size * element);
 }
 
@@ -364,7 +365,7 @@ static inline uint32_t cdr_put_packed_8(
   uint32_t start = cdr_put_length(body, position, size);
   if (size > 0U) {
     start = cdr_align_8(body, start);
-    cdr_copy(&body[start], data, size * element);
+    cdr_copy(&body[start], data, size * (size_t)element);
   }
   return start + ((uint32_t)size * element);
 }

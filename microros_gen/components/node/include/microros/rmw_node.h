@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-enum { RMW_NO_PLACE = 0xffff };
+#define RMW_NO_PLACE 0xffffu
 
 /*
  * Takes a place for a node and waits for its participant. RMW_RET_OK: *node is set and belongs to the

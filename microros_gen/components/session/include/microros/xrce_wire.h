@@ -90,7 +90,8 @@ enum {
  * number and object. */
 enum { XRCE_IDENTITY_SIZE = 24, XRCE_RELATED_SIZE = 4 };
 
-enum { XRCE_OBJECT_AGENT = 0xfffd, XRCE_OBJECT_CLIENT = 0xfffe };
+#define XRCE_OBJECT_AGENT 0xfffdu
+#define XRCE_OBJECT_CLIENT 0xfffeu
 
 enum { XRCE_QOS_RELIABLE = 0x01, XRCE_QOS_KEEP_LAST = 0x02, XRCE_QOS_TRANSIENT_LOCAL = 0x08 };
 

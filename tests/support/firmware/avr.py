@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Images for an AVR, linked as Arduino's compiler links them, and run in simavr with their UART as a terminal."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from tests.support.firmware.board import C_FILES, Builds, Built, check
+from tests.support.patience import seconds
+
+UNO, MEGA = "arduino-uno", "arduino-mega"
+_CLOCK_HZ = 16_000_000
+_HEADER = Path("/usr/include/simavr/sim_avr.h")
+
+
+class SimulatedBoard:
+    """An image in simavr; `device` is the terminal of its first UART."""
+
+    def __init__(self, process: subprocess.Popen[str]) -> None:
+        self.process = process
+        self.device = self._number("line (.+)")
+
+    def touched_stack(self) -> int:
+        """Return the most bytes of stack that were used until now."""
+        self.process.send_signal(signal.SIGUSR1)
+        return int(self._number("stack ([0-9]+)"))
+
+    def _number(self, pattern: str) -> str:
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            found = re.fullmatch(pattern, line.rstrip("\n"))
+            if found is not None:
+                return found[1]
+        raise AssertionError("the simulator ended")
+
+
+def linked(builds: Builds, built: Built, source: str) -> Path:
+    """Return an application of c/, linked with the library of `built` by the C library's own start-up code."""
+    target, image = built.target, built.out.parent / f"{Path(source).stem}.elf"
+    with builds.once(f"{built.out.parent.name}-{image.name}") as first:
+        if first:
+            flags = [*target.c_flags, *target.link_flags, "-std=c99", "-Wall", "-Wextra", "-Werror"]
+            library = str(built.out / "lib" / "libmicroros.a")
+            include = f"-I{built.out / 'include'}"
+            files = [str(C_FILES / source), library, "-o", str(image)]
+            check([target.compilers[0], *flags, include, *files])
+    return image
+
+
+def flash_and_ram(built: Built, image: Path) -> tuple[int, int]:
+    """Return bytes of flash, and of RAM without the stack."""
+    text, data, bss = map(int, check([built.tool("size"), str(image)]).splitlines()[1].split()[:3])
+    return text + data, data + bss
+
+
+@contextmanager
+def simulated(builds: Builds, built: Built, image: Path) -> Iterator[SimulatedBoard]:
+    """Start an image in simavr, and end it afterwards."""
+    if not _HEADER.is_file() or shutil.which("cc") is None:
+        pytest.skip("no libsimavr: apt-get install libsimavr-dev libelf-dev")
+    program = built.out.parent.parent / "simavr_board"
+    with builds.once(program.name) as first:
+        if first:
+            strict = ["-std=gnu11", "-O2", "-Wall", "-Wextra", "-Werror"]
+            source = str(C_FILES / "simavr_board.c")
+            check(["cc", *strict, source, "-o", str(program), "-lsimavr", "-lelf"])
+    [processor] = [flag.removeprefix("-mmcu=") for flag in built.target.c_flags if flag.startswith("-mmcu=")]
+    process = subprocess.Popen(
+        [str(program), processor, str(_CLOCK_HZ), str(image)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        env={**os.environ, "LC_ALL": "C"},
+        text=True,
+    )
+    try:
+        yield SimulatedBoard(process)
+    finally:
+        process.kill()
+        process.communicate(timeout=seconds(10))
