@@ -315,6 +315,9 @@ def _origin_of(part: tuple[Region, str, YamlNode]) -> int:
 
 def _check_image_keys(node: MappingNode, target: Target, diagnostics: Diagnostics) -> None:
     """Report keys that only an image has."""
+    if target.cpu.starts_itself:
+        _check_foreign_start(node, target, diagnostics)
+        return
     if node.get("flash") is not None and target.os.linker_script and not target.hosted:
         return
     for owner, key in (("memories", None), ("stdio", None), ("hooks", "clocks")):
@@ -324,6 +327,26 @@ def _check_image_keys(node: MappingNode, target: Target, diagnostics: Diagnostic
             hint = "Add `flash` and `ram`, or remove it"
             diagnostics.error(
                 f"'{name}' has no effect without an image of this project", found.span, hint, id="MG-6025"
+            )
+
+
+def _check_foreign_start(node: MappingNode, target: Target, diagnostics: Diagnostics) -> None:
+    """Report keys of start-up code, vectors and linker script where those are the C library's."""
+    for owner, key in (
+        ("memories", None),
+        ("stdio", None),
+        ("interrupts", None),
+        ("hooks", "clocks"),
+        ("flash", "offset"),
+    ):
+        found = node.get(owner) if key is None else child(node.get(owner), key)
+        if found is not None:
+            name = owner if key is None else f"{owner}.{key}"
+            diagnostics.error(
+                f"'{name}' has no effect: the C library of {target.cpu_name} starts the image",
+                found.span,
+                "Remove it; write it as the C library documents (`ISR(…)`, `-Wl,--section-start`)",
+                id="MG-6035",
             )
 
 

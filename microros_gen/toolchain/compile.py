@@ -134,7 +134,7 @@ def _images(
 ) -> tuple[str, ...]:
     """Link outdated images; return the files below bin/, the one with symbols first."""
     products = [image]
-    if script is not None and tools.objcopy is not None:
+    if tools.objcopy is not None:
         products += [str(PurePosixPath(image).with_suffix(suffix)) for suffix in _FLASH_FORMATS]
     digest = _digest_of(out, script)
     is_there = all((out / product).is_file() for product in (*products, MAP))

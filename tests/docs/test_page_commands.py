@@ -33,10 +33,12 @@ OTHER_PROGRAMS = {
     "arm-none-eabi-gcc": "gcc-arm-none-eabi",
     "qemu-system-arm": "qemu-system-arm",
     "cmake": "cmake",
+    "avr-gcc": "gcc-avr avr-libc",
 }
 NEEDS = {
     "tutorial/qemu.md": ("arm-none-eabi-gcc", "qemu-system-arm"),
     "tutorial/nucleo_f446re.md": ("arm-none-eabi-gcc", "cmake"),
+    "tutorial/arduino_uno.md": ("avr-gcc",),
     "howto/init.md": ("cmake",),
 }
 
@@ -44,7 +46,13 @@ NEEDS = {
 LONG = ("howto/init.md", "tutorial/nucleo_f446re.md")
 """Pages that compile the library by CMake; tests/workspace and test_boards.py have their slices."""
 SYSTEM = (
-    *("tutorial/host.md", "tutorial/qemu.md", "tutorial/esp32c3.md", "tutorial/pico.md"),
+    *(
+        "tutorial/host.md",
+        "tutorial/qemu.md",
+        "tutorial/esp32c3.md",
+        "tutorial/pico.md",
+        "tutorial/arduino_uno.md",
+    ),
     *("howto/component.md", "howto/lifecycle.md", "howto/logging.md", "howto/migrate.md", "howto/modes.md"),
     *("howto/node_modes.md", "howto/parameter_server.md", "howto/port.md", "howto/profile.md"),
 )

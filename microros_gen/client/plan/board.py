@@ -110,6 +110,7 @@ def plan_board(
         )
     uart = target.uart if driver not in ("none", OWN_DRIVER) else None
     if target.cpu.starts_itself:
+        _check_no_stack(application, target, diagnostics)
         return BoardPlan(
             ring_size=ring_size(runtime),
             output_size=runtime.transport.send_buffer,
@@ -271,6 +272,16 @@ def _stdio_divisor(
             id="MG-7008",
         )
     return found.divisor
+
+
+def _check_no_stack(application: Application, target: Target, diagnostics: Diagnostics) -> None:
+    if application.memory.stack is not None:
+        diagnostics.error(
+            f"'memory.stack' has no effect: on {target.name} the stack is what remains of RAM",
+            application.memory.stack_span or application.target.span,
+            "Remove it; `memory: {ram_budget: …}` leaves room for the stack",
+            id="MG-7034",
+        )
 
 
 def _stack_size(application: Application, target: Target, diagnostics: Diagnostics) -> int:

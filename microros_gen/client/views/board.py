@@ -12,7 +12,8 @@ from microros_gen.records import dataclass
 
 @dataclass(frozen=True)
 class BoardView:
-    """Flags are one text each. `script` is the linker script below the output folder, empty without an image.
+    """Flags are one text each. `links`: an image can be linked; `script` is its linker script below the output folder,
+    empty where it is that of the compiler.
 
     `tick` is called each millisecond from `timer_interrupt`; empty where the operating system does that.
     """
@@ -21,10 +22,28 @@ class BoardView:
     suffix: str
     link_flags: str
     script: str
+    links: bool
     stack: int
     os: str
     tick: str
     timer_interrupt: str
+
+    @property
+    def script_path(self) -> str:
+        """The linker script as the folder's CMakeLists.txt names it."""
+        return f"${{CMAKE_CURRENT_SOURCE_DIR}}/{self.script}" if self.script else ""
+
+    @property
+    def stack_note(self) -> str:
+        """Where the stack of an image is."""
+        if not self.script:
+            return (
+                "The stack is what remains of RAM, from its high end downwards; nothing notices an overflow."
+            )
+        return (
+            f"Stack: {self.stack} bytes at the low end of RAM, where an overflow faults (`memory.stack` in the"
+            " application file)."
+        )
 
 
 @dataclass(frozen=True)
@@ -50,6 +69,7 @@ def board_view(project: Project) -> BoardView | None:
         suffix=target.image_suffix,
         link_flags=" ".join((*target.link_flags, *target.libraries)),
         script=project.linker_script or "",
+        links=target.has_image,
         stack=project.board.stack_size,
         os=_os(project),
         tick=target.os.tick,

@@ -22,13 +22,16 @@ function(microros_image name)
   _microros_record(${name} "\"kind\": \"image\", \"name\": \"${name}\", \"library\": \"${library}\",
 \"image\": \"$<TARGET_FILE:${name}>\", \"map\": \"${map}\", \"objects\": \"$<TARGET_OBJECTS:${name}>\",
 \"folders\": \"${CMAKE_BINARY_DIR};${CMAKE_CURRENT_BINARY_DIR}\"")
-  get_target_property(script ${library} MICROROS_LINKER_SCRIPT)
-  if(script)
+  get_target_property(suffix ${library} MICROROS_SUFFIX)
+  if(suffix)
     get_target_property(flags ${library} MICROROS_LINK_FLAGS)
-    get_target_property(suffix ${library} MICROROS_SUFFIX)
+    get_target_property(script ${library} MICROROS_LINKER_SCRIPT) # none: that of the compiler
     set_target_properties(${name} PROPERTIES SUFFIX "${suffix}")
-    set_property(TARGET ${name} APPEND PROPERTY LINK_DEPENDS "${script}")
-    set_property(TARGET ${name} APPEND_STRING PROPERTY LINK_FLAGS " ${flags} -T \"${script}\"")
+    if(script)
+      set_property(TARGET ${name} APPEND PROPERTY LINK_DEPENDS "${script}")
+      string(APPEND flags " -T \"${script}\"")
+    endif()
+    set_property(TARGET ${name} APPEND_STRING PROPERTY LINK_FLAGS " ${flags}")
     if(CMAKE_OBJCOPY)
       add_custom_command(TARGET ${name} POST_BUILD
         COMMAND ${CMAKE_OBJCOPY} -O ihex $<TARGET_FILE:${name}> ${name}.hex

@@ -33,8 +33,9 @@ class TypePlan:
     received. Encoded sizes are bytes of the CDR body under the limits (0 for a part
     that is never a root and whose limits differ from use to use). `limits` are those of its handle, `limit_sets`
     those of entities that have lower ones. `models` are the data models that the generated code asserts its sizes for;
-    for any other it does not compile. `struct_sizes` and `storage_sizes` are bytes for each of them; `storage_sizes` is empty for a type without storage, and `topic_sizes` holds
-    those of storage for one topic, by the name of its struct.
+    for any other it does not compile. `struct_sizes` and `storage_sizes` are bytes for each of them; `storage_sizes`
+    is empty for a type without storage, and `topic_sizes` holds those of storage for one topic, by the name of its
+    struct.
     """
 
     name: TypeName
