@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+import subprocess
 from pathlib import Path
 
 import pytest
 
+from tests.support.runtime.harness import Tree, compile_units, link, quick
 from tests.support.runtime.merged import merged, text_of
 
 
@@ -50,3 +52,18 @@ def test_the_others_share_a_unit(tmp_path: Path) -> None:
     )
     assert merged(paths) == ((paths[0], paths[1], paths[3]), (paths[2],))
     assert text_of(paths[:2]) == f'#include "{paths[0].resolve()}"\n#include "{paths[1].resolve()}"\n'
+
+
+def test_a_source_that_another_includes_is_part_of_what_a_build_is_made_from(tmp_path: Path) -> None:
+    """A unit that includes a source of a port was not compiled again when that changed."""
+    tree = Tree(tmp_path / "tree", ())
+    tree.include.mkdir(parents=True)
+    unit = tmp_path / "unit.c"
+    unit.write_text('#include "middle.c"\nint main(void) { return 5 - number; }\n')
+    (tmp_path / "middle.c").write_text('#include "port.c" /* of the tree */\n')
+    codes = []
+    for number in (5, 2, 5):
+        (tree.include / "port.c").write_text(f"static const int number = {number};\n")
+        objects = compile_units(tree, [(unit,)], *quick())
+        codes.append(subprocess.run([link(objects, *quick(), tmp_path / "unit")], check=False).returncode)
+    assert codes == [0, 3, 0]

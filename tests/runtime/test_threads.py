@@ -56,7 +56,7 @@ def serve(agent: ReadingAgent, served: socket.socket) -> None:
 def test_a_system_without_priority_inheritance_has_a_lock(tmp_path: Path, system: str) -> None:
     tree = render(tmp_path, PLAN, components(PLAN))
     source = next(s for s in tree.sources if s.name == "port_posix_lock.c")
-    shutil.copy(source, tree.include / "lock_source.h")  # a header: the cache of builds looks at these
+    shutil.copy(source, tree.include / "lock_source.c")
     program = build(Tree(tree.folder, ()), ["lock_kinds.c"], "kinds")
     done = subprocess.run([program, system], capture_output=True, text=True, timeout=seconds(60), check=False)
     assert (done.returncode, done.stdout) == (0, "40000\n")

@@ -28,7 +28,7 @@ static int fake_init(pthread_mutex_t * mutex, const pthread_mutexattr_t * kind)
 
 #define pthread_mutexattr_setprotocol fake_setprotocol
 #define pthread_mutex_init fake_init
-#include "lock_source.h"
+#include "lock_source.c"
 
 enum { TURNS = 20000 };
 

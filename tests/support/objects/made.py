@@ -6,6 +6,7 @@ from __future__ import annotations
 import fcntl
 import hashlib
 import os
+import re
 import shutil
 import subprocess
 import time
@@ -17,6 +18,7 @@ from tempfile import TemporaryDirectory
 from tests.support.objects.cache import CACHE, KEPT_DAYS
 
 FOLDER = CACHE / "made"
+_INCLUDED = re.compile(rb'^\s*#\s*include\s+"([^"]+\.c)"', re.MULTILINE)
 
 
 @cache
@@ -45,6 +47,20 @@ def headers_digest(*folders: Path) -> str:
     """Return what identifies the names and contents of all headers below `folders`."""
     found = sorted((p.relative_to(folder).as_posix(), p) for folder in folders for p in folder.rglob("*.h"))
     return digest([(name, path.read_bytes()) for name, path in found])
+
+
+def source_contents(source: Path, *folders: Path) -> list[tuple[str, bytes]]:
+    """Return names and contents of a source and of the sources that it includes, from its folder or `folders`."""
+    found: dict[Path, bytes] = {}
+    waiting = [source]
+    while waiting:
+        path = waiting.pop()
+        if path not in found:
+            found[path] = path.read_bytes()
+            names = [match.decode() for match in _INCLUDED.findall(found[path])]
+            places = [[folder / name for folder in (path.parent, *folders)] for name in names]
+            waiting += [next(filter(Path.is_file, each)) for each in places]
+    return [(path.name, content) for path, content in found.items()]
 
 
 def made(key: str, name: str, make: Callable[[Path], str]) -> tuple[Path, str]:

@@ -24,7 +24,7 @@ from microros_gen.selection.find_components import load_catalogue
 from microros_gen.selection.model import ChosenComponent, Selection
 from microros_gen.toolchain.toolchain import LIBRARY_FLAGS, WARNINGS
 from tests.support.objects.cache import real
-from tests.support.objects.made import digest, headers_digest, made, version
+from tests.support.objects.made import digest, headers_digest, made, source_contents, version
 from tests.support.paths import TESTS
 from tests.support.runtime.merged import merged, text_of
 
@@ -155,7 +155,7 @@ def compile_objects(
 ) -> tuple[Path, ...]:
     """Compile each source with the project's warnings as errors; raises with the compiler's words.
 
-    With the same source, headers and flags as before a file is not compiled again.
+    With the same sources, headers and flags as before a file is not compiled again.
     """
     return compile_units(tree, [(source,) for source in sources], compiler, flags)
 
@@ -171,7 +171,7 @@ def compile_units(
 
     def compile_one(unit: Sequence[Path]) -> tuple[Path, str]:
         first = unit[0]
-        texts = [(source.name, source.read_bytes()) for source in unit]
+        texts = [source_contents(source, tree.include, FIXTURES) for source in unit]
         key = digest(compiler, made_with, texts, headers)
 
         def make(target: Path) -> str:
