@@ -144,6 +144,20 @@ def test_what_is_included_is_needed() -> None:
     assert wrong == set()
 
 
+def test_the_time_of_day_is_asked_in_one_place() -> None:
+    """A stamp that asked the port itself ignored the source of the time; a header that is replaced does not."""
+    callers = {
+        f"{component.name}/{path.name}"
+        for component in CATALOGUE.values()
+        if component.layer != "port"
+        for path in component.folder.rglob("*.[chj]*")
+        if path.suffix in {".c", ".h", ".j2"}
+        if "port_time_epoch_ns()" in path.read_text(encoding="utf-8")
+    }
+    by_clocks = {"clock/rcl_clock_epoch.h", "time_sync/rcl_clock_epoch.h"}
+    assert callers == {"support/epoch.h", "time_source/epoch.h", *by_clocks}
+
+
 def test_calls_go_down() -> None:
     """rclc_* → rcl_* → rmw_* → xrce_*: a file includes internal headers of its layer and of lower ones."""
     layers = ("rclc", "rcl", "rmw", "xrce")

@@ -3,6 +3,7 @@
  * A client that follows its agent for an hour, whose messages take 0 to 20 ms each way and whose clock is 50 ppm faster; the
  * milliseconds wrap. Then the agent is away for an hour, and comes back with another time. */
 #include "port_agent.h"
+#include "types.h"
 #include "unit.h"
 
 #include <rcl/error_handling.h>
@@ -15,7 +16,7 @@
 
 #include <string.h>
 
-enum { TIMESTAMP = 0x0E, REPLY_SIZE = 32 };
+enum { TIMESTAMP = 0x0E, REPLY_SIZE = 32, FIRST_READER = 3 };
 
 static const int64_t ms = 1000000;
 static const int64_t second = 1000000000;
@@ -26,6 +27,7 @@ static rcl_allocator_t allocator;
 static rcl_node_t node;
 static rclc_executor_t executor;
 static rcl_guard_condition_t guard;
+static rcl_subscription_t subscription;
 static int64_t start_ns;
 static int64_t epoch_ns = INT64_C(1790000000000000000);
 static int64_t originated_ns;
@@ -92,6 +94,9 @@ static void open_session(void)
   CHECK(rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK);
   node = rcl_get_zero_initialized_node();
   CHECK(rclc_node_init_default(&node, "n", "", &support) == RCL_RET_OK);
+  CHECK(
+    rclc_subscription_init_best_effort(
+      &subscription, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32), "number") == RCL_RET_OK);
   executor = rclc_executor_get_zero_initialized_executor();
   CHECK(rclc_executor_init(&executor, &support.context, 1, &allocator) == RCL_RET_OK);
   guard = rcl_get_zero_initialized_guard_condition();
@@ -105,6 +110,7 @@ static void close_session(void)
 {
   CHECK(rclc_executor_fini(&executor) == RCL_RET_OK);
   CHECK(rcl_guard_condition_fini(&guard) == RCL_RET_OK);
+  CHECK(rcl_subscription_fini(&subscription, &node) == RCL_RET_OK);
   CHECK(rcl_node_fini(&node) == RCL_RET_OK);
   CHECK(rclc_support_fini(&support) == RCL_RET_OK);
 }
@@ -176,6 +182,20 @@ static void test_hour(void)
   CHECK(rcl_clock_fini(&clock) == RCL_RET_OK);
 }
 
+/* A sample has the time of its arrival by the source: the port does not know the time of day. */
+static void test_stamp(void)
+{
+  std_msgs__msg__Int32 number;
+  rmw_message_info_t info;
+  int64_t late;
+
+  agent_offer_number(FIRST_READER, 7);
+  spin(second, 5 * ms / 2);
+  CHECK(rcl_take(&subscription, &number, &info, NULL) == RCL_RET_OK && number.data == 7);
+  late = rmw_uros_epoch_nanos() - info.received_timestamp;
+  CHECK(late >= 0 && late <= second + 10 * ms);
+}
+
 /* The session is lost, the drift is not. */
 static void test_holdover(void)
 {
@@ -214,6 +234,7 @@ int main(void)
   test_before_it();
   open_session();
   test_hour();
+  test_stamp();
   test_holdover();
   test_another_time();
   close_session();

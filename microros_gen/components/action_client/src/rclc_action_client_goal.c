@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Places of goals. All functions are called with the lock. */
+#include "microros/epoch.h"
 #include "microros/port.h"
 #include "microros/rclc_action_client.h"
 #include "microros/rmw_action_client.h"
@@ -34,7 +35,7 @@ static void goal_put_4(uint8_t * to, uint32_t number)
 static void goal_identify(uint8_t * uuid)
 {
   static uint32_t goals_sent; /* of all clients */
-  const uint64_t epoch_ns = (uint64_t)port_time_epoch_ns();
+  const uint64_t epoch_ns = (uint64_t)microros_epoch_known_ns();
 
   ++goals_sent;
   goal_put_4(&uuid[0], rmw_client_key());

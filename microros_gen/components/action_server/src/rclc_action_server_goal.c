@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/epoch.h"
 #include "microros/error.h"
 #include "microros/lock.h"
 #include "microros/port.h"
@@ -86,7 +87,7 @@ bool rclc_action_go(rclc_action_goal_handle_t * goal, rcl_action_goal_event_t ev
 /* The time of day, or the time since the start as long as it is not known. */
 static builtin_interfaces__msg__Time action_goal_now(void)
 {
-  const int64_t epoch_ns = port_time_epoch_ns();
+  const int64_t epoch_ns = microros_epoch_known_ns();
   const int64_t now_ns = epoch_ns > 0 ? epoch_ns : (int64_t)port_time_ms() * ACTION_NS_PER_MS;
   builtin_interfaces__msg__Time stamp;
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* diagnostic_msgs/msg/DiagnosticArray, written from the tables: no message is in memory. */
 #include "microros/cdr.h"
-#include "microros/port.h"
+#include "microros/epoch.h"
 #include "microros/rcl_diagnosis.h"
 #include "microros/text.h"
 
@@ -93,7 +93,7 @@ static void encode_text(encode_t * out, const char * text)
 static void encode_stamp(encode_t * out)
 {
   const uint64_t ns_per_s = 1000000000u;
-  const int64_t now = port_time_epoch_ns();
+  const int64_t now = microros_epoch_known_ns();
   uint64_t left = now < 0 ? 0u : (uint64_t)now;
   uint32_t seconds = 0;
 

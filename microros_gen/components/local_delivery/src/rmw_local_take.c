@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rmw_local_take.h"
 
+#include "microros/epoch.h"
 #include "microros/error.h"
 #include "microros/port.h"
 #include "microros/rmw_client.h"
@@ -67,7 +68,7 @@ bool rmw_local_describe(const xrce_endpoint_t * reader, rmw_message_info_t * inf
   if (index == (uint8_t)RMW_LOCAL_NONE) {
     return false;
   }
-  epoch_ns = port_time_epoch_ns();
+  epoch_ns = microros_epoch_known_ns();
   if (epoch_ns != 0) { /* otherwise the time of day has not been set yet */
     const uint32_t age_ms =
       port_time_ms() - rmw_local_queues[index].published_ms[rmw_local_states[index].head];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "rcutils/logging.h"
 
-#include "microros/port.h"
+#include "microros/epoch.h"
 #include "microros/rcutils_console.h"
 #include "microros/rcutils_rosout.h"
 #include "microros_config.h"
@@ -63,7 +63,7 @@ static void logging_write(
   const rcutils_log_location_t * location, int severity, const char * name, const char * format,
   va_list * args)
 {
-  const rcutils_time_point_value_t timestamp = port_time_epoch_ns();
+  const rcutils_time_point_value_t timestamp = microros_epoch_known_ns();
   const char * const logger = name == NULL ? "" : name;
   const bool replaces = (int)MICROROS_LOG_CALLBACK_LEVEL > RCUTILS_LOG_SEVERITY_FATAL;
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Lines of the console: `[INFO] [1700000000.123456789] [arm]: text`, as ROS 2 writes them. */
+#include "microros/epoch.h"
 #include "microros/lock.h"
-#include "microros/port.h"
 #include "microros/port_console.h"
 #include "microros/rcutils_console.h"
 #include "microros/rcutils_console_hooks.h"
@@ -54,7 +54,7 @@ void microros_console_step(void)
   if (console_unreported != 0u) {
     char text[CONSOLE_REPORT_SIZE];
 
-    console_report_dropped(text, sizeof(text) - 1u, port_time_epoch_ns());
+    console_report_dropped(text, sizeof(text) - 1u, microros_epoch_known_ns());
   }
 }
 

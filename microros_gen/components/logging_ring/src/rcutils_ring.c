@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rcutils_ring.h"
 
-#include "microros/port.h"
+#include "microros/epoch.h"
 #include "microros/rcutils_ring_hooks.h"
 #include "microros/xrce_rosout.h"
 #include "microros_config.h"
@@ -167,8 +167,8 @@ static void ring_announce(void)
   ring_is_announced = true;
   ring_is_announcing = true;
   rcl_logging_rosout_output_handler(
-    NULL, RCUTILS_LOG_SEVERITY_INFO, "microros", port_time_epoch_ns(), "lines from before the reset follow",
-    NULL); /* a format without conversions reads no arguments */
+    NULL, RCUTILS_LOG_SEVERITY_INFO, "microros", microros_epoch_known_ns(),
+    "lines from before the reset follow", NULL); /* a format without conversions reads no arguments */
   ring_is_announcing = false;
 }
 

@@ -4,8 +4,8 @@
  * sent. Never waits: a line without room is dropped and counted, and the next line reports the number.
  */
 #include "microros/cdr.h"
+#include "microros/epoch.h"
 #include "microros/lock.h"
-#include "microros/port.h"
 #include "microros/rcutils_format.h"
 #include "microros/rcutils_ring.h"
 #include "microros/rcutils_rosout.h"
@@ -175,7 +175,7 @@ void microros_rosout_log(
 void microros_rosout_step(const xrce_client_t * client)
 {
   if (rosout_unreported != 0u) {
-    rosout_report_dropped(port_time_epoch_ns());
+    rosout_report_dropped(microros_epoch_known_ns());
   }
   xrce_rosout_send(client);
 }

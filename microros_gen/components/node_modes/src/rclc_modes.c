@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "rclc_modes/rclc_modes.h"
 
+#include "microros/epoch.h"
 #include "microros/error.h"
-#include "microros/port.h"
 #include "microros/rcl_publisher_open.h"
 #include "microros/rcl_service_open.h"
 #include "microros/rclc_modes_known.h"
@@ -221,7 +221,7 @@ void rclc_modes_notify(rclc_modes_t * modes, uint8_t start_mode)
     modes->event_start = start_mode;
   }
   modes->event_goal = modes->mode;
-  modes->event_time_ns = (uint64_t)port_time_epoch_ns();
+  modes->event_time_ns = (uint64_t)microros_epoch_known_ns();
   modes->event_is_due = true;
   rclc_modes_publish(modes);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "microros/port.h"
+#include "microros/epoch.h"
 #include "microros/rclc_parameter_descriptor.h"
 #include "microros/rclc_parameter_out.h"
 #include "microros/rclc_parameter_value.h"
@@ -12,7 +12,7 @@ static void event_out_stamp(parameter_out_t * out)
 {
   const uint64_t ns_per_s = 1000000000;
   uint64_t nanoseconds;
-  const uint64_t seconds = rclc_parameter_divide((uint64_t)port_time_epoch_ns(), ns_per_s, &nanoseconds);
+  const uint64_t seconds = rclc_parameter_divide((uint64_t)microros_epoch_known_ns(), ns_per_s, &nanoseconds);
 
   rclc_parameter_out_4(out, (uint32_t)seconds);
   rclc_parameter_out_4(out, (uint32_t)nanoseconds);

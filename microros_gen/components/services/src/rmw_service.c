@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rmw_service.h"
 
+#include "microros/epoch.h"
 #include "microros/error.h"
 #include "microros/port.h"
 #include "microros/rmw_decode.h"
@@ -77,7 +78,7 @@ rmw_ret_t rmw_service_report(
 void rmw_service_describe(const xrce_sample_t * sample, rmw_service_info_t * info)
 {
   const int64_t age_ns = (int64_t)(port_time_ms() - sample->arrived_ms) * NS_PER_MS;
-  const int64_t epoch_ns = port_time_epoch_ns();
+  const int64_t epoch_ns = microros_epoch_known_ns();
 
   info->source_timestamp = 0;                                       /* XRCE does not carry it */
   info->received_timestamp = epoch_ns != 0 ? epoch_ns - age_ns : 0; /* the time of day has not been set yet */

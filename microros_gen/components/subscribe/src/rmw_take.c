@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+#include "microros/epoch.h"
 #include "microros/error.h"
 #include "microros/lock.h"
 #include "microros/port.h"
@@ -29,7 +30,7 @@ void rmw_subscription_describe(const rmw_subscription_t * subscription, rmw_mess
     return;
   }
   age_ns = (int64_t)(port_time_ms() - sample.arrived_ms) * take_ns_per_ms;
-  epoch_ns = port_time_epoch_ns();
+  epoch_ns = microros_epoch_known_ns();
   info->received_timestamp = epoch_ns != 0 ? epoch_ns - age_ns : 0; /* the time of day has not been set yet */
   info->publication_sequence_number = RMW_MESSAGE_INFO_SEQUENCE_NUMBER_UNSUPPORTED;
   info->reception_sequence_number = RMW_MESSAGE_INFO_SEQUENCE_NUMBER_UNSUPPORTED;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The time of day for functions of the system's time: the source's, otherwise the device's. Replaces the header of component
- * `support`. Internal. */
+/* The time of day for stamps and functions of the system's time: the source's, otherwise the device's. Replaces the header of
+ * component `support`. Internal. */
 #ifndef MICROROS_EPOCH_H
 #define MICROROS_EPOCH_H
 
@@ -11,14 +11,19 @@
 extern "C" {
 #endif
 
-/* Returns nanoseconds since 1970, or since the start of the device as long as the time of day is not known. */
-static inline int64_t microros_epoch_ns(void)
+/* Returns nanoseconds since 1970; 0: the time of day has not been set yet. */
+static inline int64_t microros_epoch_known_ns(void)
 {
   int64_t epoch_ns = 0;
 
-  if (!rmw_epoch_now(&epoch_ns)) {
-    epoch_ns = port_time_epoch_ns();
-  }
+  return rmw_epoch_now(&epoch_ns) ? epoch_ns : port_time_epoch_ns();
+}
+
+/* Returns nanoseconds since 1970, or since the start of the device as long as the time of day is not known. */
+static inline int64_t microros_epoch_ns(void)
+{
+  const int64_t epoch_ns = microros_epoch_known_ns();
+
   return (epoch_ns != 0) ? epoch_ns : port_time_steady_ns();
 }
 
