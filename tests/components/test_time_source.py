@@ -244,6 +244,47 @@ def test_mistakes_have_place_and_hint(tmp_path: Path, key: str, identifier: str,
     assert hint in (found.hint or "")
 
 
+ALONE = """\
+version: 1
+profiles: [pure_sender]
+components: [+time_source]
+nodes: [{name: n, publishers: [{topic: a, type: std_msgs/msg/Int32, local: only}],
+         subscriptions: [{topic: a, type: std_msgs/msg/Int32, local: only}]}]
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "place"),
+    [
+        (f"{ALONE}time_source: {{period: 1 s}}\n", "6:14"),
+        (ALONE, "3:1"),
+        (
+            f"{BARE}time_source: {{source: agent}}\n".replace("+time_source", "+time_source, +agentless"),
+            "5:14",
+        ),
+    ],
+)
+def test_an_image_without_an_agent_has_nobody_to_ask(tmp_path: Path, text: str, place: str) -> None:
+    with pytest.raises(UserError) as error:
+        planned(tmp_path, text)
+    (found,) = error.value.diagnostics
+    assert (found.id, found.span and f"{found.span.line}:{found.span.column}") == ("MG-3215", place)
+    assert found.hint == "Write time_source: {source: application}, or drop the component time_source"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        f"{ALONE}time_source: {{source: application}}\n",
+        ALONE.replace("local: only}", "local: also}", 1),
+        ALONE.replace("nodes: [", "nodes: [{name: m, publishers: [{topic: b, type: std_msgs/msg/Int32}]}, "),
+        ALONE.replace("[+time_source]", "[+time_source, +logging, +logging_rosout]"),
+    ],
+)
+def test_one_with_an_agent_or_with_its_own_source_is_planned(tmp_path: Path, text: str) -> None:
+    assert part_of(planned(tmp_path, text)).slew_ppm == 500
+
+
 def test_the_key_needs_the_component(tmp_path: Path) -> None:
     with pytest.raises(UserError, match="needs the component 'time_source', which nothing selects"):
         planned(

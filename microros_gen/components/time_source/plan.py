@@ -38,14 +38,32 @@ def _time(time_ms: int) -> str:
 
 
 def plan(context: PlanContext, diagnostics: Diagnostics) -> TimeSourcePlan:
-    """Return the numbers of the application file. Its own checks have reported all faults."""
+    """Return the numbers of the application file, whose own checks have reported its faults.
+
+    An agent as the source of an image that has none is an error here: who has one follows from all endpoints.
+    """
     declared = context.application.time_source or TimeSourceDecl()
+    if declared.asks_agent and _has_no_agent(context):
+        spans = context.application.spans
+        diagnostics.error(
+            "the agent as the source of the time contradicts an image without an agent: nobody would be asked",
+            declared.span or spans.get("components") or spans.get("profiles"),
+            "Write time_source: {source: application}, or drop the component time_source",
+            id="MG-3215",
+        )
     return TimeSourcePlan(
         period_ms=declared.period_ms if declared.asks_agent else 0,
         slew_ppm=declared.slew_ppm,
         step_us=declared.step_us or NEVER_US,
         holdover_ms=declared.holdover_ms,
     )
+
+
+def _has_no_agent(context: PlanContext) -> bool:
+    """Return whether the image never has a session: nodes without any endpoint alone do not say that."""
+    endpoints = (endpoint for node in context.application.nodes for endpoint in node.endpoints)
+    is_alone = bool(context.application.nodes) and not any(e.exists_at_agent for e in endpoints)
+    return is_alone and context.selection.has("agentless")
 
 
 def record(part: TimeSourcePlan) -> object:
