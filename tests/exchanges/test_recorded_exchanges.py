@@ -6,10 +6,12 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import pytest
 
+from tests.support.exchanges.exchange import record
 from tests.support.exchanges.recorded import (
     GOLDEN,
     build_clock,
@@ -18,6 +20,8 @@ from tests.support.exchanges.recorded import (
     held_exchanges,
     recorded,
 )
+from tests.support.patience import seconds
+from tests.support.runtime.serving_agent import ServingAgent
 from tests.support.slices import only
 
 
@@ -47,6 +51,28 @@ SHORT = (
 @pytest.mark.parametrize("name", only(SHORT, recorded()))
 def test_an_exchange_equals_its_recording(name: str, tmp_path: Path, still_time: Path) -> None:
     assert exchange_of(name, tmp_path, still_time) == held_exchanges()[name]
+
+
+class _Unknown(ServingAgent):
+    def receive(self, datagram: bytes) -> list[bytes]:
+        raise LookupError(datagram.hex())
+
+
+def test_an_agent_that_does_not_know_a_message_ends_the_recording(tmp_path: Path) -> None:
+    """The program waited for an answer for ever, and the error was never seen: so it was with TIMESTAMP."""
+    ended, image = tmp_path / "ended", tmp_path / "image"
+    image.write_text(
+        f"#!{sys.executable}\n"
+        "import os, pathlib, select\n"
+        "peer = int(os.environ['EXCHANGE_FD'])\n"
+        "os.write(peer, b'S 5 0e00\\n')\n"
+        f"if select.select([peer], [], [], {seconds(5)})[0] and not os.read(peer, 1):\n"
+        f"    pathlib.Path({str(ended)!r}).touch()\n"
+    )
+    image.chmod(0o755)
+    with pytest.raises(LookupError, match="0e00"):
+        record(image, Path(), "udp", 1000, _Unknown())
+    assert ended.exists()
 
 
 def test_each_recording_belongs_to_an_application() -> None:

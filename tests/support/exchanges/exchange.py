@@ -88,7 +88,6 @@ def record(image: Path, still_time: Path, transport: str, duration_ms: int, agen
         "EXCHANGE_MS": str(duration_ms),
     }
     with (
-        ours,
         subprocess.Popen(
             [image],
             env=environment,
@@ -97,6 +96,7 @@ def record(image: Path, still_time: Path, transport: str, duration_ms: int, agen
             stderr=subprocess.PIPE,
             text=True,
         ) as process,
+        ours,  # closed first: the program ends when nobody answers, also after an error of the agent
     ):
         theirs.close()
         with ours.makefile("rw") as stream:

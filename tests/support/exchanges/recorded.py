@@ -23,7 +23,7 @@ _LEFT_OUT = ("timers_ticked",)
 _ELSEWHERE = ("target:", "{type: custom", "{type: canfd", "system:", "tasks:", "time_source")
 """Images of boards, those whose transport is functions of the application, those on a bus, whose frames
 tests/e2e/test_canfd.py sees, those with links to other boards, whose messages tests/runtime/test_peer.py sees, those
-with tasks, whose order is the scheduler's, and those that ask for the time, which
+with tasks, whose order is the scheduler's, and those that ask for the time, which the scripted agent does not tell and
 tests/runtime/c/unit_time_source.c simulates.
 """
 
