@@ -264,7 +264,7 @@ nodes: [{name: n, publishers: [{topic: a, type: std_msgs/msg/Int32, local: only}
         ),
     ],
 )
-def test_an_image_without_an_agent_has_nobody_to_ask(tmp_path: Path, text: str, place: str) -> None:
+def test_an_image_without_an_agent_has_no_one_to_ask(tmp_path: Path, text: str, place: str) -> None:
     with pytest.raises(UserError) as error:
         planned(tmp_path, text)
     (found,) = error.value.diagnostics

@@ -59,7 +59,7 @@ class _Unknown(ServingAgent):
 
 
 def test_an_agent_that_does_not_know_a_message_ends_the_recording(tmp_path: Path) -> None:
-    """The program waited for an answer for ever, and the error was never seen: so it was with TIMESTAMP."""
+    """The program waited for an answer forever, and the error was never seen: so it was with TIMESTAMP."""
     ended, image = tmp_path / "ended", tmp_path / "image"
     image.write_text(
         f"#!{sys.executable}\n"

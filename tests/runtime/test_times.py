@@ -192,12 +192,20 @@ def test_the_times_of_a_line_follow_from_its_baud() -> None:
 
 
 def hour(plan: RuntimePlan, liveliness: str, folder: Path) -> tuple[int, int, list[int]]:
-    """Return how often a quiet node woke in an hour, then with the agent gone, and when it looked for the agent."""
+    """Return how often a quiet node woke in an hour, then with the agent gone, and when it looked for the agent.
+
+    An application that sleeps itself, as long as the library says, wakes as often as an executor that spins.
+    """
     names = [name for name in components(plan, liveliness) if name != "port_posix"]
     program = build(render(folder, plan, names), ["port_agent.c", "types_read.c", "unit_wakes.c"], "wakes")
-    done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
-    assert done.returncode == 0, done.stderr
-    words = [line.split() for line in done.stdout.splitlines()]
+    outputs = []
+    for arguments in ((), ("itself",)):
+        command = [program, *arguments]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=seconds(60), check=False)
+        assert done.returncode == 0, done.stderr
+        outputs.append(done.stdout)
+    assert outputs[1] == outputs[0]
+    words = [line.split() for line in outputs[0].splitlines()]
     woke = [int(number) for word, number in words if word == "woke"]
     return woke[0], woke[1], [int(number) for word, number in words if word == "asked"]
 

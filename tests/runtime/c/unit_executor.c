@@ -177,6 +177,40 @@ static void test_waits_for_a_timer(void)
 }
 
 /* Nanoseconds to milliseconds, rounded up, without a division of 64 bits: against one. */
+/* For an application that sleeps itself. unit_wakes.c counts how often it wakes. */
+static void test_the_executor_says_when_it_is_due(void)
+{
+  rcl_timer_t timer = timer_of(10 * ms);
+  int64_t due_ns = -1;
+
+  CHECK(rclc_executor_time_until_due(NULL, &due_ns) == RCL_RET_INVALID_ARGUMENT);
+  rcl_reset_error();
+  CHECK(rclc_executor_time_until_due(&executor, &due_ns) == RCL_RET_ERROR && due_ns == -1);
+  rcl_reset_error();
+  begin();
+  CHECK(rclc_executor_time_until_due(&executor, NULL) == RCL_RET_INVALID_ARGUMENT);
+  rcl_reset_error();
+  CHECK(rclc_executor_spin_some(&executor, 0) == RCL_RET_OK);
+  CHECK(rclc_executor_time_until_due(&executor, &due_ns) == RCL_RET_OK && due_ns > 20 * ms); /* the session */
+  CHECK(rclc_executor_add_timer(&executor, &timer) == RCL_RET_OK);
+  CHECK(rclc_executor_add_guard_condition(&executor, &guard, on_guard) == RCL_RET_OK);
+  CHECK(rclc_executor_spin_some(&executor, 0) == RCL_RET_OK && noted(""));
+  CHECK(rclc_executor_time_until_due(&executor, &due_ns) == RCL_RET_OK && due_ns == 10 * ms);
+  agent_now_ns += 4 * ms + 1;
+  CHECK(rclc_executor_time_until_due(&executor, &due_ns) == RCL_RET_OK && due_ns == 6 * ms - 1);
+  trigger_guard();
+  CHECK(rclc_executor_time_until_due(&executor, &due_ns) == RCL_RET_OK && due_ns == 0);
+  CHECK(rclc_executor_spin_some(&executor, 0) == RCL_RET_OK && noted("g"));
+  CHECK(rclc_executor_time_until_due(&executor, &due_ns) == RCL_RET_OK && due_ns == 6 * ms - 1);
+  agent_now_ns += 6 * ms;
+  CHECK(rclc_executor_time_until_due(&executor, &due_ns) == RCL_RET_OK && due_ns == 0);
+  CHECK(rclc_executor_spin_some(&executor, 0) == RCL_RET_OK && noted("t"));
+  CHECK(rcl_timer_fini(&timer) == RCL_RET_OK);
+  CHECK(rclc_executor_time_until_due(&executor, &due_ns) != RCL_RET_OK); /* the round says the same */
+  rcl_reset_error();
+  end();
+}
+
 static void test_times_are_rounded_up(void)
 {
   const int64_t longest = (int64_t)(UINT32_MAX - 1u) * ms;
@@ -457,6 +491,7 @@ int main(void)
   test_arguments();
   test_handles_are_counted();
   test_waits_for_a_timer();
+  test_the_executor_says_when_it_is_due();
   test_times_are_rounded_up();
   test_an_ended_entity_is_told();
   test_order_is_that_of_adding();

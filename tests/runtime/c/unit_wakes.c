@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * A node with a subscription and a publisher in rclc_executor_spin, an hour of which nothing comes. Prints how often it woke up;
- * then, with the agent gone and with `liveliness: ping` or `acknack`, when it looked for the agent.
+ * then, with the agent gone and with `liveliness: ping` or `acknack`, when it looked for the agent. With an argument the program
+ * sleeps itself, as long as the library says.
  */
 #include "port_agent.h"
 #include "types.h"
@@ -59,8 +60,22 @@ static void go(void)
   agent_event_ns = agent_now_ns + 3600 * second_ns;
 }
 
-int main(void)
+/* As an application that sleeps itself, until an interrupt of the line. */
+static int sleep_itself(void)
 {
+  for (;;) {
+    int64_t due_ns = -1;
+
+    (void)rclc_executor_spin_some(&executor, 0);
+    CHECK(rclc_executor_time_until_due(&executor, &due_ns) == RCL_RET_OK);
+    CHECK(due_ns > 0); /* otherwise it would not sleep */
+    port_wait(1, due_ns == INT64_MAX ? UINT32_MAX : (uint32_t)(due_ns / 1000000));
+  }
+}
+
+int main(int count, char ** arguments)
+{
+  (void)arguments;
   allocator = rcl_get_default_allocator();
   CHECK(rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK);
   CHECK(rclc_node_init_default(&node, "n", "", &support) == RCL_RET_OK);
@@ -77,5 +92,5 @@ int main(void)
   agent_waits = 0;
   agent_event = go;
   agent_event_ns = agent_now_ns + 3600 * second_ns;
-  return (int)rclc_executor_spin(&executor);
+  return count > 1 ? sleep_itself() : (int)rclc_executor_spin(&executor);
 }

@@ -34,6 +34,12 @@ bool rmw_uros_is_connected(const rmw_context_t * context);
 rmw_ret_t rmw_uros_spin_once(rmw_context_t * context);
 
 /*
+ * Writes the time in nanoseconds until the session has something to do, such as a repetition or a ping; INT64_MAX: not before
+ * a message arrives or the application calls the library. For an application that sleeps itself: call it after
+ * rmw_uros_spin_once, sleep at most so long, and let what arrives on the line end the sleep. */
+rmw_ret_t rmw_uros_time_until_due(const rmw_context_t * context, int64_t * duration_ns);
+
+/*
  * Waits until the agent has acknowledged every reliable message and the line has sent the others.
  * RMW_RET_TIMEOUT after `timeout_ms`. */
 rmw_ret_t rmw_uros_flush(rmw_context_t * context, uint32_t timeout_ms);
