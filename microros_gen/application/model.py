@@ -18,6 +18,7 @@ from microros_gen.application.system_decl import Link, SystemRef
 from microros_gen.application.task_decl import TaskDecl
 from microros_gen.application.time_source import TimeSourceDecl
 from microros_gen.application.transport_decl import Transport
+from microros_gen.application.watchdog import WatchdogDecl
 from microros_gen.diagnostics import Span
 from microros_gen.documents.named import Named
 from microros_gen.records import dataclass
@@ -367,6 +368,7 @@ class Application:
     logging: tuple[LogWriter, ...] = ()
     diagnosis: DiagnosisDecl | None = None
     time_source: TimeSourceDecl | None = None
+    watchdog: WatchdogDecl | None = None
     implied: tuple[EndpointDecl, ...] = ()
     endpoints: tuple[EndpointChange, ...] = ()
     system: SystemRef | None = None

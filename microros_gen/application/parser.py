@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from types import MappingProxyType
 
-from microros_gen.application import diagnosis_decl, task_decl, time_source
+from microros_gen.application import diagnosis_decl, task_decl, time_source, watchdog
 from microros_gen.application.diagnosis import parse_diagnosis
 from microros_gen.application.limits import application_limits, endpoint_limits
 from microros_gen.application.log_decl import BUFFERED_LOG_WRITERS, LogWriter
@@ -95,6 +95,7 @@ def parse_application(source: Source, diagnostics: Diagnostics) -> Application |
 def _application(tree: MappingNode, diagnostics: Diagnostics) -> Application:
     default = Application()
     nodes = parse_nodes(child(tree, "nodes"), diagnostics)
+    tasks = parse_tasks(child(tree, task_decl.KEY), nodes, diagnostics)
     pools = {e.key: n for e in entries(child(tree, "pools")) if (n := int_of(e.value)) is not None}
     if nodes:
         _check_pools(child(tree, "pools"), diagnostics)
@@ -126,7 +127,8 @@ def _application(tree: MappingNode, diagnostics: Diagnostics) -> Application:
         diagnosis=parse_diagnosis(child(tree, diagnosis_decl.KEY), nodes, diagnostics),
         time_source=time_source.parse_time_source(child(tree, time_source.KEY), diagnostics),
         system=_system(child(tree, "system")),
-        tasks=parse_tasks(child(tree, task_decl.KEY), nodes, diagnostics),
+        tasks=tasks,
+        watchdog=watchdog.parse_watchdog(child(tree, watchdog.KEY), tasks, diagnostics),
         spans=MappingProxyType(_spans(tree)),
     )
 

@@ -21,6 +21,24 @@ _NO_DEADLINE = 1 << 32
 _SESSION = "session"
 _CRITICALITY_OF_SESSION = "by rule"
 _MILLISECOND_US = 1000
+_ON_OVERRUN = (
+    "/* `missed` releases of the task came while it still ran. */",
+    "static void on_overrun(uint8_t task, uint32_t missed)",
+    "{",
+    "  (void)task;",
+    "  (void)missed;",
+    "}",
+    "",
+)
+_FEED = (
+    "/* Every task is in time: feed the watchdog of the device here. */",
+    "void port_watchdog_feed(void)",
+    "{",
+    "}",
+    "",
+)
+_WAIT_MOST_US = 1_000_000
+"""Longest wait of a task without a period: RCLC_TASKS_WAIT_MOST_MS of rclc_tasks_state.h."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,16 +85,35 @@ class TasksPlan:
     """The tasks in the order of the application file, that of the session last.
 
     `responses` is the analysis of their deadlines, by priority; empty where it cannot be made, because of `gaps`.
+    `margin_us`: time after a deadline from which on the watchdog is not fed; 0: without one.
     """
 
     tasks: tuple[TaskPlan, ...]
     responses: tuple[Response, ...] = ()
+    margin_us: int = 0
     gaps: tuple[str, ...] = ()
 
     @property
     def count(self) -> int:
         """Return the number of tasks."""
         return len(self.tasks)
+
+    @property
+    def is_watched(self) -> bool:
+        """Return whether a watchdog is fed."""
+        return self.margin_us != 0
+
+    @property
+    def headers(self) -> tuple[str, ...]:
+        """Return the headers with what the application defines."""
+        return ("microros/port_watchdog.h",) if self.is_watched else ()
+
+    @property
+    def watch(self) -> str:
+        """Return what a report says of the watchdog: what its own time must exceed."""
+        periodic = [t.period_us + t.deadline_us for t in self.tasks if t.period_us]
+        others = [_WAIT_MOST_US + t.interval_us + t.deadline_us for t in self.tasks if not t.period_us]
+        return f"port_watchdog_feed() at least every {_time(min(periodic + others) + self.margin_us)}"
 
     @property
     def constants(self) -> tuple[str, ...]:
@@ -121,18 +158,8 @@ class TasksPlan:
 
     @property
     def example_function(self) -> tuple[str, ...]:
-        """Return a function of the example as lines of C, for the overruns of tasks."""
-        if not any(_calls(task) for task in self.tasks):
-            return ()
-        return (
-            "/* `missed` releases of the task came while it still ran. */",
-            "static void on_overrun(uint8_t task, uint32_t missed)",
-            "{",
-            "  (void)task;",
-            "  (void)missed;",
-            "}",
-            "",
-        )
+        """Return functions of the example as lines of C, for the overruns of tasks and for the watchdog."""
+        return (*(_ON_OVERRUN if any(map(_calls, self.tasks)) else ()), *(_FEED if self.is_watched else ()))
 
 
 def _calls(task: TaskPlan) -> bool:
@@ -184,6 +211,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> TasksPlan:
             for task, priority in zip(tasks, priorities, strict=True)
         ),
         responses=() if open_gaps else analyze_tasks(tasks, diagnostics),
+        margin_us=application.watchdog.margin_us if application.watchdog is not None else 0,
         gaps=open_gaps,
     )
 
@@ -243,5 +271,6 @@ def _rank(task: TaskDecl) -> tuple[int, int]:
 def record(part: TasksPlan) -> object:
     """Return what the plan id is made of: an application is compiled with the numbers of its tasks."""
     return {
-        "tasks": [[t.name, t.executor, t.plan_entry, t.stack, t.level, t.deadline_us] for t in part.tasks]
+        "tasks": [[t.name, t.executor, t.plan_entry, t.stack, t.level, t.deadline_us] for t in part.tasks],
+        **({"watchdog": part.margin_us} if part.is_watched else {}),
     }

@@ -36,7 +36,27 @@ def _time(key: str, least: str = "rate: 1 Hz, ") -> KeyCase:
     )
 
 
+def _margin_us(application: Application) -> int:
+    return 0 if application.watchdog is None else application.watchdog.margin_us
+
+
 TASK_CASES = {
+    "watchdog": KeyCase(
+        _NODES + "tasks: [{name: t, executor: fast}]\nwatchdog: {margin: 1 s}",
+        _margin_us,
+        1_000_000,
+        "watchdog: 1 s",
+        "1:11",
+        "'watchdog' must be a mapping such as {margin: 50 ms}; it is the text '1 s'",
+    ),
+    "watchdog.margin": KeyCase(
+        _NODES + "tasks: [{name: t, executor: fast}]\nwatchdog: {margin: 20 ms}",
+        _margin_us,
+        20_000,
+        "watchdog: {margin: 20}",
+        "1:20",
+        "'watchdog.margin' must be a time with its unit such as 20 ms (units us, ms, s); it is 20",
+    ),
     "tasks": KeyCase(
         _NODES + "tasks: [{name: t, executor: fast}]",
         lambda a: [(t.name, _name_of_executor(t), t.is_session) for t in a.tasks],

@@ -319,7 +319,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "    executors: [{name: fast, handles: [tick]}, {name: slow, handles: [in]}]\n"
         + "components: [+subscribe, +executor, +timers, +diagnosis]\n"
         + "tasks:\n  - {name: control, executor: fast, rate: 20 Hz, overrun: call}\n"
-        + "  - {name: work, executor: slow, interval: 5 ms}\n",
+        + "  - {name: work, executor: slow, interval: 5 ms}\nwatchdog: {margin: 10 ms}\n",
         "transforms": _NODES.replace("    publishers:\n", "")
         + "components: [+tf_broadcaster, +multithread]\n",
         "executor_events": _BOTH + "components: [+qos_events, +clock_stamp]\n",

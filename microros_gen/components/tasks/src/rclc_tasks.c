@@ -5,6 +5,7 @@
 #include "microros/lock.h"
 #include "microros/rclc_tasks.h"
 #include "microros/rclc_tasks_state.h"
+#include "microros/rclc_tasks_watch.h"
 #include "microros/rmw_tasks.h"
 #include "microros/wake.h"
 
@@ -119,6 +120,7 @@ rcl_ret_t rclc_tasks_start(void)
     (void)rmw_tasks_released(task, 0); /* of a start before */
     rclc_task_states[task].stack_peak = 0;
   }
+  rclc_tasks_watch_begin();
   tasks_run = true;
   rmw_tasks_set_running(true);
   microros_unlock();

@@ -6,6 +6,7 @@
 #include "microros/rcl_waiting.h"
 #include "microros/rclc_tasks.h"
 #include "microros/rclc_tasks_state.h"
+#include "microros/rclc_tasks_watch.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_client_wait.h"
 #include "microros/rmw_tasks.h"
@@ -13,9 +14,6 @@
 #include "microros/xrce_client.h"
 
 #include <stddef.h>
-
-/* Longest wait of a round: only trigger functions that look at other state depend on it. */
-enum { WAIT_MOST_MS = 1000 };
 
 rclc_task_state_t rclc_task_states[MICROROS_TASKS];
 
@@ -99,6 +97,7 @@ void rclc_tasks_run_period(uint8_t task)
     if (rclc_task_plans[task].overrun != RCLC_TASK_CATCH_UP) {
       task_skip(task);
     }
+    rclc_tasks_watch_period(task, state->next_us);
   }
 }
 
@@ -124,6 +123,7 @@ void rclc_tasks_round_begins(const rclc_executor_t * executor)
     microros_lock();
     state->released_us = rmw_tasks_released(task, state->began_us);
     state->is_in_round = true;
+    rclc_tasks_watch_release(task, state->released_us);
     microros_unlock();
   }
 }
@@ -152,12 +152,13 @@ void rclc_tasks_round_ends(const rclc_executor_t * executor)
     rclc_task_states[task].is_in_round = false;
     microros_unlock();
     task_count(task);
+    rclc_tasks_watch_rest(task);
   }
 }
 
 void rclc_tasks_run_events(uint8_t task)
 {
-  const uint64_t wait_most_ns = (uint64_t)WAIT_MOST_MS * 1000000u;
+  const uint64_t wait_most_ns = (uint64_t)RCLC_TASKS_WAIT_MOST_MS * 1000000u;
   rclc_task_state_t * state = &rclc_task_states[task];
 
   while (rclc_tasks_continue()) {
@@ -169,6 +170,7 @@ void rclc_tasks_run_events(uint8_t task)
       port_task_sleep_until(state->began_us + rclc_task_plans[task].interval_us);
     }
     state->has_run = false;
+    rclc_tasks_watch_rest(task);
   }
 }
 
@@ -198,7 +200,7 @@ static bool task_is_sooner(uint8_t task, int64_t look_again_ns)
   const int64_t ns_per_ms = 1000000;
   const uint32_t left_ms = rmw_tasks_until_ms(task) - port_time_ms();
 
-  return left_ms <= (uint32_t)WAIT_MOST_MS && look_again_ns < ((int64_t)left_ms - 1) * ns_per_ms;
+  return left_ms <= (uint32_t)RCLC_TASKS_WAIT_MOST_MS && look_again_ns < ((int64_t)left_ms - 1) * ns_per_ms;
 }
 
 /* What a callback waits for may be in no executor: the task looks itself. */
@@ -210,7 +212,10 @@ static void session_release_task(uint8_t task)
   if (state->is_in_round || rclc_task_plans[task].period_us != 0u) {
     rmw_tasks_wake(task);
   } else if (executor_has_news(state->executor, &look_again_ns)) {
-    rmw_tasks_release(task, port_task_time_us());
+    const uint32_t now_us = port_task_time_us();
+
+    rmw_tasks_release(task, now_us);
+    rclc_tasks_watch_release(task, now_us);
   } else if (task_is_sooner(task, look_again_ns)) {
     rmw_tasks_wake(task);
   } else {
@@ -234,6 +239,7 @@ void rclc_tasks_run_session(uint8_t task)
   uint32_t news;
 
   while (rclc_tasks_continue()) {
+    rclc_tasks_watch_run(task);
     rclc_task_states[task].began_us = port_task_time_us();
     rclc_task_states[task].released_us = rclc_task_states[task].began_us; /* nothing knows the release */
     microros_lock();
@@ -245,6 +251,7 @@ void rclc_tasks_run_session(uint8_t task)
     session_release_tasks();
     microros_unlock();
     task_count(task);
-    rmw_client_wait_news((uint32_t)WAIT_MOST_MS, &news);
+    rclc_tasks_watch_rest(task);
+    rmw_client_wait_news((uint32_t)RCLC_TASKS_WAIT_MOST_MS, &news);
   }
 }
