@@ -18,7 +18,10 @@ SOURCE = '#include "x.h"\nint f(int a)\n{\n  int unused;\n  return a + A;\n}\n'
 
 
 class Workshop:
-    """A separate cache, and a way to see whether the real compiler made an object: it writes a line to a file."""
+    """A separate cache, and a way to see whether the real compiler made an object: it writes a line to a file.
+
+    It writes another for each run of the preprocessor alone.
+    """
 
     def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         real = shutil.which("gcc", path="/usr/local/bin:/usr/bin:/bin")
@@ -28,8 +31,10 @@ class Workshop:
         self._log = folder / "log"
         (folder / "real").mkdir()
         spy = folder / "real" / "gcc"
+        self._preprocessed = folder / "preprocessed"
         spy.write_text(
-            f'#!/bin/sh\ncase " $* " in *" -E "*) ;; *) echo "$*" >> {self._log} ;; esac\nexec {real} "$@"\n'
+            f'#!/bin/sh\ncase " $* " in *" -E "*) log={self._preprocessed} ;; *) log={self._log} ;; esac\n'
+            f'echo "$*" >> $log\nexec {real} "$@"\n'
         )
         spy.chmod(0o755)
         monkeypatch.setenv("PATH", f"{folder / 'real'}:/usr/bin:/bin")
@@ -40,6 +45,11 @@ class Workshop:
 
     def forget(self) -> None:
         self._log.write_text("")
+        self._preprocessed.write_text("")
+
+    def has_preprocessed(self) -> bool:
+        """Return whether the last call of `compile` ran the preprocessor to find the object."""
+        return bool(self._preprocessed.read_text())
 
     def compile(
         self, folder: str, *flags: str, source: str = SOURCE, header: str = HEADER, include: bool = True
@@ -89,6 +99,26 @@ def test_an_unused_macro_does_not_count(workshop: Workshop) -> None:
     workshop.compile("a", "-O1")
     compiled, _, _ = workshop.compile("b", "-O1", header=HEADER.replace("B 2", "B 3"))
     assert not compiled
+
+
+LISTED = ("-O1", "-g", "-MD", "-MF", "x.d")
+
+
+def test_a_call_that_lists_its_files_is_found_without_the_preprocessor(workshop: Workshop) -> None:
+    compiled, _, a = workshop.compile("a", *LISTED)
+    assert (compiled, workshop.has_preprocessed()) == (True, True)
+    compiled, _, b = workshop.compile("b", *LISTED)
+    assert (compiled, workshop.has_preprocessed()) == (False, False)
+    assert (a / "x.o").read_bytes() == (b / "x.o").read_bytes()
+    assert (a / "x.d").read_text() == (b / "x.d").read_text()
+    for changed in (
+        workshop.compile("b", *LISTED, header=HEADER.replace("A 1", "A 4")),
+        workshop.compile("b", *LISTED, source=SOURCE.replace("a + A", "a - A")),
+        workshop.compile("b", *LISTED, "-O2"),
+    ):
+        assert changed[0]
+    compiled, _, _ = workshop.compile("b", *LISTED, header=HEADER.replace("B 2", "B 3"))
+    assert (compiled, workshop.has_preprocessed()) == (False, True), "an unused macro"
 
 
 def test_what_differs_is_compiled(workshop: Workshop) -> None:

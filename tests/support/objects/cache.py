@@ -2,9 +2,8 @@
 """One cache of objects for all tests and workers: compilers in the PATH that do not compile the same text twice.
 
 An object is kept by the content of what it was made from (cached.c says exactly what), in build/objects. Tests call
-compilers as always. `build` of the tool keeps its objects itself, here in one store for all tests, and without the
-preprocessor: what it compiles passes through. `MICROROS_TEST_OBJECTS=off` leaves the PATH as it is, and each test its
-store.
+compilers as always. The store of `build` is off: it finds an object with debug information in the same folder only,
+and each test has its own. `MICROROS_TEST_OBJECTS=off` leaves the PATH as it is, and each test its store.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ SOURCE = Path(__file__).with_name("cached.c")
 COMPILERS = ("gcc", "cc", "g++", "c++", "clang", "clang++", "arm-none-eabi-gcc", "riscv64-unknown-elf-gcc")
 KEPT_DAYS = 3
 STORE = "MICROROS_GEN_OBJECTS"
-"""What tells `build` where its objects are; empty: in the cache folder of the user that a test makes up."""
+"""What tells `build` where its objects are; empty: in the cache folder of the user that a test makes up; or `off`."""
 
 
 def put_into_path(cache: Path = CACHE) -> None:
@@ -36,7 +35,7 @@ def put_into_path(cache: Path = CACHE) -> None:
     make(folder)
     remove_old(cache)
     os.environ["PATH"] = f"{folder}{os.pathsep}{path}"
-    os.environ.setdefault(STORE, str(cache / "store"))
+    os.environ.setdefault(STORE, "off")
 
 
 def real(compiler: str) -> str:
@@ -69,7 +68,8 @@ def make(folder: Path) -> None:
 def remove_old(cache: Path) -> None:
     """Remove the entries that no test has used for some days."""
     oldest = time.time() - KEPT_DAYS * 86400
-    for entry in cache.glob("??/*.err"):
-        if entry.stat().st_mtime < oldest:
-            for path in entry.parent.glob(f"{entry.stem}.*"):
-                path.unlink(missing_ok=True)
+    for ending in (".err", ".to"):
+        for entry in cache.glob(f"??/*{ending}"):
+            if entry.lstat().st_mtime < oldest:
+                for path in entry.parent.glob(f"{entry.stem}.*"):
+                    path.unlink(missing_ok=True)

@@ -3,6 +3,9 @@
  * compiler; where that makes one object from one source (`-c`, `-o`), the object is kept by the hash of what it was made
  * from: compiler, arguments, source, and the text after the preprocessor. All other calls pass through.
  *
+ * A call that lists all files which it reads (`-MD`) is found without the preprocessor, too: by compiler, arguments,
+ * source, and the content of the files that such a call has read before.
+ *
  * Files are published by rename, so any number of processes may share a cache. A program of the tests, not of the product. */
 #define _GNU_SOURCE
 #include <errno.h>
@@ -18,6 +21,7 @@
 
 #define ARGUMENTS 512
 #define BLOCK 65536
+#define KEY 33 /* A hash as text. */
 
 typedef unsigned __int128 hash_t;
 
@@ -30,6 +34,7 @@ typedef struct call
   const char * object;
   const char * depfile;
   bool has_depfile;
+  bool lists_all; /**< The list of dependencies has the headers of the system, too. */
   bool has_debug;
   bool has_call_graph;
   bool has_stack_usage;
@@ -128,6 +133,7 @@ static void read_call(int count, char ** arguments, call_t * call)
     }
     if (i > 0 && begins(word, "-M")) {
       call->has_depfile = true;
+      call->lists_all = call->lists_all || strcmp(word, "-MD") == 0;
       known = strcmp(word, "-MMD") == 0 || strcmp(word, "-MD") == 0;
       continue;
     }
@@ -205,14 +211,12 @@ static void beside(const call_t * call, const char * ending, char * place)
   snprintf(place, PATH_MAX, "%.*s%s", (int)(strlen(call->object) - 2), call->object, ending);
 }
 
-/* Hashes everything that the object depends on; false: the preprocessor refuses the source. */
-static bool key_of(const char * real, const call_t * call, char * key)
+/* Hashes compiler, arguments and source; false: one of the files cannot be read. */
+static bool hash_call(const char * real, const call_t * call, hash_t * hashed_call)
 {
   struct stat compiler;
-  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   const int source = open(call->source, O_RDONLY | O_CLOEXEC);
-  int ends_of_pipe[2];
-  if (stat(real, &compiler) != 0 || source < 0 || nowhere < 0 || pipe2(ends_of_pipe, O_CLOEXEC) != 0) {
+  if (stat(real, &compiler) != 0 || source < 0) {
     return false;
   }
   hash_t hash = hashed_text(((hash_t)0x6c62272e07bb0142U << 64) + 0x62b821756295c58dU, real);
@@ -228,7 +232,23 @@ static bool key_of(const char * real, const call_t * call, char * key)
     }
   }
   hash = hashed_text(hash, strrchr(call->source, '/') != NULL ? strrchr(call->source, '/') : call->source);
-  hash = hashed_file(hash, source); /* Warnings depend on comments too. */
+  *hashed_call = hashed_file(hash, source); /* Warnings depend on comments too. */
+  return true;
+}
+
+static void write_key(hash_t hash, char * key)
+{
+  snprintf(key, KEY, "%016llx%016llx", (unsigned long long)(hash >> 64), (unsigned long long)hash);
+}
+
+/* Adds the text after the preprocessor; false: it refuses the source. */
+static bool hash_preprocessed(const char * real, const call_t * call, hash_t * hash)
+{
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  int ends_of_pipe[2];
+  if (nowhere < 0 || pipe2(ends_of_pipe, O_CLOEXEC) != 0) {
+    return false;
+  }
   const pid_t child = fork();
   if (child == 0) {
     dup2(ends_of_pipe[1], STDOUT_FILENO);
@@ -237,13 +257,84 @@ static bool key_of(const char * real, const call_t * call, char * key)
     _exit(127);
   }
   close(ends_of_pipe[1]);
-  hash = hashed_file(hash, ends_of_pipe[0]);
+  *hash = hashed_file(*hash, ends_of_pipe[0]);
   int status = 1;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   close(nowhere);
-  snprintf(key, 40, "%016llx%016llx", (unsigned long long)(hash >> 64), (unsigned long long)hash);
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+/* Gives the place of what is kept under `key`, and makes its folder. */
+static void place_of(const char * cache, const char * key, const char * ending, char * place)
+{
+  snprintf(place, PATH_MAX, "%s/%.2s", cache, key);
+  mkdir(place, 0777);
+  snprintf(place, PATH_MAX, "%s/%.2s/%s%s", cache, key, key, ending);
+}
+
+/* Reads a small file to its end, with a zero after it; false: it is not there, or larger than `size`. */
+static bool read_text(const char * place, char * text, size_t size)
+{
+  const int file = open(place, O_RDONLY | O_CLOEXEC);
+  ssize_t got = file >= 0 ? read(file, text, size) : -1;
+  if (file >= 0) {
+    close(file);
+  }
+  text[got > 0 ? got : 0] = '\0';
+  return got > 0 && (size_t)got < size;
+}
+
+/* Adds the content of the files of a list of dependencies: `object: file file \ file`; false: one cannot be read. */
+static bool hash_listed(char * list, hash_t * hash)
+{
+  char * colon = strstr(list, ": ");
+  if (colon == NULL || strstr(list, "\\ ") != NULL) { /* A name with a space. */
+    return false;
+  }
+  for (char * name = strtok(colon + 1, " \\\n"); name != NULL; name = strtok(NULL, " \\\n")) {
+    const int file = open(name, O_RDONLY | O_CLOEXEC);
+    if (file < 0) {
+      return false;
+    }
+    *hash = hashed_file(hashed_text(*hash, name), file);
+  }
+  return true;
+}
+
+/* Finds the key of the object of a call that has been seen with the same files: what they led to is in a link. */
+static bool find_listed(const char * cache, hash_t call, char * key)
+{
+  char place[PATH_MAX], name[KEY];
+  static char list[BLOCK];
+  write_key(call, name);
+  place_of(cache, name, ".d", place);
+  if (!read_text(place, list, sizeof list - 1) || !hash_listed(list, &call)) {
+    return false;
+  }
+  write_key(call, name);
+  place_of(cache, name, ".to", place);
+  const ssize_t size = readlink(place, key, KEY);
+  key[size == KEY - 1 ? size : 0] = '\0';
+  return size == KEY - 1;
+}
+
+/* Keeps the list of files that a call has read, and the key that their content leads to. */
+static void keep_listed(const char * cache, const call_t * made, hash_t call, const char * key)
+{
+  char place[PATH_MAX], fresh[PATH_MAX], name[KEY];
+  static char list[BLOCK];
+  write_key(call, name);
+  place_of(cache, name, ".d", place);
+  if (!read_text(made->depfile, list, sizeof list - 1) || !publish(made->depfile, place) || !hash_listed(list, &call)) {
+    return;
+  }
+  write_key(call, name);
+  place_of(cache, name, ".to", place);
+  if (snprintf(fresh, sizeof fresh, "%s.%ld", place, (long)getpid()) >= (int)sizeof fresh || symlink(key, fresh) != 0 ||
+      rename(fresh, place) != 0) {
+    unlink(fresh);
+  }
 }
 
 /* Copies the object cached under `entry` to its destination, with the compiler's messages; false if it is not cached. */
@@ -317,31 +408,58 @@ static bool find_folders(char * own, char * cache)
   return slash != NULL;
 }
 
-/* Whether this is a call of `microros-gen build` (it asks for the call graph), which keeps its objects itself. */
+/* Whether this is a call of `microros-gen build` (it asks for the call graph) that keeps its objects itself. */
 static bool is_of_build(const call_t * call)
 {
   const char * store = getenv("MICROROS_GEN_OBJECTS");
   return call->has_call_graph && store != NULL && store[0] != '\0' && strcmp(store, "off") != 0;
 }
 
+/* Takes the object from the cache or compiles it; returns the compiler's status, negative: the call must pass through. */
+static int make_object(const char * real, const char * cache, call_t * call)
+{
+  char key[KEY], entry[PATH_MAX];
+  hash_t of_call, of_text;
+  const bool lists_all = call->lists_all && call->depfile != NULL;
+  if (!hash_call(real, call, &of_call)) {
+    return -1;
+  }
+  if (lists_all && find_listed(cache, of_call, key)) {
+    place_of(cache, key, "", entry);
+    if (recall(call, entry)) {
+      return 0;
+    }
+  }
+  of_text = of_call;
+  if (!hash_preprocessed(real, call, &of_text)) {
+    return -1;
+  }
+  write_key(of_text, key);
+  place_of(cache, key, "", entry);
+  const int status = recall(call, entry) ? 0 : compile(real, call, entry);
+  if (status == 0 && lists_all) {
+    keep_listed(cache, call, of_call, key);
+  }
+  return status;
+}
+
 int main(int count, char ** arguments)
 {
   static call_t call;
-  char real[PATH_MAX], own[PATH_MAX], folder[PATH_MAX], key[40], entry[PATH_MAX];
+  char real[PATH_MAX], own[PATH_MAX], cache[PATH_MAX];
   const char * slash = strrchr(arguments[0], '/');
   const char * name = slash != NULL ? slash + 1 : arguments[0];
-  if (!find_folders(own, folder) || !find_real(name, own, real)) {
+  if (!find_folders(own, cache) || !find_real(name, own, real)) {
     fprintf(stderr, "%s: no real compiler next to the cache of the tests\n", name);
     return 127;
   }
   arguments[0] = real;
   read_call(count, arguments, &call);
-  if (call.is_one_object && !is_of_build(&call) && key_of(real, &call, key)) {
-    snprintf(entry, sizeof entry, "%s/%.2s/%s", folder, key, key);
-    *strrchr(entry, '/') = '\0';
-    mkdir(entry, 0777);
-    snprintf(entry, sizeof entry, "%s/%.2s/%s", folder, key, key);
-    return recall(&call, entry) ? 0 : compile(real, &call, entry);
+  if (call.is_one_object && !is_of_build(&call)) {
+    const int status = make_object(real, cache, &call);
+    if (status >= 0) {
+      return status;
+    }
   }
   execv(real, arguments);
   return 127;
