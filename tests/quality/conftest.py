@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The corpus, generated once."""
+"""The corpus, generated once for all processes of a run."""
 
 from __future__ import annotations
 
 import pytest
 
-from tests.support.quality.corpus import Tree, Unit, covering_units, make_examples, make_trees, units
+from tests.support.quality.corpus import Tree, Unit, make_examples, make_trees, units
+from tests.support.quality.covering import covering_units
+from tests.support.sharing import shared_by_processes
 
 
 @pytest.fixture(scope="session")
 def trees(tmp_path_factory: pytest.TempPathFactory) -> list[Tree]:
     """The output folder of each application of the corpus."""
-    return make_trees(tmp_path_factory.mktemp("corpus"))
+    return shared_by_processes(tmp_path_factory, "corpus", make_trees)
 
 
 @pytest.fixture(
@@ -26,5 +28,7 @@ def is_every_unit(request: pytest.FixtureRequest) -> bool:
 @pytest.fixture(scope="session")
 def all_units(trees: list[Tree], is_every_unit: bool, tmp_path_factory: pytest.TempPathFactory) -> list[Unit]:
     """C files of the trees, and the applications of examples/."""
-    every = [*trees, *make_examples(tmp_path_factory.mktemp("examples"))]
-    return units(every) if is_every_unit else covering_units(every)
+    every = [*trees, *shared_by_processes(tmp_path_factory, "examples", make_examples)]
+    if is_every_unit:
+        return units(every)
+    return shared_by_processes(tmp_path_factory, "lines", lambda _: covering_units(every))

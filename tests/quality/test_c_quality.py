@@ -17,14 +17,15 @@ from tests.support.quality.corpus import (
     Tree,
     Unit,
     analyze,
+    configuration_flags,
     covered,
-    covering_units,
     ready_components,
     run,
     tree_key,
     units,
     width_flags,
 )
+from tests.support.quality.covering import conditions, covering_units
 
 pytestmark = pytest.mark.builds
 
@@ -154,6 +155,23 @@ def test_clang_tidy(all_units: list[Unit]) -> None:
 
 
 @pytest.mark.lint
+def test_each_condition_is_read_in_every_configuration_once(tmp_path: Path) -> None:
+    """Of two files with one header that has a condition, the first; then one with its own; no guard counts."""
+    header = "#ifndef H\n#define H\n#if A > 0u\nextern int a;\n#endif\n#endif\n"
+    texts = {"src/read/a.c": "", "src/read/b.c": "int b;\n", "src/read/c.c": "#ifdef C\nint c;\n#endif\n"}
+    (tmp_path / "include").mkdir()
+    (tmp_path / "include" / "h.h").write_text(header)
+    (tmp_path / "src" / "read").mkdir(parents=True)
+    for source, text in texts.items():
+        (tmp_path / source).write_text(f"#include <h.h>\n{text}")
+    found = covering_units([Tree("one", tmp_path, tuple(texts))])
+    assert [(unit.source[-3], unit.in_every_configuration) for unit in found] == [
+        *(("a", True), ("b", False), ("c", True)),
+    ]
+    assert conditions(found[0].tree, "src/read/a.c") == {("include/h.h", "#if A > 0u")}
+
+
+@pytest.mark.lint
 @pytest.mark.skipif(not shutil.which("cppcheck"), reason="no cppcheck")
 def test_cppcheck(trees: list[Tree], is_every_unit: bool) -> None:
     """What is suppressed, and why, stands in cppcheck-suppressions.txt. The long run checks each tree as a whole."""
@@ -162,7 +180,7 @@ def test_cppcheck(trees: list[Tree], is_every_unit: bool) -> None:
 
     def check(unit: Unit) -> str:
         sources = [unit.source] if unit.source else ["src", "examples"]
-        done = run(["cppcheck", *options, *sources], unit.tree.out)
+        done = run(["cppcheck", *options, *configuration_flags(unit), *sources], unit.tree.out)
         return f"{unit.tree.name}: {done.stdout}{done.stderr}" if done.returncode else ""
 
     version = run(["cppcheck", "--version"], ROOT).stdout
@@ -184,15 +202,9 @@ def compile_quietly(compiler: str, flags: Sequence[str], each: list[Unit]) -> st
 
 @pytest.mark.lint
 @pytest.mark.skipif(not shutil.which("gcc"), reason="no gcc")
-def test_gcc_warnings(all_units: list[Unit]) -> None:
-    assert compile_quietly("gcc", (*COMMON, *GCC), all_units) == ""
-
-
-@pytest.mark.lint
-@pytest.mark.skipif(not shutil.which("gcc"), reason="no gcc")
 @pytest.mark.parametrize("level", ["-O0", "-Os", pytest.param("-O3", marks=pytest.mark.long)])
 def test_gcc_optimizing(all_units: list[Unit], level: str) -> None:
-    """Warnings that need the flow of data, at several levels; the analyzer once."""
+    """All warnings, with those that need the flow of data at several levels; the analyzer once."""
     flags = ("-std=c99", "-Iinclude", *GCC, level, "-c", "-o", "/dev/null")
     assert compile_quietly("gcc", (*flags, "-fanalyzer") if level == "-Os" else flags, all_units) == ""
 

@@ -1,15 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What does not change is read once in a process of the tests: the files of components."""
+"""What does not change is made once: the files of components are read once in a process, others once in a run."""
 
 from __future__ import annotations
 
+import fcntl
+import os
+import pickle
 from collections.abc import Callable
+from pathlib import Path
+from typing import TypeVar
+
+import pytest
 
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.selection import find_components
 from microros_gen.selection.component import Component
 from microros_gen.selection.component_file import parse_component
 
+Made = TypeVar("Made")
 Parse = Callable[[Source, Diagnostics], Component | None]
 
 
@@ -35,3 +43,19 @@ def share_components() -> None:
     The catalogue takes half of the time of a small `generate`, and the suite runs some thousand of them.
     """
     vars(find_components)[parse_component.__name__] = once(parse_component)
+
+
+def shared_by_processes(factory: pytest.TempPathFactory, name: str, make: Callable[[Path], Made]) -> Made:
+    """Return what `make` returns for a folder `name`: the first process of a run makes it, and the others wait."""
+    base = factory.getbasetemp()
+    folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / f"shared-{name}"
+    kept = folder.with_suffix(".pickle")
+    with folder.with_suffix(".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if kept.is_file():
+            made: Made = pickle.loads(kept.read_bytes())
+            return made
+        folder.mkdir()
+        made = make(folder)
+        kept.write_bytes(pickle.dumps(made))
+    return made

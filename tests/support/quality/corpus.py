@@ -8,7 +8,6 @@ is analyzed once.
 from __future__ import annotations
 
 import hashlib
-import re
 import shutil
 import subprocess
 from collections.abc import Callable, Mapping, Sequence
@@ -26,12 +25,6 @@ EXAMPLES = ROOT / "examples"
 INTERFACES = TESTS / "quality" / "interfaces"
 CACHE = ROOT / "build" / "quality"
 WORKERS = 2
-_WORDS_OF_C = re.compile(
-    r"(bool|break|case|char|const|continue|default|do|double|else|enum|extern|float|for|goto|if|inline|int|long|NULL"
-    r"|return|short|signed|sizeof|static|struct|switch|typedef|union|unsigned|void|volatile|while"
-    r"|size_t|u?int(8|16|32|64)_t)"
-)
-
 _POOL = "version: 1\nprofiles: [pure_sender]\n"
 _INT32 = _POOL + "interfaces: [std_msgs/msg/Int32]\n"
 EVERY_PARAMETER = """\
@@ -459,11 +452,15 @@ def run(command: Sequence[str], folder: Path) -> subprocess.CompletedProcess[str
 
 @dataclass(frozen=True)
 class Unit:
-    """One C file of a tree; `key` identifies its content with everything that it includes."""
+    """One C file of a tree; `key` identifies its content with everything that it includes.
+
+    `in_every_configuration`: cppcheck also reads what its conditions leave out in this tree, in at least one more pass.
+    """
 
     tree: Tree
     source: str
     key: str
+    in_every_configuration: bool = True
 
 
 def tree_key(tree: Tree) -> str:
@@ -480,16 +477,24 @@ def width_flags(unit: Unit) -> tuple[str, ...]:
     return ("-m32",) if unit.source.startswith(bare) else ()
 
 
+def configuration_flags(unit: Unit) -> tuple[str, ...]:
+    """Return what limits cppcheck to the configuration of the tree."""
+    return () if unit.in_every_configuration else ("--max-configs=1", "--suppress=toomanyconfigs")
+
+
+def rendered_names() -> frozenset[str]:
+    """Return the names of the C files of components that are rendered from templates."""
+    components = load_catalogue().values()
+    return frozenset(p.name.removesuffix(".j2") for c in components for p in c.folder.rglob("*.c.j2"))
+
+
 def units(trees: Sequence[Tree]) -> list[Unit]:
     """Return every file of every tree; a file with the text of one in an earlier tree has the key of that one.
 
     What is rendered from a template counts as another file where the headers that it includes differ, and so does
     every file where errors are codes.
     """
-    rendered = {
-        p.name.removesuffix(".j2") for c in load_catalogue().values() for p in c.folder.rglob("*.c.j2")
-    }
-
+    rendered = rendered_names()
     first: dict[tuple[str, ...], tuple[Tree, str]] = {}
     found: list[tuple[Tree, str, tuple[str, ...]]] = []
     for tree in trees:
@@ -501,11 +506,11 @@ def units(trees: Sequence[Tree]) -> list[Unit]:
             identity: tuple[str, ...] = (*same, tree.name) if Path(source).name in rendered else same
             first.setdefault(identity, (tree, source))
             found.append((tree, source, identity))
-    keys = dict(zip(first, _keys(list(first.values())), strict=True))
-    return [Unit(tree, source, keys[identity]) for tree, source, identity in found]
+    key_of = dict(zip(first, keys(list(first.values())), strict=True))
+    return [Unit(tree, source, key_of[identity]) for tree, source, identity in found]
 
 
-def _keys(sources: Sequence[tuple[Tree, str]]) -> list[str]:
+def keys(sources: Sequence[tuple[Tree, str]]) -> list[str]:
     """Return what identifies each file with all that it includes."""
 
     def preprocess(job: tuple[Tree, str]) -> str:
@@ -517,48 +522,6 @@ def _keys(sources: Sequence[tuple[Tree, str]]) -> list[str]:
 
     with ThreadPoolExecutor(WORKERS) as pool:
         return list(pool.map(preprocess, sources))
-
-
-def covering_units(trees: Sequence[Tree]) -> list[Unit]:
-    """Return files that together have each different line of all files, as few as are found from the largest on.
-
-    Two lines are the same where only numbers and texts in quotation marks differ. Files of types are rendered from a
-    handful of templates: there two lines are the same where names differ, too.
-    """
-    components = frozenset(load_catalogue())
-    texts: dict[str, dict[str, tuple[Tree, str]]] = {}
-    for tree in trees:
-        for source in tree.sources:
-            text = (tree.out / source).read_text(encoding="utf-8")
-            texts.setdefault(_family(source, components), {}).setdefault(text, (tree, source))
-    chosen = [place for name, same in texts.items() for place in _covering(same, name.startswith("*"))]
-    return [Unit(*place, key) for place, key in zip(chosen, _keys(chosen), strict=True)]
-
-
-def _family(source: str, components: frozenset[str]) -> str:
-    """Return what files of one template have in common: their path, and of files of types `*` and the ending."""
-    folder, _, name = source.removeprefix("src/").partition("/")
-    is_of_type = source.startswith("src/") and folder not in components
-    return f"*__{name.rpartition('__')[2]}" if is_of_type else source
-
-
-def _covering(texts: Mapping[str, tuple[Tree, str]], is_any_name: bool) -> list[tuple[Tree, str]]:
-    lines = {text: _lines(text, is_any_name) for text in texts}
-    left = set().union(*lines.values())
-    found = []
-    while left:
-        best = max(lines, key=lambda text: len(lines[text] & left))
-        left -= lines[best]
-        found.append(texts[best])
-    return found
-
-
-def _lines(text: str, is_any_name: bool) -> set[str]:
-    code = re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.DOTALL)
-    code = re.sub(r"\b(0x[0-9A-Fa-f]+|\d+)", "N", re.sub(r'"(\\.|[^"\n])*"', "S", code))
-    if is_any_name:
-        code = re.sub(r"[A-Za-z_]\w*", lambda name: name[0] if _WORDS_OF_C.fullmatch(name[0]) else "I", code)
-    return {line.strip() for line in code.splitlines() if line.strip()}
 
 
 def analyze(tool: str, each: Sequence[Unit], check: Callable[[Unit], str]) -> dict[str, str]:

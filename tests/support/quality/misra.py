@@ -20,7 +20,7 @@ from pathlib import Path
 import yaml
 
 from tests.support.paths import ROOT, TESTS
-from tests.support.quality.corpus import Tree, Unit, analyze, run
+from tests.support.quality.corpus import Tree, Unit, analyze, configuration_flags, run
 
 DEVIATIONS = TESTS / "quality" / "misra-deviations.yaml"
 PAGE = ROOT / "docs" / "verification" / "quality.md"
@@ -107,7 +107,7 @@ def checked_rules(addon: Path) -> tuple[list[str], list[str]]:
 def _check(unit: Unit, addon: Path) -> str:
     """Return the findings in one file, a line each, and what the addon wants to know of the whole program."""
     tree = unit.tree.out
-    dumped = run(["cppcheck", "-q", *OPTIONS, "--dump", unit.source], tree)
+    dumped = run(["cppcheck", "-q", *OPTIONS, *configuration_flags(unit), "--dump", unit.source], tree)
     assert dumped.returncode == 0, dumped.stderr
     reported = run([sys.executable, str(addon), "--cli", f"{unit.source}.dump"], tree)
     assert reported.returncode in (0, 1), f"{unit.source}: {reported.stderr}"
