@@ -121,6 +121,7 @@ def test_its_behavior(tmp_path: Path) -> None:
     run(program(rendered(tmp_path, HEAD + ALONE), ["unit_local_services.c"], SANITIZE))
 
 
+@pytest.mark.system
 def test_whether_a_server_is_available(tmp_path: Path) -> None:
     """Local matching knows it without the graph."""
     nodes = "nodes:\n  - name: device\n    services: [SUM]\n    clients: [SUM]\n"

@@ -57,6 +57,7 @@ def test_floating_point_where_it_is_selected(tmp_path: Path) -> None:
     assert int(unit(out, "unit_log_float.c", tmp_path, "-O1").split()[0]) > 90_000
 
 
+@pytest.mark.system
 def test_wide_characters_where_they_are_selected(tmp_path: Path) -> None:
     """Against vsnprintf in a locale of UTF-8."""
     out = rendered(tmp_path, BARE + "logging: console\ncomponents: [+logging_wide]\n")

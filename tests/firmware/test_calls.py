@@ -28,6 +28,7 @@ RCL_RET_ERROR = 1
 SUM, RESPONSES, TIME_OUTS, REPORTED, HEARD, IN_CALLBACK, AWAY, REPORTS = range(8)
 
 
+@pytest.mark.system
 @pytest.mark.ros
 def test_calls_callbacks_and_nodes(builds: Builds, observer: Observer, domain: int) -> None:
     built = builds.merged(BOARD, APPLICATION)

@@ -32,6 +32,7 @@ def wait_for(running: Board, *expected: int) -> None:
         time.sleep(0.1)
 
 
+@pytest.mark.system
 @pytest.mark.ros
 def test_events_and_transforms_of_a_board(builds: Builds, observer: Observer, domain: int) -> None:
     """The subscriptions are those of rclpy, and so is the receiver of /tf, with the QoS of tf2_ros."""

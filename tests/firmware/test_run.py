@@ -45,6 +45,7 @@ PATIENT = (
 """And for longer than a session lasts by default, or a creation may take."""
 
 
+@pytest.mark.system
 @pytest.mark.ros
 def test_rclpy_hears_the_board_after_its_agent_was_replaced(
     builds: Builds, observer: Observer, domain: int

@@ -6,6 +6,8 @@ from __future__ import annotations
 import subprocess
 from pathlib import Path
 
+import pytest
+
 from tests.support.firmware.board import C_FILES, Built, compile_merged_image, generate, need, target
 from tests.support.firmware.footprint import EXIT
 from tests.support.patience import seconds
@@ -52,6 +54,7 @@ def image(folder: Path, name: str) -> Path:
     return elf
 
 
+@pytest.mark.system
 def test_two_cores(tmp_path: Path) -> None:
     need("qemu-mps2-an505", emulator=True)
     (tmp_path / "system.yaml").write_text(SYSTEM)

@@ -295,9 +295,10 @@ def of_board(tmp_path_factory: pytest.TempPathFactory) -> Measured:
     return get
 
 
+@pytest.mark.system
 @pytest.mark.parametrize(
     ("board", "words"),
-    [("qemu-mps2-an386", 27), pytest.param("qemu-mps2-an385", 9, marks=pytest.mark.system)],
+    [("qemu-mps2-an386", 27), ("qemu-mps2-an385", 9)],
     ids=["with floating-point unit", "without"],
 )
 def test_a_board_starts_at_reset_and_counts_its_interrupts(

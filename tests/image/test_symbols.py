@@ -16,6 +16,7 @@ from microros_gen.interfaces.find import shipped_folder
 from microros_gen.selection.find_components import load_catalogue
 from microros_gen.toolchain.compile import object_name
 from tests.support.matrix import ALSO, FIRST, VARIANTS, Tree, check, compile_tree, has
+from tests.support.slices import spread
 
 pytestmark = [
     pytest.mark.skipif(not has("gcc") or not has("nm"), reason="no gcc or no nm"),
@@ -253,7 +254,7 @@ def test_words_of_other_ways_to_create_are_not_in_an_image(tree_of: TreeOf, tmp_
         assert linked == wanted, name
 
 
-@pytest.mark.parametrize("name", VARIANTS)
+@pytest.mark.parametrize("name", spread(VARIANTS, 12))
 def test_an_error_text_is_there_only_where_it_is_asked_for(tree_of: TreeOf, name: str) -> None:
     texts = {"src/support/error_text.c", "src/support/error_code.c"}
     wanted = "src/support/error_code.c" if "errors: code" in VARIANTS[name] else "src/support/error_text.c"

@@ -84,6 +84,7 @@ def test_the_installed_idl_files_give_the_same(installed: InterfaceSet, tmp_path
         assert interfaces.type_hash(name) == installed.type_hash(name)
 
 
+@pytest.mark.system
 @pytest.mark.ros
 def test_the_other_descriptions_are_those_of_the_generator_of_ros(
     installed: InterfaceSet, tmp_path: Path

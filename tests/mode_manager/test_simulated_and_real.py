@@ -145,7 +145,8 @@ def of(steps: Iterable[Step], part: str, *kinds: str) -> list[str]:
 - {at: 16 s, refuse: joint, calls: [set_parameters], reason: not now}
 - {at: 16 s, request: arm, target: active.QUICK}
 """,
-        """\
+        pytest.param(
+            """\
 - {at: 0 s, delay: joint, time: 3 s, calls: [activate]}
 - {at: 0 s, request: arm, target: active.QUICK}
 - {at: 12 s, repair: joint}
@@ -154,6 +155,8 @@ def of(steps: Iterable[Step], part: str, *kinds: str) -> list[str]:
 - {at: 26 s, repair: joint}
 - {at: 36 s, change: gripper, state: inactive}
 """,
+            marks=pytest.mark.system,
+        ),
     ],
     ids=["refusing", "late, changed and away"],
 )

@@ -65,6 +65,7 @@ def test_it_compiles_without_a_warning_and_links(
     check([compiler, *flags, *map(str, compiled.objects.values()), "-o", str(tmp_path / "image")], tmp_path)
 
 
+@pytest.mark.system
 def test_the_variants_select_every_file(tree_of: TreeOf) -> None:
     """A new file of a ready component must come into the matrix; what only boards have is built in tests/firmware."""
     from microros_gen.selection.find_components import load_catalogue
@@ -195,13 +196,10 @@ def test_a_project_of_the_user_takes_it_in_as_a_subdirectory(tree_of: TreeOf, tm
     assert (tmp_path / "build" / "firmware").is_file()
 
 
+@pytest.mark.system
 @pytest.mark.skipif(not has("arm-none-eabi-gcc"), reason="no arm-none-eabi-gcc")
 @pytest.mark.parametrize(
-    ("name", "cpu"),
-    [
-        ("pool-none-drop-code-arena-device", "cortex-m0plus"),
-        pytest.param("demo", "cortex-m4f", marks=pytest.mark.system),
-    ],
+    ("name", "cpu"), [("pool-none-drop-code-arena-device", "cortex-m0plus"), ("demo", "cortex-m4f")]
 )
 def test_a_cortex_m_compiler_takes_all_but_the_posix_port(
     tree_of: TreeOf, tmp_path: Path, name: str, cpu: str

@@ -19,6 +19,7 @@ from tests.support.workspace.projects import BOARD, EXAMPLE, PAGE, Project, foll
 TOOLCHAIN = EXAMPLE / f"{BOARD}.cmake"
 
 
+@pytest.mark.system
 @pytest.mark.ros
 def test_on_this_machine_its_samples_arrive(project: Project, relay: Relay) -> None:
     domain = own_domain()
