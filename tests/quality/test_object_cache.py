@@ -47,10 +47,6 @@ class Workshop:
         self._log.write_text("")
         self._preprocessed.write_text("")
 
-    def compiled(self) -> list[str]:
-        """Return the sources that the compiler has got since `forget`."""
-        return [Path(word).name for word in self._log.read_text().split() if word.endswith(".c")]
-
     def has_preprocessed(self) -> bool:
         """Return whether the last call of `compile` ran the preprocessor to find the object."""
         return bool(self._preprocessed.read_text())
@@ -123,25 +119,6 @@ def test_a_call_that_lists_its_files_is_found_without_the_preprocessor(workshop:
         assert changed[0]
     compiled, _, _ = workshop.compile("b", *LISTED, header=HEADER.replace("B 2", "B 3"))
     assert (compiled, workshop.has_preprocessed()) == (False, True), "an unused macro"
-
-
-def test_a_call_of_many_sources_counts_as_one_of_each(workshop: Workshop, tmp_path: Path) -> None:
-    _, _, home = workshop.compile("a", "-O1")
-    (home / "y.c").write_text(SOURCE.replace("f(", "g("))
-    (home / "bad.c").write_text("int f(\n")
-    workshop.compile("b", "-O1")
-    made = tmp_path / "made"
-    made.mkdir()
-    for sources, status in ((("x.c", "y.c"), 0), (("bad.c", "y.c"), 1)):
-        workshop.forget()
-        call = ["gcc", "-O1", "-c", *(str(home / source) for source in sources)]
-        done = subprocess.run(call, cwd=made, capture_output=True, text=True, check=False)
-        assert done.returncode == status, done.stderr
-        assert ("bad.c" in done.stderr) == (status == 1)
-        assert workshop.compiled() == (["y.c"] if status == 0 else ["bad.c"])
-    assert (made / "x.o").read_bytes() == (home / "x.o").read_bytes()
-    assert (made / "y.o").is_file()
-    assert not (made / "bad.o").exists()
 
 
 def test_what_differs_is_compiled(workshop: Workshop) -> None:

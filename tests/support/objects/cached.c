@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * A cache of objects: this program precedes the compilers in the PATH, under their names (cache.py). It runs the real
  * compiler; where that makes one object from one source (`-c`, `-o`), the object is kept by the hash of what it was made
- * from: compiler, arguments, source, and the text after the preprocessor. A call that makes objects in the current folder
- * (`-c`, no `-o`) counts as one for each source. All other calls pass through.
+ * from: compiler, arguments, source, and the text after the preprocessor. All other calls pass through.
  *
  * A call that lists all files which it reads (`-MD`) is found without the preprocessor, too: by compiler, arguments,
  * source, and the content of the files that such a call has read before.
@@ -40,7 +39,6 @@ typedef struct call
   bool has_call_graph;
   bool has_stack_usage;
   bool is_one_object;
-  bool is_each_object; /**< Objects of all sources, in the current folder. */
 } call_t;
 
 static const char * const endings[] = {".o", ".d", ".ci", ".su"};
@@ -79,12 +77,6 @@ static bool ends(const char * text, const char * ending)
   return length > wanted && strcmp(text + length - wanted, ending) == 0;
 }
 
-static const char * base_name(const char * path)
-{
-  const char * slash = strrchr(path, '/');
-  return slash != NULL ? slash + 1 : path;
-}
-
 static bool begins(const char * text, const char * beginning)
 {
   return strncmp(text, beginning, strlen(beginning)) == 0;
@@ -120,11 +112,6 @@ static bool names_places(const call_t * call)
   return call->has_depfile || call->has_debug || call->has_stack_usage;
 }
 
-static bool is_source(const char * word)
-{
-  return word[0] != '-' && (ends(word, ".c") || ends(word, ".cpp") || ends(word, ".cc"));
-}
-
 static void read_call(int count, char ** arguments, call_t * call)
 {
   static char folder[PATH_MAX], map[2 * PATH_MAX];
@@ -150,7 +137,7 @@ static void read_call(int count, char ** arguments, call_t * call)
       known = strcmp(word, "-MMD") == 0 || strcmp(word, "-MD") == 0;
       continue;
     }
-    if (i > 0 && is_source(word)) {
+    if (word[0] != '-' && i > 0 && (ends(word, ".c") || ends(word, ".cpp") || ends(word, ".cc"))) {
       call->source = word;
       sources++;
     }
@@ -163,7 +150,6 @@ static void read_call(int count, char ** arguments, call_t * call)
   }
   call->is_one_object = known && compiles && sources == 1 && call->object != NULL && ends(call->object, ".o") &&
                         is_beside(call->object, call->depfile);
-  call->is_each_object = known && compiles && sources > 0 && call->object == NULL && !call->has_depfile;
   if (call->is_one_object && call->has_debug && call->source[0] != '/' && getcwd(folder, sizeof folder) != NULL) {
     /* Debug information names files from the folder of the call on, so the object is the same in any folder. */
     snprintf(map, sizeof map, "-fdebug-prefix-map=%s=.", folder);
@@ -245,7 +231,7 @@ static bool hash_call(const char * real, const call_t * call, hash_t * hashed_ca
       hash = hashed_text(hash, *word);
     }
   }
-  hash = hashed_text(hash, base_name(call->source));
+  hash = hashed_text(hash, strrchr(call->source, '/') != NULL ? strrchr(call->source, '/') : call->source);
   *hashed_call = hashed_file(hash, source); /* Warnings depend on comments too. */
   return true;
 }
@@ -457,40 +443,12 @@ static int make_object(const char * real, const char * cache, call_t * call)
   return status;
 }
 
-/* Makes the object of each source in the current folder; returns the status of the last that fails. */
-static int make_each(const char * real, const char * cache, int count, char ** arguments)
-{
-  static char object[PATH_MAX], * words[ARGUMENTS];
-  int failed = 0;
-  for (int i = 1; i < count; i++) {
-    if (!is_source(arguments[i])) {
-      continue;
-    }
-    static call_t call;
-    int kept = 0;
-    for (int j = 0; j < count; j++) {
-      if (j == i || j == 0 || !is_source(arguments[j])) {
-        words[kept++] = arguments[j];
-      }
-    }
-    const char * name = base_name(arguments[i]);
-    snprintf(object, sizeof object, "%.*s.o", (int)(strrchr(name, '.') - name), name);
-    words[kept++] = "-o";
-    words[kept++] = object;
-    memset(&call, 0, sizeof call);
-    read_call(kept, words, &call);
-    int status = call.is_one_object ? make_object(real, cache, &call) : -1;
-    status = status >= 0 ? status : run(real, call.all, -1, -1);
-    failed = status != 0 ? status : failed;
-  }
-  return failed;
-}
-
 int main(int count, char ** arguments)
 {
   static call_t call;
   char real[PATH_MAX], own[PATH_MAX], cache[PATH_MAX];
-  const char * name = base_name(arguments[0]);
+  const char * slash = strrchr(arguments[0], '/');
+  const char * name = slash != NULL ? slash + 1 : arguments[0];
   if (!find_folders(own, cache) || !find_real(name, own, real)) {
     fprintf(stderr, "%s: no real compiler next to the cache of the tests\n", name);
     return 127;
@@ -502,9 +460,6 @@ int main(int count, char ** arguments)
     if (status >= 0) {
       return status;
     }
-  }
-  if (call.is_each_object) {
-    return make_each(real, cache, count, arguments);
   }
   execv(real, arguments);
   return 127;
