@@ -106,19 +106,23 @@ LISTED = ("-O1", "-g", "-MD", "-MF", "x.d")
 
 def test_a_call_that_lists_its_files_is_found_without_the_preprocessor(workshop: Workshop) -> None:
     compiled, _, a = workshop.compile("a", *LISTED)
-    assert (compiled, workshop.has_preprocessed()) == (True, True)
+    assert (compiled, workshop.has_preprocessed()) == (True, False)
     compiled, _, b = workshop.compile("b", *LISTED)
     assert (compiled, workshop.has_preprocessed()) == (False, False)
     assert (a / "x.o").read_bytes() == (b / "x.o").read_bytes()
     assert (a / "x.d").read_text() == (b / "x.d").read_text()
+    other = HEADER.replace("A 1", "A 4")
     for changed in (
-        workshop.compile("b", *LISTED, header=HEADER.replace("A 1", "A 4")),
+        workshop.compile("b", *LISTED, header=other),
         workshop.compile("b", *LISTED, source=SOURCE.replace("a + A", "a - A")),
         workshop.compile("b", *LISTED, "-O2"),
     ):
         assert changed[0]
-    compiled, _, _ = workshop.compile("b", *LISTED, header=HEADER.replace("B 2", "B 3"))
+    compiled, _, _ = workshop.compile("b", *LISTED, header=other.replace("B 2", "B 3"))
     assert (compiled, workshop.has_preprocessed()) == (False, True), "an unused macro"
+    compiled, _, c = workshop.compile("c", *LISTED, header=other)
+    assert not compiled
+    assert (c / "x.o").read_bytes() != (a / "x.o").read_bytes()
 
 
 def test_what_differs_is_compiled(workshop: Workshop) -> None:
