@@ -17,7 +17,7 @@ from microros_gen.selection import find_components
 from microros_gen.selection.component import Component
 from microros_gen.selection.component_file import parse_component
 
-Made = TypeVar("Made")
+Value = TypeVar("Value")
 Parse = Callable[[Source, Diagnostics], Component | None]
 
 
@@ -45,7 +45,7 @@ def share_components() -> None:
     vars(find_components)[parse_component.__name__] = once(parse_component)
 
 
-def shared_by_processes(factory: pytest.TempPathFactory, name: str, make: Callable[[Path], Made]) -> Made:
+def shared_by_processes(factory: pytest.TempPathFactory, name: str, make: Callable[[Path], Value]) -> Value:
     """Return what `make` returns for a folder `name`: the first process of a run makes it, and the others wait."""
     base = factory.getbasetemp()
     folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / f"shared-{name}"
@@ -53,9 +53,9 @@ def shared_by_processes(factory: pytest.TempPathFactory, name: str, make: Callab
     with folder.with_suffix(".lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if kept.is_file():
-            made: Made = pickle.loads(kept.read_bytes())
-            return made
+            value: Value = pickle.loads(kept.read_bytes())
+            return value
         folder.mkdir()
-        made = make(folder)
-        kept.write_bytes(pickle.dumps(made))
-    return made
+        value = make(folder)
+        kept.write_bytes(pickle.dumps(value))
+    return value
