@@ -294,12 +294,15 @@ class Memory:
 
 @dataclass(frozen=True)
 class TargetRef:
-    """`name` of a built-in target or path of a target file."""
+    """`name` of a built-in target or path of a target file.
+
+    `rtos` and `network` replace the operating system and the IP stack of that target; `rtos` none: it has no system.
+    """
 
     name: str = "host"
-    rtos: str | None = None
+    rtos: Named | None = None
+    network: Named | None = None
     span: Span | None = None
-    rtos_span: Span | None = None
 
 
 @dataclass(frozen=True)

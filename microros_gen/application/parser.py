@@ -351,9 +351,10 @@ def _session_key(node: YamlNode | None) -> int | str | None:
 
 def _target(node: YamlNode | None) -> TargetRef:
     if isinstance(node, ScalarNode):
-        return TargetRef(text_of(node) or TargetRef().name, None, node.span)
-    name, rtos = child(node, "name"), child(node, "rtos")
-    return TargetRef(text_of(name) or TargetRef().name, text_of(rtos), span_of(name), span_of(rtos))
+        return TargetRef(text_of(node) or TargetRef().name, span=node.span)
+    name, parts = child(node, "name"), [child(node, key) for key in ("rtos", "network")]
+    rtos, network = (Named(text_of(p) or "", p.span) if p is not None else None for p in parts)
+    return TargetRef(text_of(name) or TargetRef().name, rtos, network, span_of(name))
 
 
 def _memory(node: YamlNode | None) -> Memory:

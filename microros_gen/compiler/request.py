@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from microros_gen.application.find import read_application
-from microros_gen.application.model import Application, TargetRef, component_change
+from microros_gen.application.model import Application, component_change
 from microros_gen.application.parameter_find import with_parameter_files
 from microros_gen.application.parser import (
     parse_agent_address,
@@ -22,7 +22,6 @@ from microros_gen.compiler.options import Options
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, Span
 from microros_gen.documents.named import Named
 from microros_gen.platform.find import FoundTarget, builtin_targets, read_target
-from microros_gen.platform.part_file import builtin_parts
 from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
 from microros_gen.selection.extension import INSTALLED, Extensions, take_extensions
@@ -79,8 +78,9 @@ def request_of(source: Source | None, near: Path, options: Options, diagnostics:
     application, of_options = take_extensions(application, Path(), diagnostics)
     extensions = Extensions((*of_file, *of_options))
     profiles_near = Path() if options.profiles else near
-    _refuse_rtos(application.target, diagnostics)
-    target = read_target(application.target.name, near, application.target.span, diagnostics, extensions)
+    named = application.target
+    parts = {"os": named.rtos, "network": named.network}
+    target = read_target(named.name, near, named.span, diagnostics, extensions, parts)
     diagnostics.check()
     assert target is not None
     return Request(
@@ -94,19 +94,6 @@ def request_of(source: Source | None, near: Path, options: Options, diagnostics:
         options.interface_paths,
         extensions,
     )
-
-
-def _refuse_rtos(target: TargetRef, diagnostics: Diagnostics) -> None:
-    if target.rtos not in (None, "none"):
-        diagnostics.error(
-            f"the RTOS {target.rtos!r} is not chosen by `rtos`",
-            target.rtos_span,
-            f"Write a target file with `extends: {target.name}` and `os: {target.rtos}`, and name it here"
-            if target.rtos in builtin_parts("os")
-            else "Remove `rtos` and implement port_time_ms, port_sleep_ms and the other functions of the port "
-            "with your RTOS: they replace those of the library (microros/port.h)",
-            id="MG-8606",
-        )
 
 
 def _with_options(application: Application, options: Options, diagnostics: Diagnostics) -> Application:

@@ -3,13 +3,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
 from microros_gen.documents.files import read_text, reason_of
+from microros_gen.documents.named import Named
 from microros_gen.documents.tree_values import text_of
 from microros_gen.documents.yaml_tree import MappingNode
 from microros_gen.platform.board_file import board_facts
+from microros_gen.platform.chosen_parts import NO_PARTS, with_parts
 from microros_gen.platform.target import Target
 from microros_gen.platform.target_file import merge_target, parse_target, target_of
 from microros_gen.records import dataclass
@@ -49,15 +52,18 @@ def read_target(
     span: Span | None,
     diagnostics: Diagnostics,
     extensions: Extensions = INSTALLED,
+    parts: Mapping[str, Named | None] = NO_PARTS,
 ) -> FoundTarget | None:
     """Read a target by its name, or a file by its path (relative to `near`) with all that it extends.
 
-    A name, and parts that it names, that are not built in come from `extensions`. None and errors in
-    `diagnostics` if it does not exist or one of its files is invalid.
+    A name, and parts that it names, that are not built in come from `extensions`. `parts` replace those of the target,
+    by their kind. None and errors in `diagnostics` if it does not exist or one of its files is invalid.
     """
     found = Diagnostics()
     reader = _Reader(found, extensions)
     node = reader.read(name, near, span)
+    if node is not None:
+        node = with_parts(node, parts, found)
     target = target_of(node, found, extensions) if node is not None else None
     diagnostics.extend(found)
     return (

@@ -107,7 +107,9 @@ class Os:
 
     `hosted`: programs have standard input and output, and are started. `linker_script`: it makes images with a
     its own start-up code and linker script (a file of the component). `tick` is called each millisecond.
-    `task_stack`: bytes of a task's stack where nothing is said, `task_stack_least`: at least.
+    `task_stack`: bytes of a task's stack where nothing is said, `task_stack_least`: at least. `task_stack_macro`, of
+    the header `task_stack_header`, defines one from its name and bytes; empty: an array. `parts`: kind and name of
+    built-in parts that provide what this one does not.
     """
 
     hosted: bool = False
@@ -115,6 +117,9 @@ class Os:
     tick: str = ""
     task_stack: int = 4096
     task_stack_least: int = 512
+    task_stack_macro: str = ""
+    task_stack_header: str = ""
+    parts: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True)

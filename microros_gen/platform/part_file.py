@@ -38,7 +38,7 @@ _IMAGE_KEYS = ("entry", "first", "first_section", "uart_handler")
 _TABLE_KEYS = ("words", "least")
 _DRIVER_KEYS = ("divisor", "fraction", "tx_irq", "stdio")
 _BAUD_KEYS = {"divisor": ("by", "least", "most"), "fraction": ("of_hz", "bits", "unused")}
-_OS_KEYS = ("hosted", "linker_script", "tick", "task_stack")
+_OS_KEYS = ("hosted", "linker_script", "tick", "task_stack", "parts")
 
 
 @dataclass(frozen=True)
@@ -109,6 +109,13 @@ def read_part(
         _check(component, kind, span, found)
     diagnostics.extend(found)
     return None if found.has_errors() else part
+
+
+def brought_parts(part: Part | None, span: Span | None, diagnostics: Diagnostics) -> tuple[Part, ...]:
+    """Read the built-in parts that an operating system brings: they provide what the parts before them do not."""
+    named = part.os.parts if part is not None and part.os is not None else ()
+    read = (read_part(kind, name, parts_folder(), span, diagnostics) for kind, name in named)
+    return tuple(each for each in read if each is not None)
 
 
 def own_part_files(target: Target) -> tuple[tuple[str, Path], ...]:
@@ -191,6 +198,9 @@ def _with_facts(part: Part, path: Path, diagnostics: Diagnostics) -> Part:
             text_at(node, "tick", diagnostics),
             stack or Os.task_stack,
             least or Os.task_stack_least,
+            text_of(child(node.get("task_stack"), "macro")) or "",
+            text_of(child(node.get("task_stack"), "header")) or "",
+            tuple((entry.key, text_of(entry.value) or "") for entry in entries(node.get("parts"))),
         ),
     )
 

@@ -21,7 +21,7 @@ from microros_gen.documents.yaml_tree import (
 )
 from microros_gen.platform.capabilities import capabilities
 from microros_gen.platform.part import KINDS, Part
-from microros_gen.platform.part_file import read_part
+from microros_gen.platform.part_file import brought_parts, read_part
 from microros_gen.platform.stdio_file import check_stdio, read_stdio, tx_offset
 from microros_gen.platform.target import (
     OWN_DRIVER,
@@ -113,21 +113,24 @@ def target_of(
 
 
 def _parts(node: MappingNode, diagnostics: Diagnostics, extensions: Extensions) -> tuple[Part, ...]:
-    """Read the parts that a target names; a path is relative to the file that has it."""
-    found = []
+    """Read the parts that a target names, and those that they bring; a path is relative to the file that has it."""
+    found: dict[str, Part] = {}
     for kind in KINDS:
         value = node.get(kind)
         if value is not None:
             folder = Path(value.span.source.name).parent
             name = text_of(value) or ""
-            found.append(read_part(kind, name, folder, value.span, diagnostics, extensions))
-    return tuple(part for part in found if part is not None)
+            part = read_part(kind, name, folder, value.span, diagnostics, extensions)
+            for each in (part, *brought_parts(part, value.span, diagnostics)):
+                if each is not None:
+                    found.setdefault(each.component.name, each)
+    return tuple(found.values())
 
 
 def _target(node: MappingNode, parts: tuple[Part, ...]) -> Target:
     hosted = bool_of(node.get("hosted"))
     if hosted is None:
-        hosted = any(part.os is not None and part.os.hosted for part in parts)
+        hosted = next((part.os.hosted for part in parts if part.os is not None), False)
     return Target(
         name=_text(node, "target"),
         summary=_text(node, "summary"),

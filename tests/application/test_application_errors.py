@@ -537,7 +537,7 @@ entities: binary
 liveliness: ping
 transport: {type: udp, agent: "192.168.1.10:8888", mtu: 512}
 session: {key: device}
-target: {name: cortex-m4, rtos: freertos}
+target: {name: cortex-m4, rtos: freertos, network: lwip}
 nodes:
   - name: imu
     publishers: [{topic: imu/data, type: sensor_msgs/msg/Imu, qos: {reliability: best_effort, depth: 1}}]

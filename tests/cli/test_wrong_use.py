@@ -94,8 +94,13 @@ IN_THE_FILE = {
     ),
     "an RTOS without a port": (
         "profiles: [pure_sender]",
-        "profiles: [pure_sender]\ntarget: {name: cortex-m4, rtos: freertos}",
-        r"microros\.yaml:3:\d+: error: the RTOS 'freertos' is not chosen by `rtos`.*`os: freertos`",
+        "profiles: [pure_sender]\ntarget: {name: cortex-m4, rtos: frertos}",
+        r"microros\.yaml:3:33: error: unknown os 'frertos'. Did you mean 'freertos'\?",
+    ),
+    "no RTOS on a machine that has one": (
+        "profiles: [pure_sender]",
+        "profiles: [pure_sender]\ntarget: {name: host, rtos: none}",
+        r"microros\.yaml:3:\d+: error: the target host cannot do without an operating system.*`rtos: none`",
     ),
     "contradictory components": (
         "profiles: [pure_sender]",

@@ -60,6 +60,15 @@ class TaskPlan:
     stack: int
     priority: int
     level: int
+    stack_macro: str = ""
+
+    @property
+    def stack_entry(self) -> str:
+        """Return the definition of its stack, as C."""
+        name = f"stack_of_{self.name}"
+        if self.stack_macro:
+            return f"static {self.stack_macro}({name}, {self.stack}u);"
+        return f"static uint64_t {name}[{self.stack}u / sizeof(uint64_t)];"
 
     @property
     def constant(self) -> str:
@@ -89,6 +98,7 @@ class TasksPlan:
     """
 
     tasks: tuple[TaskPlan, ...]
+    stack_headers: tuple[str, ...] = ()
     responses: tuple[Response, ...] = ()
     margin_us: int = 0
     gaps: tuple[str, ...] = ()
@@ -207,9 +217,11 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> TasksPlan:
                 stack=_aligned(max(task.stack or os.task_stack, os.task_stack_least)),
                 priority=priority,
                 level=len(tasks) + 1 - priority,
+                stack_macro=os.task_stack_macro,
             )
             for task, priority in zip(tasks, priorities, strict=True)
         ),
+        stack_headers=(os.task_stack_header,) if os.task_stack_header else (),
         responses=() if open_gaps else analyze_tasks(tasks, diagnostics),
         margin_us=application.watchdog.margin_us if application.watchdog is not None else 0,
         gaps=open_gaps,
@@ -222,7 +234,7 @@ def _check_target(application: Application, target: Target, diagnostics: Diagnos
         os = target.part("os")
         name = os.component.name if os is not None else "no operating system"
         message = f"the target {target.name} has no tasks: its operating system is {name}"
-        hint = "Remove `tasks:` and spin the executors in main, or choose a target with `os: freertos`"
+        hint = "Remove `tasks:` and spin the executors in main, or choose a system: `target: {name: …, rtos: freertos}`"
         diagnostics.error(message, application.tasks[0].span, hint, id="MG-7231")
 
 

@@ -439,7 +439,7 @@ _TOP = {
         ("cortex-m4", None),
         "target: [m4]",
         "1:9",
-        "'target' must be the name of a target, or a mapping with `name` and `rtos`; it is a list",
+        "'target' must be the name of a target, or a mapping with `name`, `rtos` and `network`; it is a list",
     ),
     "target.name": KeyCase(
         "target: {name: own.yaml}",
@@ -451,11 +451,19 @@ _TOP = {
     ),
     "target.rtos": KeyCase(
         "target: {name: m4, rtos: freertos}",
-        lambda a: a.target.rtos,
+        lambda a: a.target.rtos and a.target.rtos.name,
         "freertos",
         "target: {name: m4, rtos: no rtos at all, port: 3}",
         "1:42",
         "unknown key 'port' in 'target'",
+    ),
+    "target.network": KeyCase(
+        "target: {name: m4, network: lwip}",
+        lambda a: a.target.network and a.target.network.name,
+        "lwip",
+        "target: {name: m4, network: [lwip]}",
+        "1:29",
+        "'target.network' must be a text; it is a list",
     ),
     "interfaces": KeyCase(
         "interfaces: [std_msgs, std_msgs/msg/Int32, std_msgs/Bool]",
@@ -1078,11 +1086,6 @@ _EXECUTORS: dict[str, KeyCase] = {}
 RESERVED = {
     "links": ("links: {}", "1:1", "the key 'links' is reserved for delivery from board to board"),
     "agents": ("agents: [a]", "1:1", "the key 'agents' is reserved for more than one agent"),
-    "target.network": (
-        "target: {name: m4, network: lwip}",
-        "1:20",
-        "the key 'network' is reserved for network",
-    ),
     "modes": (
         "modes: {}",
         "1:1",
