@@ -93,7 +93,7 @@ def _agent(planned: Planned) -> str:
     project, runtime = planned.project, planned.project.runtime
     transport = project.selection.transport
     if transport == "serial":
-        line = runtime.transport.device if project.target.hosted else "the board's line"
+        line = runtime.transport.device if project.target.names_lines else "the board's line"
         return f"serial, {line}, {runtime.transport.baud} baud"
     if transport == "canfd":
         return f"canfd, {project.application.transport.can_device}"

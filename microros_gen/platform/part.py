@@ -109,7 +109,8 @@ class Os:
     its own start-up code and linker script (a file of the component). `tick` is called each millisecond.
     `task_stack`: bytes of a task's stack where nothing is said, `task_stack_least`: at least. `task_stack_macro`, of
     the header `task_stack_header`, defines one from its name and bytes; empty: an array. `parts`: kind and name of
-    built-in parts that provide what this one does not.
+    built-in parts that provide what this one does not. `device` names the serial line if the application file does not;
+    empty: the only line of a board has no name.
     """
 
     hosted: bool = False
@@ -120,6 +121,7 @@ class Os:
     task_stack_macro: str = ""
     task_stack_header: str = ""
     parts: tuple[tuple[str, str], ...] = ()
+    device: str = ""
 
 
 @dataclass(frozen=True)

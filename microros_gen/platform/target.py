@@ -185,6 +185,11 @@ class Target:
         return (*self.provides, *uart, *output)
 
     @property
+    def names_lines(self) -> bool:
+        """Whether serial lines have names, and the operating system drives them."""
+        return self.hosted or bool(self.os.device)
+
+    @property
     def knows_memory(self) -> bool:
         """Whether the target says where flash and RAM are."""
         return self.flash is not None and self.ram is not None

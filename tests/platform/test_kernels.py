@@ -20,13 +20,13 @@ from tests.support.components.rendered import UNITS
 from tests.support.paths import TESTS
 
 KERNELS = TESTS / "platform" / "kernels"
-TARGET = "target: board\nsummary: A board under a kernel\nextends: {cpu}\nos: {os}\nnetwork: {network}\n"
+CPU = "cortex-m4"
 APPLICATION = """\
 version: 1
 profiles: [pure_sender, pure_reader]
-components: [+executor, +timers, +multithread{more}]
-target: board.yaml
-session: {{key: 1}}
+components: [+executor, +timers{more}]
+target: {{name: {cpu}, rtos: {os}{network}}}
+{session}
 transport: {transport}
 nodes:
   - name: device
@@ -35,11 +35,14 @@ nodes:
     timers: [{{name: beat, period: 100 ms, kind: rtos}}]
     executors: [{{name: all}}]
 """
+KEY = "session: {key: 1}"
 TASKS = "tasks: [{name: main, executor: all, rate: 10 Hz}]\n"
-VARIANTS = (
-    {"transport": "{type: udp, agent: 192.168.1.2:8888}", "more": ", +sleep_cycles"},
-    {"transport": "{type: udp, agent: 192.168.1.2:8888}", "more": "", "tasks": TASKS},
-    {"transport": "{type: udp}", "more": ", +discovery"},
+UDP = "{type: udp, agent: 192.168.1.2:8888}"
+SERIAL = {"transport": "{type: serial}", "more": ", +multithread", "tasks": TASKS, "session": ""}
+VARIANTS: tuple[dict[str, str], ...] = (
+    {"transport": UDP, "more": ", +multithread, +sleep_cycles"},
+    {"transport": UDP, "more": ", +multithread", "tasks": TASKS},
+    {"transport": "{type: udp}", "more": ", +multithread, +discovery"},
     {"transport": "{type: tcp, agent: 192.168.1.2:8888}", "more": ""},
 )
 WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Werror")
@@ -66,11 +69,52 @@ SETTINGS = (
     "INCLUDE_xTaskGetCurrentTaskHandle",
     "INCLUDE_uxTaskGetStackHighWaterMark",
 )
-PAIRS = [("freertos", "lwip")]
+ZEPHYR_SETTINGS = (
+    "CONFIG_MULTITHREADING",
+    "CONFIG_TIMEOUT_64BIT",
+    "CONFIG_INIT_STACKS",
+    "CONFIG_THREAD_STACK_INFO",
+    "CONFIG_UART_INTERRUPT_DRIVEN",
+    "CONFIG_RING_BUFFER",
+    "CONFIG_HWINFO",
+)
+NUTTX_SETTINGS = (
+    "CONFIG_PRIORITY_INHERITANCE",
+    "CONFIG_PIPES",
+    "CONFIG_SERIAL_TERMIOS",
+    "CONFIG_BOARDCTL_UNIQUEID",
+)
+PAIRS = [
+    ("freertos", "lwip"),
+    ("freertos", "freertos_tcp"),
+    ("zephyr", "zephyr_sockets"),
+    ("nuttx", "posix_sockets"),
+]
+OF_PAIRS = {
+    "lwip": VARIANTS,
+    "freertos_tcp": (VARIANTS[0], *VARIANTS[2:]),
+    "zephyr_sockets": (VARIANTS[0], VARIANTS[2], {**VARIANTS[3], "more": ", +diagnosis"}, SERIAL),
+    "posix_sockets": (SERIAL,),
+}
+"""The variants that have each source of a part at least once; an operating system is checked with one network."""
 
 
 def sources(folder: Path, name: str) -> list[Path]:
-    return sorted((folder / "src" / f"port_{name}").glob("*.c"))
+    """Return the rendered sources of a part that calls a kernel; those of POSIX are compiled elsewhere."""
+    return sorted((folder / "src" / f"port_{name}").glob("*.c")) if (KERNELS / name).is_dir() else []
+
+
+def files_of(kind: str, name: str) -> set[str]:
+    """Return the names of all sources of a part, as they are rendered."""
+    paths = (parts_folder() / kind / name / "src").glob("*.c*")
+    return {path.name.removesuffix(".j2") for path in paths if (KERNELS / name).is_dir()}
+
+
+def application(names: tuple[str, str], variant: dict[str, str]) -> str:
+    """Return an application for an OS and a network."""
+    network = f", network: {names[1]}" if variant is not SERIAL else ""
+    more = {"session": KEY, **variant, "cpu": CPU, "os": names[0], "network": network}
+    return APPLICATION.format(**more) + variant.get("tasks", "")
 
 
 def complaints(compiler: str, out: Path, names: tuple[str, str], *flags: str) -> str:
@@ -84,10 +128,9 @@ def complaints(compiler: str, out: Path, names: tuple[str, str], *flags: str) ->
 @pytest.mark.builds
 @pytest.mark.parametrize("names", PAIRS, ids="-".join)
 def test_a_port_calls_what_its_kernel_declares(names: tuple[str, str], folder: Path, run: Runner) -> None:
-    (folder / "board.yaml").write_text(TARGET.format(cpu="cortex-m4", os=names[0], network=names[1]))
     compiled = set()
-    for variant in VARIANTS:
-        (folder / "microros.yaml").write_text(APPLICATION.format(**variant) + variant.get("tasks", ""))
+    for variant in OF_PAIRS[names[1]]:
+        (folder / "microros.yaml").write_text(application(names, variant))
         done = run("generate", "-o", "out")
         assert (done.status, "warning" in done.err) == (0, False), done.err
         out = folder / "out"
@@ -95,34 +138,57 @@ def test_a_port_calls_what_its_kernel_declares(names: tuple[str, str], folder: P
         for compiler, *flags in COMPILERS:
             if shutil.which(compiler):
                 assert complaints(compiler, out, names, *flags) == ""
-    parts = [parts_folder() / kind / name for kind, name in zip(("os", "network"), names, strict=True)]
-    assert compiled == {path.name for part in parts for path in part.glob("src/*.c")}
+    of_network = files_of("network", names[1])
+    of_os = files_of("os", names[0]) if names != ("freertos", "freertos_tcp") else compiled - of_network
+    assert compiled == of_os | of_network
+
+
+def settings_that_stop(
+    folder: Path, names: tuple[str, str], header: str, settings: tuple[str, ...]
+) -> dict[str, str]:
+    """Return what the compiler says when each setting of a kernel's header is missing in turn."""
+    found = {}
+    for name in settings:
+        text = (KERNELS / names[0] / header).read_text()
+        changed = folder / "changed" / header
+        changed.parent.mkdir(exist_ok=True, parents=True)
+        changed.write_text(
+            re.sub(rf"(#define {name}) 1\n", r"\1 0\n" if header == "FreeRTOS.h" else "", text)
+        )
+        flags = (f"-I{folder / 'changed'}", "-DKERNEL_CORES=2")
+        found[name] = complaints("gcc", folder / "out", names, *flags)
+    return found
 
 
 @pytest.mark.builds
 def test_a_missing_setting_of_freertos_stops_the_compiler(folder: Path, run: Runner) -> None:
-    (folder / "board.yaml").write_text(TARGET.format(cpu="cortex-m4", os="freertos", network="lwip"))
-    (folder / "microros.yaml").write_text(APPLICATION.format(**VARIANTS[0]) + TASKS)
+    (folder / "microros.yaml").write_text(application(PAIRS[0], VARIANTS[1]))
     assert run("generate", "-o", "out").status == 0
-    found = {}
-    for name in SETTINGS:
-        header = KERNELS / "freertos" / "FreeRTOS.h"
-        changed = folder / "changed" / "FreeRTOS.h"
-        changed.parent.mkdir(exist_ok=True)
-        changed.write_text(re.sub(rf"(#define {name}) 1", r"\1 0", header.read_text()))
-        messages = complaints(
-            "gcc", folder / "out", ("freertos", "lwip"), f"-I{changed.parent}", "-DKERNEL_CORES=2"
-        )
-        found[name] = messages
-    assert {
-        name: f'#error "FreeRTOSConfig.h: set {name} to 1"' in messages for name, messages in found.items()
-    } == dict.fromkeys(found, True)
+    found = settings_that_stop(folder, PAIRS[0], "FreeRTOS.h", SETTINGS)
+    for name, messages in found.items():
+        assert f'#error "FreeRTOSConfig.h: set {name} to 1"' in messages
+
+
+@pytest.mark.builds
+@pytest.mark.parametrize(
+    ("names", "header", "file", "settings"),
+    [
+        (PAIRS[2], "zephyr/autoconf.h", "prj.conf", ZEPHYR_SETTINGS),
+        (PAIRS[3], "nuttx/config.h", "defconfig", NUTTX_SETTINGS),
+    ],
+)
+def test_a_missing_setting_stops_the_compiler(
+    names: tuple[str, str], header: str, file: str, settings: tuple[str, ...], folder: Path, run: Runner
+) -> None:
+    (folder / "microros.yaml").write_text(application(names, SERIAL))
+    assert run("generate", "-o", "out").status == 0
+    for name, messages in settings_that_stop(folder, names, header, settings).items():
+        assert f'#error "{file}: set {name}=y' in messages
 
 
 @pytest.mark.builds
 def test_a_task_of_freertos_is_deleted_when_its_processor_has_left_it(folder: Path, run: Runner) -> None:
-    (folder / "board.yaml").write_text(TARGET.format(cpu="cortex-m4", os="freertos", network="lwip"))
-    (folder / "microros.yaml").write_text(APPLICATION.format(**VARIANTS[0]) + TASKS)
+    (folder / "microros.yaml").write_text(application(PAIRS[0], VARIANTS[1]))
     assert run("generate", "-o", "out").status == 0
     sources = [folder / "out" / "src" / "port_freertos" / "port_freertos_tasks.c", UNITS / "freertos_join.c"]
     folders = [
@@ -146,13 +212,12 @@ def test_a_task_of_freertos_is_deleted_when_its_processor_has_left_it(folder: Pa
 
 def test_every_port_to_a_kernel_is_checked() -> None:
     assert set(builtin_parts("os")) - {"bare", "posix"} == {os for os, _ in PAIRS}
-    assert set(builtin_parts("network")) - {"posix_sockets"} == {network for _, network in PAIRS}
+    assert set(builtin_parts("network")) == {network for _, network in PAIRS}
 
 
 @pytest.mark.builds
 def test_too_few_priorities_of_freertos_stop_the_compiler(folder: Path, run: Runner) -> None:
-    (folder / "board.yaml").write_text(TARGET.format(cpu="cortex-m4", os="freertos", network="lwip"))
-    (folder / "microros.yaml").write_text(APPLICATION.format(**VARIANTS[0]) + TASKS)
+    (folder / "microros.yaml").write_text(application(PAIRS[0], VARIANTS[1]))
     assert run("generate", "-o", "out").status == 0
     header = (KERNELS / "freertos" / "FreeRTOS.h").read_text()
     (folder / "changed").mkdir()

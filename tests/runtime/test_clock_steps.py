@@ -400,6 +400,8 @@ TIMELESS = {
     "port_cortex_m": "waits for one byte of a UART",
     "port_freertos": "the kernel's count of ticks, with its wraps, has 64 bits",
     "port_posix": "the system's clocks have 64 bits",
+    "port_zephyr": "the kernel's clock has 64 bits; its milliseconds wrap with it",
+    "port_zephyr_sockets": "hands a time-out on to the kernel's function",
     "port_riscv": "waits for one byte of a UART; its counter has 64 bits",
     "qos": "the deadline of a QoS is a number for the agent",
     "transport_custom": "hands a time-out on to the application's function",

@@ -226,7 +226,7 @@ def plan_project(
         clock=running.clock,
     )
     board = plan_board(application, target, runtime, diagnostics)
-    own_line = runtime.transport.kind == "serial" and not target.hosted and not board.has_serial_driver
+    own_line = runtime.transport.kind == "serial" and not target.names_lines and not board.has_serial_driver
     runtime = replace(runtime, transport=replace(runtime.transport, own_line=own_line))
     context = PlanContext(application, selection, target, by_name, runtime)
     runtime = replace(runtime, features=plan_features(context, diagnostics))

@@ -27,7 +27,7 @@ def plan_transport(
         has_discovery=selection.has("discovery"),
         discovery_port=requested.discover or DISCOVERY_PORT,
         framing=_FRAMING[requested.framing],
-        device=requested.device if selection.transport == "serial" and target.hosted else "",
+        device=_device(requested, target) if selection.transport == "serial" else "",
         baud=requested.baud,
         send_buffer=streams.send_buffer,
         keeps_output=streams.keeps_output,
@@ -35,6 +35,14 @@ def plan_transport(
         line_chunk=RING_CHUNK if own_driver else LINE_CHUNK,
         read_polls=requested.read_polls,
     )
+
+
+def _device(transport: Transport, target: Target) -> str:
+    """Return the name of the serial line; empty: the only line of a board."""
+    if not target.names_lines:
+        return ""
+    has_default = transport.device == Transport.device
+    return target.os.device or transport.device if has_default else transport.device
 
 
 def _agent(transport: Transport, selection: Selection) -> tuple[str, int]:

@@ -60,15 +60,6 @@ class TaskPlan:
     stack: int
     priority: int
     level: int
-    stack_macro: str = ""
-
-    @property
-    def stack_entry(self) -> str:
-        """Return the definition of its stack, as C."""
-        name = f"stack_of_{self.name}"
-        if self.stack_macro:
-            return f"static {self.stack_macro}({name}, {self.stack}u);"
-        return f"static uint64_t {name}[{self.stack}u / sizeof(uint64_t)];"
 
     @property
     def constant(self) -> str:
@@ -98,6 +89,7 @@ class TasksPlan:
     """
 
     tasks: tuple[TaskPlan, ...]
+    stack_macro: str = ""
     stack_headers: tuple[str, ...] = ()
     responses: tuple[Response, ...] = ()
     margin_us: int = 0
@@ -124,6 +116,13 @@ class TasksPlan:
         periodic = [t.period_us + t.deadline_us for t in self.tasks if t.period_us]
         others = [_WAIT_MOST_US + t.interval_us + t.deadline_us for t in self.tasks if not t.period_us]
         return f"port_watchdog_feed() at least every {_time(min(periodic + others) + self.margin_us)}"
+
+    @property
+    def stack_entries(self) -> tuple[str, ...]:
+        """Return the definitions of the stacks as lines of C: arrays, or what a macro of the system defines."""
+        if self.stack_macro:
+            return tuple(f"static {self.stack_macro}(stack_of_{t.name}, {t.stack}u);" for t in self.tasks)
+        return tuple(f"static uint64_t stack_of_{t.name}[{t.stack}u / sizeof(uint64_t)];" for t in self.tasks)
 
     @property
     def constants(self) -> tuple[str, ...]:
@@ -217,10 +216,10 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> TasksPlan:
                 stack=_aligned(max(task.stack or os.task_stack, os.task_stack_least)),
                 priority=priority,
                 level=len(tasks) + 1 - priority,
-                stack_macro=os.task_stack_macro,
             )
             for task, priority in zip(tasks, priorities, strict=True)
         ),
+        stack_macro=os.task_stack_macro,
         stack_headers=(os.task_stack_header,) if os.task_stack_header else (),
         responses=() if open_gaps else analyze_tasks(tasks, diagnostics),
         margin_us=application.watchdog.margin_us if application.watchdog is not None else 0,

@@ -8,7 +8,7 @@
 
 bool port_console_write(const char * line, size_t size)
 {
-  struct pollfd console = {STDERR_FILENO, POLLOUT, 0};
+  struct pollfd console = {.fd = STDERR_FILENO, .events = POLLOUT};
 
   /* A pipe that is ready takes PIPE_BUF bytes, more than a line has, without blocking. */
   if (poll(&console, 1, 0) != 1 || (console.revents & POLLOUT) == 0) {

@@ -48,7 +48,7 @@ static int storage_open(uint32_t slot, int flags)
   if (!storage_path(path, folder != NULL ? folder : ".", slot)) {
     return -1;
   }
-  return open(path, flags | O_CLOEXEC, S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH);
+  return open(path, (int)((unsigned int)flags | (unsigned int)O_CLOEXEC), S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH);
 }
 
 bool port_storage_erase(uint32_t slot)

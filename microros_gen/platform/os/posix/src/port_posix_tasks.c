@@ -4,6 +4,7 @@
  * RLIMIT_RTPRIO, or the right CAP_SYS_NICE), else those of the process.
  */
 #define _POSIX_C_SOURCE 200809L
+#include "microros/port_posix_task.h"
 #include "microros/port_tasks.h"
 
 #include "microros_config.h"
@@ -12,10 +13,9 @@
 #include <pthread.h>
 #include <sched.h>
 #include <stddef.h>
-#include <string.h>
 #include <time.h>
 
-enum { NS_PER_S = 1000000000, NS_PER_MS = 1000000, NS_PER_US = 1000, STACK_FILL = 0xa5 };
+enum { NS_PER_S = 1000000000, NS_PER_MS = 1000000, NS_PER_US = 1000 };
 
 typedef struct posix_task_t {
   const port_task_t * setting;
@@ -77,8 +77,7 @@ static bool thread_make(posix_task_t * place, const pthread_attr_t * kind)
 static bool thread_start(posix_task_t * place)
 {
   const port_task_t * setting = place->setting;
-  struct sched_param priority = {
-    .sched_priority = sched_get_priority_min(SCHED_FIFO) + (int)setting->priority};
+  struct sched_param priority = {.sched_priority = port_posix_task_priority(setting->priority)};
   pthread_attr_t kind;
   bool is_made = false;
 
@@ -108,7 +107,7 @@ bool port_task_create(uint8_t task, const port_task_t * setting)
   }
   place->setting = setting;
   place->task = task;
-  (void)memset(setting->stack, (int)STACK_FILL, setting->stack_size);
+  port_posix_task_fill(setting->stack, setting->stack_size);
   return event_make(place) && thread_start(place);
 }
 
@@ -199,15 +198,9 @@ void port_task_sleep_until(uint32_t time_us)
   }
 }
 
-/* Stacks of the processors with POSIX systems grow towards lower addresses. */
 uint32_t port_task_stack_peak(uint8_t task)
 {
   const port_task_t * setting = posix_tasks[task].setting;
-  const uint8_t * stack = setting->stack;
-  uint32_t unused = 0;
 
-  while (unused < setting->stack_size && stack[unused] == (uint8_t)STACK_FILL) {
-    ++unused;
-  }
-  return setting->stack_size - unused;
+  return setting->stack_size - port_posix_task_unused(setting->stack, setting->stack_size);
 }

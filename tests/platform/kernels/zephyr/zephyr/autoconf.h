@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Settings of prj.conf, which the build of Zephyr gives to the compiler. */
+#ifndef STAND_IN_ZEPHYR_AUTOCONF_H
+#define STAND_IN_ZEPHYR_AUTOCONF_H
+
+#define CONFIG_MULTITHREADING 1
+#define CONFIG_TIMEOUT_64BIT 1
+#define CONFIG_PRIORITY_CEILING -127
+#define CONFIG_NUM_PREEMPT_PRIORITIES 15
+#define CONFIG_INIT_STACKS 1
+#define CONFIG_THREAD_STACK_INFO 1
+#define CONFIG_UART_INTERRUPT_DRIVEN 1
+#define CONFIG_RING_BUFFER 1
+#define CONFIG_HWINFO 1
+#define CONFIG_NET_SOCKETS 1
+#define CONFIG_ZVFS_EVENTFD 1
+#define CONFIG_ZVFS_POLL_MAX 3
+#ifdef KERNEL_CORES /* of the checks, one has a timer of 64 bits */
+#define CONFIG_TIMER_HAS_64BIT_CYCLE_COUNTER 1
+#endif
+#ifdef KERNEL_TICK_RATE_HZ
+#define CONFIG_SYS_CLOCK_TICKS_PER_SEC KERNEL_TICK_RATE_HZ
+#else
+#define CONFIG_SYS_CLOCK_TICKS_PER_SEC 10000
+#endif
+
+#endif /* STAND_IN_ZEPHYR_AUTOCONF_H */
