@@ -22,8 +22,9 @@ class TaskDecl:
     """A task, which runs `executor` (`node/name`), or the session where that is None. Times are microseconds.
 
     `node` is the position of the executor's node. `period_us` 0: its handles release it, at most once in
-    `interval_us`. `lock_us` is the longest that it holds the library's lock. `deadline_us`, `time_us`, `lock_us` and
-    `priority` 0, `stack` None and `criticality` empty: not said. `priority` 1 is the highest.
+    `interval_us`. `instructions` is the longest run where no time is said, `lock_us` the longest that it holds the
+    library's lock. `deadline_us`, `time_us`, `instructions`, `lock_us` and `priority` 0, `stack` None and `criticality`
+    empty: not said. `priority` 1 is the highest.
     """
 
     name: str
@@ -34,6 +35,7 @@ class TaskDecl:
     deadline_us: int = 0
     criticality: str = ""
     time_us: int = 0
+    instructions: int = 0
     lock_us: int = 0
     overrun: str = "skip"
     stack: int | None = None

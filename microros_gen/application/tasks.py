@@ -69,6 +69,7 @@ def _task(item: YamlNode, nodes: Sequence[NodeDecl], diagnostics: Diagnostics) -
         deadline_us=times["deadline"],
         criticality=text_of(child(item, "criticality")) or "",
         time_us=times["time"],
+        instructions=int_of(child(item, "instructions")) or 0,
         lock_us=times["lock"],
         overrun=text_of(child(item, "overrun")) or TaskDecl.overrun,
         stack=size_of(child(item, "stack")),
@@ -153,10 +154,14 @@ def _check_times(item: YamlNode, task: TaskDecl, diagnostics: Diagnostics) -> No
         message = f"the task '{task.name}' runs {task.time_us} us, longer than its deadline of {deadline} us"
         hint = f"Write time: {deadline} us or less, or a later deadline"
         diagnostics.error(message, span_of(child(item, "time")), hint, id="MG-3229")
-    if task.lock_us and not task.time_us:
+    if task.time_us and task.instructions:
+        message = f"the task '{task.name}' has time and instructions"
+        hint = "Keep one: the time of a run follows from its instructions"
+        diagnostics.error(message, span_of(child(item, "instructions")), hint, id="MG-3290")
+    if task.lock_us and not (task.time_us or task.instructions):
         message = f"'lock' of the task '{task.name}' has no effect without 'time', its longest execution time"
         diagnostics.error(message, span_of(child(item, "lock")), "Add `time`, or remove it", id="MG-3235")
-    elif task.lock_us > task.time_us:
+    elif task.time_us and task.lock_us > task.time_us:
         message = f"the task '{task.name}' holds the lock for {task.lock_us} us, longer than it runs"
         hint = f"Write lock: {task.time_us} us or less"
         diagnostics.error(message, span_of(child(item, "lock")), hint, id="MG-3236")

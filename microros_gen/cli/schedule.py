@@ -70,7 +70,7 @@ def _responses(out: Path) -> tuple[Response, ...]:
         values = data.get("features", {}).get("tasks", {}).get("values", {})
         lacking = ", ".join(values.get("not_analyzed", ()))
         responses = schedule_of(values.get("schedule", ()))
-    except (AttributeError, KeyError, TypeError, ValueError) as error:
+    except (ArithmeticError, AttributeError, KeyError, TypeError, ValueError) as error:
         message = f"{path} was not written by this version of microros-gen"
         hint = "Generate the folder again"
         raise UserError([Diagnostic(message, hint=hint, id="MG-9742")]) from error

@@ -6,6 +6,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import shutil
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -105,6 +106,8 @@ def _data(found: FoundTarget) -> dict[str, Any]:
     parts = {part.kind: part.component.name for part in target.parts}
     data = dataclasses.asdict(dataclasses.replace(target, parts=()))
     origin = {"from": found.origin} if found.origin else {}
+    cycles = target.cycles_per_instruction
+    data["cycles_per_instruction"] = None if cycles is None else float(cycles)
     return {**data, **origin, "parts": parts, "missing_packages": missing_packages(target)}
 
 
@@ -114,6 +117,8 @@ def _rows(target: Target) -> list[tuple[str, str]]:
 
 
 def _text(value: object) -> str:
+    if isinstance(value, Fraction):
+        return f"{float(value):g}"
     if isinstance(value, Region):
         return f"{value.origin:#010x}, {value.size} bytes"
     if isinstance(value, Uart):

@@ -18,6 +18,8 @@ from microros_gen.selection.find_components import BOARD_FILE
 
 BOARD_KEYS = (
     "clock_hz",
+    "cpu_hz",
+    "cycles_per_instruction",
     "flash",
     "ram",
     "memories",

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 from microros_gen.platform.part import Cpu, Os, Part
 from microros_gen.records import dataclass
 from microros_gen.selection.component import Provision
@@ -124,9 +126,10 @@ class Target:
     `c_flags` apply to every file, `link_flags` to the image. `parts` are below the library: the first that has a
     capability provides it, unless the application does (`provides`). `hosted`: an operating system with standard
     input and output is below. Without one, a target that knows its board has `flash` and `ram`, and so an image;
-    without them it has the library alone. `clock_hz` counts the system timer. `interrupts` are handlers of the
-    application by their number, `registers` addresses by name (Cpu.registers). `memories` are those besides flash
-    and RAM; the hooks are functions of the application, empty: none.
+    without them it has the library alone. `clock_hz` counts the system timer, `cpu_hz` the processor (0: the same);
+    an instruction takes `cycles_per_instruction` at most, None: nobody says. `interrupts` are handlers of the
+    application by their number, `registers` addresses by name (Cpu.registers). `memories` are those besides flash and
+    RAM; the hooks are functions of the application, empty: none.
     `data_model` is lp64, ilp32 or ip16. `transport` is what holds where neither application nor profile say.
     """
 
@@ -144,6 +147,8 @@ class Target:
     data_model: str = "lp64"
     transport: str | None = None
     clock_hz: int = 0
+    cpu_hz: int = 0
+    cycles_per_instruction: Fraction | None = None
     flash: Region | None = None
     ram: Region | None = None
     uart: Uart | None = None
@@ -172,6 +177,14 @@ class Target:
         """The component of the processor, or of the operating system where none is named, for messages."""
         part = self.part("cpu") or self.part("os")
         return part.component.name if part is not None else "the target"
+
+    @property
+    def instructions_per_us(self) -> Fraction | None:
+        """The least number of instructions in a microsecond; None: the target does not say."""
+        hz = self.cpu_hz or self.clock_hz
+        if self.cycles_per_instruction is None or not hz:
+            return None
+        return hz / (self.cycles_per_instruction * 1_000_000)
 
     def part(self, kind: str) -> Part | None:
         """Return the part of a kind."""

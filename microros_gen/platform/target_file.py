@@ -4,13 +4,23 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
 
 from microros_gen.diagnostics import Diagnostics, Source, nearest, reads
 from microros_gen.documents.files import read_text
-from microros_gen.documents.tree_values import bool_of, child, entries, int_of, items, size_of, text_of
+from microros_gen.documents.tree_values import (
+    bool_of,
+    child,
+    entries,
+    int_of,
+    items,
+    number_of,
+    size_of,
+    text_of,
+)
 from microros_gen.documents.yaml_tree import (
     Entry,
     MappingNode,
@@ -146,6 +156,8 @@ def _target(node: MappingNode, parts: tuple[Part, ...]) -> Target:
         data_model=text_of(node.get("data_model")) or Target.data_model,
         transport=text_of(node.get("transport")),
         clock_hz=int_of(node.get("clock_hz")) or 0,
+        cpu_hz=int_of(node.get("cpu_hz")) or 0,
+        cycles_per_instruction=_cycles(node.get("cycles_per_instruction")),
         flash=_region(node.get("flash")),
         ram=_region(node.get("ram")),
         uart=_uart(node.get("uart"), parts),
@@ -161,6 +173,12 @@ def _target(node: MappingNode, parts: tuple[Part, ...]) -> Target:
         stdio=read_stdio(node.get("stdio"), parts),
         provides=_texts(node.get("provides")),
     )
+
+
+def _cycles(node: YamlNode | None) -> Fraction | None:
+    """Return the number as it is written: 1.1 is eleven tenths."""
+    number = number_of(node)
+    return Fraction(str(number)) if number is not None else None
 
 
 def _region(node: YamlNode | None) -> Region | None:

@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 
 from microros_gen.diagnostics import Diagnostics, Span
-from microros_gen.schedule.remedies import DEADLINE, PERIOD, Remedy, remedies
+from microros_gen.schedule.remedies import DEADLINE, PERIOD, TIME, Remedy, remedies
 from microros_gen.schedule.report import blocked_by
 from microros_gen.schedule.response import Response, analyze, utilization
-from microros_gen.schedule.task import Task
+from microros_gen.schedule.task import INSTRUCTIONS, Task
 
 INTERVAL = "interval"
 """What the period of a task is called that no clock releases."""
@@ -66,10 +67,17 @@ def _hint(found: Sequence[Remedy], tasks: Sequence[Task], name: str) -> str:
     if not found:
         return "No number of one task is enough: give several tasks less time or longer periods"
     texts = []
-    by_interval = {task.name for task in tasks if task.sporadic or task.session}
+    named = {task.name: task for task in tasks}
     for remedy in found:
         of = "" if remedy.task == name else f" of '{remedy.task}'"
         direction = "more" if remedy.what in (PERIOD, DEADLINE) else "less"
-        what = INTERVAL if remedy.what == PERIOD and remedy.task in by_interval else remedy.what
-        texts.append(f"`{what}: {remedy.value_us} us`{of} or {direction}")
+        texts.append(f"`{_written(remedy, named[remedy.task])}`{of} or {direction}")
     return f"Write {', or '.join(texts)}"
+
+
+def _written(remedy: Remedy, task: Task) -> str:
+    """Return a number as the application file has it: a time is one of instructions where the task has those."""
+    if remedy.what == TIME and task.instructions_per_us is not None:
+        return f"{INSTRUCTIONS}: {math.floor(remedy.value_us * task.instructions_per_us)}"
+    what = INTERVAL if remedy.what == PERIOD and (task.sporadic or task.session) else remedy.what
+    return f"{what}: {remedy.value_us} us"

@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
 from typing import Any
 
 from microros_gen.schedule.response import Blocker, Interference, Response
 from microros_gen.schedule.task import BANDS, MIDDLE, SESSION, Task
 
-HEAD = ("TASK", "BAND", "PRIORITY", "T", "C", "B", "R", "D", "SLACK", "BLOCKED BY")
+HEAD = ("TASK", "BAND", "PRIORITY", "T", "C", "B", "R", "D", "SLACK", "C FROM", "BLOCKED BY")
 UNKNOWN = "-"
 """In place of a response that has no bound."""
 
@@ -20,7 +21,7 @@ def schedule_rows(responses: Sequence[Response]) -> Iterator[tuple[str, ...]]:
         task = response.task
         times = (task.period_us, task.time_us, response.blocking_us, response.response_us, task.due_us)
         shown = (UNKNOWN if time is None else str(time) for time in (*times, response.slack_us))
-        yield (task.name, task.band, str(response.priority), *shown, blocked_by(response))
+        yield (task.name, task.band, str(response.priority), *shown, task.time_from, blocked_by(response))
 
 
 def blocked_by(response: Response) -> str:
@@ -43,6 +44,8 @@ def schedule_data(responses: Sequence[Response]) -> list[dict[str, object]]:
             "priority": r.priority,
             "t": r.task.period_us,
             "c": r.task.time_us,
+            "c_from": r.task.time_from,
+            "instructions_per_us": _ratio(r.task.instructions_per_us),
             "j": r.task.jitter_us,
             "b": r.blocking_us,
             "r": r.response_us,
@@ -65,6 +68,10 @@ def schedule_of(data: Sequence[Mapping[str, Any]]) -> tuple[Response, ...]:
     return tuple(_response(row) for row in data)
 
 
+def _ratio(ratio: Fraction | None) -> str | None:
+    return None if ratio is None else str(ratio)
+
+
 def _response(row: Mapping[str, Any]) -> Response:
     band = row["band"]
     if band not in (*BANDS, SESSION):
@@ -79,6 +86,9 @@ def _response(row: Mapping[str, Any]) -> Response:
         jitter_us=row["j"],
         blocking_us=row["b"] - sum(blocker.time_us for blocker in held),
         session=band == SESSION,
+        instructions_per_us=None
+        if row["instructions_per_us"] is None
+        else Fraction(row["instructions_per_us"]),
     )
     delayed = tuple(Interference(i["task"], i["times"], i["time"]) for i in row["delayed_by"])
     return Response(task, row["priority"], row["b"], held, row["r"], row["overloaded"], delayed)

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import math
+from fractions import Fraction
+
 from microros_gen.records import dataclass
 
 HIGH, MIDDLE, LOW = "high", "middle", "low"
@@ -11,8 +14,16 @@ BANDS = (HIGH, MIDDLE, LOW)
 SESSION = "session"
 """In place of a band where the session's task has its place by rule."""
 
+TIME, INSTRUCTIONS = "time", "instructions"
+"""What the execution time of a task follows from."""
+
 LONGEST_US = 1_000_000_000
 """Longest time that a task may have, and that is proposed: 1000 s."""
+
+
+def time_of_instructions(count: int, instructions_per_us: Fraction) -> int:
+    """Return the microseconds that `count` instructions take at most, rounded up."""
+    return math.ceil(count / instructions_per_us)
 
 
 @dataclass(frozen=True)
@@ -33,6 +44,7 @@ class Task:
     code that runs with interrupts disabled. `priority`: where the application wants it in the table, 1 is the highest;
     None: by rule. `sporadic`: no clock releases it, but what the session's task receives. `session`: it runs the
     session, and has its place by the rule for that (by_priority); then `criticality` has no meaning.
+    `instructions_per_us`: the time follows from a number of instructions at this rate; None: the application says it.
 
     Times from 1 to LONGEST_US, jitter and blocking from 0; ValueError for others.
     """
@@ -48,6 +60,7 @@ class Task:
     priority: int | None = None
     sporadic: bool = False
     session: bool = False
+    instructions_per_us: Fraction | None = None
 
     def __post_init__(self) -> None:
         """Refuse times that no task has."""
@@ -67,6 +80,11 @@ class Task:
     def due_us(self) -> int:
         """The deadline: the period where none is given."""
         return self.period_us if self.deadline_us is None else self.deadline_us
+
+    @property
+    def time_from(self) -> str:
+        """What the time follows from: INSTRUCTIONS, or the application's own number."""
+        return TIME if self.instructions_per_us is None else INSTRUCTIONS
 
     @property
     def band(self) -> str:

@@ -263,6 +263,67 @@ def test_a_deadline_that_cannot_be_met_is_refused_with_what_would_do(tmp_path: P
         tasks(tmp_path, TIMES.replace("lock: 40 us", "lock: 601 us"))
 
 
+COUNTED = """\
+target: counted
+summary: a board whose instructions take 0.1 us
+extends: cortex-m4
+os: freertos
+network: lwip
+clock_hz: 1000000
+cpu_hz: 25000000
+cycles_per_instruction: 2.5
+"""
+
+
+def counted(folder: Path, text: str, board: str = COUNTED) -> TasksPlan:
+    """Plan the tasks for a board of which the speed is known."""
+    (folder / "counted.yaml").write_text(board, encoding="utf-8")
+    return tasks(folder, f"target: counted.yaml\nsession: {{key: 1}}\n{text}")
+
+
+def test_times_follow_from_instructions_and_the_target(tmp_path: Path) -> None:
+    text = TIMES.replace("time: 200 us", "instructions: 1991")
+    rows = {row["task"]: (row["c"], row["c_from"]) for row in counted(tmp_path, text).schedule}
+    assert rows == {
+        "control": (200, "instructions"),  # of the processor's clock, not of the timer's; rounded up
+        "line": (100, "time"),
+        "worker": (2000, "time"),
+        "log": (3000, "time"),
+    }
+    slower = COUNTED.replace("2.5", "25")
+    with pytest.raises(UserError, match="1991 instructions of the task 'control' take 1991 us"):
+        counted(tmp_path, text, slower)
+
+
+@pytest.mark.parametrize(
+    ("board", "setting", "words"),
+    [
+        (
+            COUNTED.replace("cycles_per_instruction: 2.5\n", ""),
+            "instructions: 100",
+            "19:5: error: the target counted does not say how long an instruction of the task 'control' takes",
+        ),
+        (
+            COUNTED,
+            "instructions: 8001",
+            "8001 instructions of the task 'control' take 801 us on counted, longer than its deadline of 800 us."
+            " Write instructions: 8000 or less",
+        ),
+        (
+            COUNTED,
+            "instructions: 1000, lock: 101 us",
+            "the task 'control' holds the lock for 101 us, longer than it runs. Write lock: 100 us or less",
+        ),
+    ],
+)
+def test_instructions_that_cannot_be_are_refused(
+    tmp_path: Path, board: str, setting: str, words: str
+) -> None:
+    with pytest.raises(UserError) as caught:
+        counted(tmp_path, TIMES.replace("time: 200 us", setting), board)
+    assert words in without_id(str(caught.value))
+
+
 def test_tasks_of_which_something_is_not_said_are_named(tmp_path: Path) -> None:
     text = TIMES.replace("interval: 5 ms, time: 2 ms, lock: 40 us", "time: 2 ms").replace("time: 200 us", "")
     part = tasks(tmp_path, text)
@@ -324,6 +385,10 @@ def test_the_analysis_has_the_priorities_of_the_generated_tasks() -> None:
         (
             "{name: t, executor: a, period: 1 ms, time: 2 ms}",
             "runs 2000 us, longer than its deadline of 1000 us",
+        ),
+        (
+            "{name: t, executor: a, period: 1 ms, time: 1 us, instructions: 9}",
+            "the task 't' has time and instructions",
         ),
         ("{name: t, executor: a, lock: 2 ms}", "'lock' of the task 't' has no effect without 'time'"),
         (

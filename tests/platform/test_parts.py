@@ -285,9 +285,11 @@ def test_built_in_boards_hold_to_the_schema_and_repeat_nothing() -> None:
 def test_a_target_file_wins_over_its_board_and_that_over_what_it_extends(folder: Path, run: Runner) -> None:
     write_board(folder, "hawk")
     path = folder / "hawk.yaml"
-    path.write_text(f"{path.read_text()}clock_hz: 12000000\n")
+    path.write_text(f"{path.read_text()}clock_hz: 12000000\ncycles_per_instruction: 2.5\n")
     (shown,) = json.loads(run("targets", "hawk.yaml", "--format", "json").out)
     assert (shown["clock_hz"], shown["uart"]["base"], shown["flash"]["size"]) == (12000000, 0x40001000, 65536)
+    assert shown["cycles_per_instruction"] == 2.5
+    assert re.search(r"cycles_per_instruction +2[.]5\n", run("targets", "hawk.yaml").out)
 
 
 def test_a_board_says_nothing_of_the_compiler(folder: Path, run: Runner) -> None:

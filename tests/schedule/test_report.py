@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import re
 import xml.etree.ElementTree as ElementTree
+from fractions import Fraction
 
 import pytest
 
@@ -13,7 +14,7 @@ from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.schedule.check import check_deadlines
 from microros_gen.schedule.report import HEAD, schedule_data, schedule_of, schedule_rows
 from microros_gen.schedule.response import analyze
-from microros_gen.schedule.task import HIGH, LONGEST_US, Section, Task
+from microros_gen.schedule.task import HIGH, LONGEST_US, Section, Task, time_of_instructions
 from microros_gen.schedule.timeline import draw
 
 LOCK = (Section("session", 40),)
@@ -34,25 +35,39 @@ def messages(tasks: list[Task], places: dict[str, Span] | None = None) -> list[s
 def test_a_row_for_each_task_the_highest_priority_first() -> None:
     rows = list(schedule_rows(analyze(TASKS)))
     assert rows == [
-        ("control", "high", "1", "1000", "200", "40", "240", "500", "260", "session holds session for 40 us"),
         (
-            *("session", "session", "2", "5000", "300", "45", "545", "5000", "4455"),
+            "control",
+            "high",
+            "1",
+            "1000",
+            "200",
+            "40",
+            "240",
+            "500",
+            "260",
+            "time",
+            "session holds session for 40 us",
+        ),
+        (
+            *("session", "session", "2", "5000", "300", "45", "545", "5000", "4455", "time"),
             "log holds session for 40 us, other code for 5 us",
         ),
-        ("log", "low", "3", "100000", "2000", "0", "2900", "100000", "97100", ""),
+        ("log", "low", "3", "100000", "2000", "0", "2900", "100000", "97100", "time", ""),
     ]
     assert {len(row) for row in rows} == {len(HEAD)}
 
 
 def test_the_data_has_the_names_of_the_table_in_lower_case() -> None:
     data = json.loads(json.dumps(schedule_data(analyze(TASKS))))
-    assert {name.lower() for name in HEAD} - {"blocked by"} <= set(data[0])
+    assert {name.lower().replace(" ", "_") for name in HEAD} <= set(data[0])
     assert data[1] == {
         "task": "session",
         "band": "session",
         "priority": 2,
         "t": 5000,
         "c": 300,
+        "c_from": "time",
+        "instructions_per_us": None,
         "j": 0,
         "b": 45,
         "r": 545,
@@ -67,7 +82,8 @@ def test_the_data_has_the_names_of_the_table_in_lower_case() -> None:
 
 def test_the_data_is_the_whole_analysis() -> None:
     """What is read from it prints, and draws, the same."""
-    for tasks in (TASKS, [Task("a", 10, 6), Task("b", 10, 6, deadline_us=20, jitter_us=3)]):
+    counted = Task("a", 10, 6, instructions_per_us=Fraction(5, 3))
+    for tasks in (TASKS, [counted, Task("b", 10, 6, deadline_us=20, jitter_us=3)]):
         responses = analyze(tasks)
         data = schedule_data(responses)
         read = schedule_of(json.loads(json.dumps(data)))
@@ -76,7 +92,9 @@ def test_the_data_is_the_whole_analysis() -> None:
         assert draw(read, tasks[0].name) == draw(responses, tasks[0].name)
 
 
-@pytest.mark.parametrize("change", [{"band": "upper"}, {"t": 0}, {"c": "1"}, {"blocked_by": None}])
+@pytest.mark.parametrize(
+    "change", [{"band": "upper"}, {"t": 0}, {"c": "1"}, {"blocked_by": None}, {"instructions_per_us": "1/"}]
+)
 def test_other_data_is_refused(change: dict[str, object]) -> None:
     (first, *_) = schedule_data(analyze(TASKS))
     with pytest.raises((TypeError, ValueError)):
@@ -158,3 +176,22 @@ def test_where_no_number_is_enough_the_hint_says_so() -> None:
     hint = "No number of one task is enough: give several tasks less time or longer periods [MG-7140]"
     assert first.endswith(hint)
     assert second.endswith("Correct 'second' first [MG-7140]")
+
+
+def test_the_time_of_instructions_is_rounded_up() -> None:
+    rate = Fraction(25, 17)
+    assert [time_of_instructions(count, rate) for count in (1, 25, 26, 1000)] == [1, 17, 18, 680]
+
+
+def test_what_would_do_is_a_number_of_instructions_where_the_task_has_one() -> None:
+    """The number fits, and the next microsecond does not."""
+    rate = Fraction(3, 2)
+    tasks = [
+        Task("fast", 1000, 400, instructions_per_us=rate),
+        Task("slow", 2000, 700, deadline_us=1000, instructions_per_us=rate),
+    ]
+    (message,) = messages(tasks)
+    assert message.endswith("Write `deadline: 1500 us` or more, or `instructions: 900` or less [MG-7142]")
+    fits, late = (Task("slow", 2000, us, deadline_us=1000) for us in (time_of_instructions(900, rate), 601))
+    assert messages([tasks[0], fits]) == []
+    assert messages([tasks[0], late]) != []

@@ -4,12 +4,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from math import floor
 
 from microros_gen.application.task_decl import TaskDecl
 from microros_gen.diagnostics import Diagnostics
+from microros_gen.platform.target import Target
 from microros_gen.schedule.check import check_deadlines
 from microros_gen.schedule.response import Response
-from microros_gen.schedule.task import MIDDLE, Section, Task
+from microros_gen.schedule.task import LONGEST_US, MIDDLE, Section, Task, time_of_instructions
 
 LOCK = "library"
 """Name of the lock of the library, which every task takes: publishers, executors and the session need it."""
@@ -18,6 +22,44 @@ LOCK = "library"
 def is_placed_by_rule(task: TaskDecl) -> bool:
     """Return whether the priority of a task is that of the session's task of which nothing is said."""
     return task.is_session and not (task.criticality or task.deadline_us)
+
+
+def timed(tasks: Sequence[TaskDecl], target: Target, diagnostics: Diagnostics) -> tuple[TaskDecl, ...]:
+    """Return the tasks with the times of those that have a number of instructions instead; 0 after an error.
+
+    A target that does not say how long an instruction takes, a run that is longer than its deadline, and a lock that is
+    held for longer than that, are errors.
+    """
+    return tuple(
+        task if not task.instructions else replace(task, time_us=_time_of(task, target, diagnostics))
+        for task in tasks
+    )
+
+
+def _time_of(task: TaskDecl, target: Target, diagnostics: Diagnostics) -> int:
+    rate = target.instructions_per_us
+    if rate is None:
+        message = (
+            f"the target {target.name} does not say how long an instruction of the task '{task.name}' takes"
+        )
+        hint = (
+            "Write `time: 1 ms` instead, or `cycles_per_instruction: …` and `cpu_hz: …` into the target file"
+        )
+        diagnostics.error(message, task.span, hint, id="MG-7143")
+        return 0
+    time_us = time_of_instructions(task.instructions, rate)
+    deadline_us = task.deadline_us or task.period_us or task.interval_us or LONGEST_US
+    if time_us > deadline_us:
+        of = f"{task.instructions} instructions of the task '{task.name}'"
+        message = f"{of} take {time_us} us on {target.name}, longer than its deadline of {deadline_us} us"
+        hint = f"Write instructions: {floor(deadline_us * rate)} or less, or a later deadline"
+        diagnostics.error(message, task.span, hint, id="MG-7144")
+        return 0
+    if task.lock_us > time_us:
+        message = f"the task '{task.name}' holds the lock for {task.lock_us} us, longer than it runs"
+        diagnostics.error(message, task.span, f"Write lock: {time_us} us or less", id="MG-7145")
+        return 0
+    return time_us
 
 
 def gaps(tasks: Sequence[TaskDecl]) -> tuple[str, ...]:
@@ -34,16 +76,20 @@ def gaps(tasks: Sequence[TaskDecl]) -> tuple[str, ...]:
     return tuple(found)
 
 
-def analyze_tasks(tasks: Sequence[TaskDecl], diagnostics: Diagnostics) -> tuple[Response, ...]:
+def analyze_tasks(
+    tasks: Sequence[TaskDecl], diagnostics: Diagnostics, instructions_per_us: Fraction | None = None
+) -> tuple[Response, ...]:
     """Return the response of each task by priority; a deadline that is missed is an error at its task.
+
+    `instructions_per_us` is the rate of the target, which tasks with instructions need.
 
     No task has a gap. Priorities are those of plan.priorities_of: both follow the same rules.
     """
     places = {task.name: task.span for task in tasks if task.span is not None}
-    return check_deadlines([task_of(task) for task in tasks], places, diagnostics)
+    return check_deadlines([task_of(task, instructions_per_us) for task in tasks], places, diagnostics)
 
 
-def task_of(task: TaskDecl) -> Task:
+def task_of(task: TaskDecl, instructions_per_us: Fraction | None = None) -> Task:
     """Return a task without gaps as the analysis takes it."""
     return Task(
         task.name,
@@ -55,4 +101,5 @@ def task_of(task: TaskDecl) -> Task:
         priority=task.priority or None,
         sporadic=not task.period_us,
         session=is_placed_by_rule(task),
+        instructions_per_us=instructions_per_us if task.instructions else None,
     )

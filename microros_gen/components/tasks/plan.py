@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from microros_gen.application.model import Application
 from microros_gen.application.task_decl import CRITICALITIES, TaskDecl
 from microros_gen.client.plan.features import PlanContext
-from microros_gen.components.tasks.analysis import analyze_tasks, gaps, is_placed_by_rule
+from microros_gen.components.tasks.analysis import analyze_tasks, gaps, is_placed_by_rule, timed
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
@@ -198,6 +198,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> TasksPlan:
     session = next((task for task in application.tasks if task.is_session), None)
     tasks = [*(task for task in application.tasks if not task.is_session)]
     tasks.append(session or TaskDecl(_session_name(tasks)))
+    tasks = [*timed(tasks, context.target, diagnostics)]
     priorities = priorities_of(tasks)
     open_gaps = gaps(tasks)
     os = context.target.os
@@ -221,7 +222,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> TasksPlan:
         ),
         stack_macro=os.task_stack_macro,
         stack_headers=(os.task_stack_header,) if os.task_stack_header else (),
-        responses=() if open_gaps else analyze_tasks(tasks, diagnostics),
+        responses=() if open_gaps else analyze_tasks(tasks, diagnostics, context.target.instructions_per_us),
         margin_us=application.watchdog.margin_us if application.watchdog is not None else 0,
         gaps=open_gaps,
     )

@@ -102,6 +102,14 @@ TASK_CASES = {
     "tasks[].deadline": _time("deadline"),
     "tasks[].time": _time("time"),
     "tasks[].lock": _time("lock", "rate: 1 Hz, time: 30 ms, "),
+    "tasks[].instructions": KeyCase(
+        _in_task("rate: 1 Hz, instructions: 5000"),
+        _task(lambda t: (t.instructions, t.time_us)),
+        (5000, 0),
+        _in_task("rate: 1 Hz, instructions: 5 ms"),
+        "3:57",
+        "'tasks[0].instructions' must be a number of instructions, 1 to 1000000000000; it is the text '5 ms'",
+    ),
     "tasks[].criticality": KeyCase(
         _in_task("criticality: low"),
         _task(lambda t: t.criticality),

@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The jobs of tasks, one after the other in main: what a task calls to rest ends its job, and returns for the next one
+ * until there were enough. A mark stands before and after each job; with MEASURED_HOLDS instead before and after the
+ * library's lock is held. The agent is in the firmware. The application file is that of test_tasks.py.
+ */
+#include "measured.h"
+
+#include <microros/port_tasks.h>
+#include <microros/rclc_tasks.h>
+#include <microros/tasks.h>
+#include <rcl/rcl.h>
+#include <rclc/executor.h>
+#include <rclc/rclc.h>
+#include <std_msgs/msg/int32.h>
+
+enum { JOBS = 4, ROUNDS = 3, EXECUTORS = 2 };
+
+static uint8_t self = PORT_TASK_NONE;
+static uint32_t rests;
+static uint32_t depth;
+static bool is_measured;
+static bool is_in_job;
+static rcl_publisher_t publisher;
+static std_msgs__msg__Int32 said;
+static std_msgs__msg__Int32 heard;
+static uint32_t heard_count;
+
+static void check(bool holds)
+{
+  if (!holds) {
+    finish();
+  }
+}
+
+static void job_mark(bool begins)
+{
+  if (begins != is_in_job) {
+#ifndef MEASURED_HOLDS
+    mark();
+#endif
+    is_in_job = begins;
+  }
+}
+
+void port_lock(void)
+{
+#ifdef MEASURED_HOLDS
+  if (depth == 0u && is_measured) {
+    mark();
+  }
+#endif
+  ++depth;
+}
+
+void port_unlock(void)
+{
+  --depth;
+#ifdef MEASURED_HOLDS
+  if (depth == 0u && is_measured) {
+    mark();
+  }
+#endif
+}
+
+/* Between two jobs of the task. Those that it is to have are over: stopping needs a caller that is no task. */
+static void rest(void)
+{
+  const uint8_t task = self;
+
+  if (task == (uint8_t)PORT_TASK_NONE) {
+    return;
+  }
+  job_mark(false);
+  ++rests;
+  if (rests > (uint32_t)JOBS) {
+    is_measured = false;
+    self = PORT_TASK_NONE;
+    check(rclc_tasks_stop() == RCL_RET_OK);
+    self = task;
+    return;
+  }
+  job_mark(true);
+}
+
+bool port_task_create(uint8_t task, const port_task_t * setting)
+{
+  (void)task;
+  (void)setting;
+  return true;
+}
+
+void port_task_join(uint8_t task)
+{
+  (void)task;
+}
+
+uint8_t port_task_self(void)
+{
+  return self;
+}
+
+bool port_task_has_priorities(void)
+{
+  return true;
+}
+
+void port_task_set(uint8_t task)
+{
+  (void)task;
+}
+
+void port_task_wait(uint8_t task, uint32_t timeout_ms)
+{
+  (void)task;
+  (void)timeout_ms;
+  rest();
+}
+
+uint32_t port_task_time_us(void)
+{
+  return port_time_ms() * 1000u;
+}
+
+void port_task_sleep_until(uint32_t time_us)
+{
+  (void)time_us;
+  rest();
+}
+
+uint32_t port_task_stack_peak(uint8_t task)
+{
+  (void)task;
+  return 0;
+}
+
+void port_wait(int handle, uint32_t timeout_ms)
+{
+  (void)handle;
+  (void)timeout_ms;
+  rest();
+}
+
+void port_wake(void)
+{
+}
+
+static void on_release(uint8_t task)
+{
+  (void)task;
+  ++said.data;
+  check(rcl_publish(&publisher, &said, NULL) == RCL_RET_OK);
+}
+
+static void on_message(const void * message)
+{
+  (void)message;
+  ++heard_count;
+}
+
+/* Ends where the task has had its jobs. */
+static void run(uint8_t task)
+{
+  check(rclc_tasks_start() == RCL_RET_OK);
+  rests = 0;
+  self = task;
+  is_measured = true;
+  rclc_task_settings[task].entry(task);
+  is_measured = false;
+  self = PORT_TASK_NONE;
+}
+
+int main(void)
+{
+  static rclc_support_t support;
+  static rcl_node_t node;
+  static rcl_subscription_t subscription;
+  static rclc_executor_t executors[EXECUTORS];
+  const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
+  rcl_allocator_t allocator = rcl_get_default_allocator();
+
+  check(rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK);
+  check(rclc_node_init_default(&node, "device", "", &support) == RCL_RET_OK);
+  check(rclc_publisher_init_default(&publisher, &node, type, "count") == RCL_RET_OK);
+  check(rclc_subscription_init_default(&subscription, &node, type, "count") == RCL_RET_OK);
+  for (uint8_t i = 0; i < (uint8_t)EXECUTORS; ++i) {
+    check(rclc_executor_init(&executors[i], &support.context, 1, &allocator) == RCL_RET_OK);
+  }
+  check(
+    rclc_executor_add_subscription(&executors[1], &subscription, &heard, on_message, ON_NEW_DATA) == RCL_RET_OK);
+  check(rclc_task_set_executor(RCLC_TASK_CONTROL, &executors[0], on_release) == RCL_RET_OK);
+  check(rclc_task_set_executor(RCLC_TASK_WORKER, &executors[1], NULL) == RCL_RET_OK);
+  for (uint32_t i = 0; i < (uint32_t)ROUNDS; ++i) {
+    run(RCLC_TASK_CONTROL);
+    run(RCLC_TASK_WORKER);
+    run(RCLC_TASK_SESSION);
+  }
+  check(heard_count == (uint32_t)ROUNDS * (uint32_t)JOBS);
+  for (;;) {
+    mark(); /* the end of what is measured */
+    finish();
+  }
+}
