@@ -13,6 +13,9 @@ KEY = "tasks"
 CRITICALITIES = ("high", "middle", "low")
 """Bands of priority, the highest first."""
 
+AUTO = "auto"
+"""In place of the size of a stack that follows from the image."""
+
 OVERRUNS = ("skip", "catch_up", "call")
 """What happens to releases that a task has missed."""
 
@@ -24,7 +27,7 @@ class TaskDecl:
     `node` is the position of the executor's node. `period_us` 0: its handles release it, at most once in
     `interval_us`. `instructions` is the longest run where no time is said, `lock_us` the longest that it holds the
     library's lock. `deadline_us`, `time_us`, `instructions`, `lock_us` and `priority` 0, `stack` None and `criticality`
-    empty: not said. `priority` 1 is the highest.
+    empty: not said. `priority` 1 is the highest. `stack_auto`: an image says how large the stack is.
     """
 
     name: str
@@ -39,6 +42,7 @@ class TaskDecl:
     lock_us: int = 0
     overrun: str = "skip"
     stack: int | None = None
+    stack_auto: bool = False
     priority: int = 0
     span: Span | None = None
     stack_span: Span | None = None

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from microros_gen.application.model import NodeDecl
 from microros_gen.application.nodes import check_unique
-from microros_gen.application.task_decl import TaskDecl
+from microros_gen.application.task_decl import AUTO, TaskDecl
 from microros_gen.diagnostics import Diagnostics, nearest
 from microros_gen.documents.named import Named
 from microros_gen.documents.tree_values import (
@@ -73,6 +73,7 @@ def _task(item: YamlNode, nodes: Sequence[NodeDecl], diagnostics: Diagnostics) -
         lock_us=times["lock"],
         overrun=text_of(child(item, "overrun")) or TaskDecl.overrun,
         stack=size_of(child(item, "stack")),
+        stack_auto=text_of(child(item, "stack")) == AUTO,
         priority=int_of(child(item, "priority")) or 0,
         span=item.span,
         stack_span=span_of(child(item, "stack")),

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from microros_gen.application.find import read_application
+from microros_gen.application.find import APPLICATION_FILE, read_application
 from microros_gen.application.model import Application, component_change
 from microros_gen.application.parameter_find import with_parameter_files
 from microros_gen.application.parser import (
@@ -16,6 +16,7 @@ from microros_gen.application.parser import (
     parse_application,
     parse_discover,
 )
+from microros_gen.application.stack_file import with_stacks
 from microros_gen.application.system_find import with_system
 from microros_gen.application.transport_decl import Transport
 from microros_gen.compiler.options import Options
@@ -70,6 +71,9 @@ def request_of(source: Source | None, near: Path, options: Options, diagnostics:
     application, parameter_files = with_parameter_files(application, near, diagnostics)
     diagnostics.check()
     inputs |= {f"parameter file {Path(file.name).name}": file.text.encode() for file in parameter_files}
+    application, stacks = with_stacks(application, options.config or near / APPLICATION_FILE, diagnostics)
+    diagnostics.check()
+    inputs |= {"sizes of stacks": stacks.text.encode()} if stacks is not None else {}
     application, system_files = with_system(application, options.config, near, diagnostics)
     diagnostics.check()
     inputs |= {f"system {name}": file.text.encode() for name, file in system_files.items()}

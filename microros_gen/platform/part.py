@@ -107,10 +107,11 @@ class Os:
 
     `hosted`: programs have standard input and output, and are started. `linker_script`: it makes images with a
     its own start-up code and linker script (a file of the component). `tick` is called each millisecond.
-    `task_stack`: bytes of a task's stack where nothing is said, `task_stack_least`: at least. `task_stack_macro`, of
-    the header `task_stack_header`, defines one from its name and bytes; empty: an array. `parts`: kind and name of
-    built-in parts that provide what this one does not. `device` names the serial line if the application file does not;
-    empty: the only line of a board has no name.
+    `task_stack`: bytes of a task's stack where nothing is said, `task_stack_least`: at least, `task_stack_context`: of
+    it for the system and the port, around what the task calls. `task_stack_macro`, of the header `task_stack_header`,
+    defines one from its name and bytes; empty: an array. `parts`: kind and name of built-in parts that provide what this
+    one does not. `device` names the serial line if the application file does not; empty: the only line of a board has no
+    name.
     """
 
     hosted: bool = False
@@ -122,6 +123,7 @@ class Os:
     task_stack_header: str = ""
     parts: tuple[tuple[str, str], ...] = ()
     device: str = ""
+    task_stack_context: int = 256
 
 
 @dataclass(frozen=True)

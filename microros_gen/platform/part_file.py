@@ -189,7 +189,9 @@ def _with_facts(part: Part, path: Path, diagnostics: Diagnostics) -> Part:
     check_keys(node, _OS_KEYS, (), diagnostics)
     hosted = bool_of(node.get("hosted")) or False
     linker_script = text_at(node, "linker_script", diagnostics)
-    stack, least = (int_of(child(node.get("task_stack"), key)) for key in ("default", "least"))
+    stack, least, context = (
+        int_of(child(node.get("task_stack"), key)) for key in ("default", "least", "context")
+    )
     return replace(
         part,
         os=Os(
@@ -202,6 +204,7 @@ def _with_facts(part: Part, path: Path, diagnostics: Diagnostics) -> Part:
             text_of(child(node.get("task_stack"), "header")) or "",
             tuple((entry.key, text_of(entry.value) or "") for entry in entries(node.get("parts"))),
             text_at(node, "device", diagnostics),
+            context or Os.task_stack_context,
         ),
     )
 

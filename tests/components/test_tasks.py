@@ -13,6 +13,7 @@ from random import Random
 
 import pytest
 
+from microros_gen import compiler
 from microros_gen.application.task_decl import CRITICALITIES, TaskDecl
 from microros_gen.components.tasks.analysis import gaps, task_of
 from microros_gen.components.tasks.plan import TasksPlan, priorities_of
@@ -219,6 +220,7 @@ def test_a_stack_is_at_least_that_of_the_operating_system(tmp_path: Path) -> Non
     manifest = json.loads((rendered(tmp_path, HEAD + NODES + OTHER + text) / "manifest.json").read_text())
     assert manifest["features"]["tasks"]["values"]["tasks"][1] == {
         "name": "b",
+        "entry": "rclc_tasks_run_events",
         "executor": 1,
         "period_us": 0,
         "interval_us": 0,
@@ -228,9 +230,26 @@ def test_a_stack_is_at_least_that_of_the_operating_system(tmp_path: Path) -> Non
         "lock_us": 0,
         "overrun": "skip",
         "stack": 300_008,
+        "stack_auto": False,
         "priority": 3,
         "level": 1,
     }
+
+
+def test_a_stack_that_an_image_decides_is_said_to_be_unknown_before(tmp_path: Path) -> None:
+    text = "tasks: [{name: a, executor: a, stack: auto}, {name: b, executor: b}]\n"
+    warnings = [d.headline() for d in planned(tmp_path, HEAD + NODES + OTHER + text).warnings]
+    assert [w for w in warnings if "MG-7146" in w] == [
+        f"{tmp_path}/microros.yaml:16:39: warning: the stack that the task 'a' needs is not known yet: it has 262144"
+        " bytes. Build the image, then run `microros-gen stacks OUT -o microros.stacks.yaml` [MG-7146]"
+    ]
+    (tmp_path / "microros.stacks.yaml").write_text("a: 300016\n", encoding="utf-8")
+    done = planned(tmp_path, HEAD + NODES + OTHER + text)
+    assert not [d for d in done.warnings if "MG-7146" in d.headline()]
+    part = done.project.runtime.features.of("tasks")
+    assert isinstance(part, TasksPlan)
+    assert part.stacks == "a 300016, b 262144, session 262144 bytes"
+    assert tmp_path / "microros.stacks.yaml" in compiler.read_paths(done)
 
 
 def test_deadlines_that_are_met_are_in_the_report_and_the_manifest(tmp_path: Path) -> None:

@@ -1,19 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Instructions of the jobs of tasks on a Cortex-M4, counted in the emulator, against what the analysis used."""
+"""Instructions and stacks of tasks on a Cortex-M4, as the emulator counts them, against what the tool says of them."""
 
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.platform.find import read_target
-from tests.support.firmware.board import C_FILES, Built, build, need
+from tests.support.firmware.board import C_FILES, Built, board, build, need, target
 from tests.support.firmware.footprint import AGENT_FUNCTIONS, EXIT, INTERRUPTS
 from tests.support.firmware.instructions import trace_regions
+from tests.support.ids import without_id
 
 BOARD = "qemu-mps2-an386"
 TARGET = f"""\
@@ -37,9 +43,9 @@ nodes:
     subscriptions: [{{topic: count, type: std_msgs/msg/Int32, local: only, queue: 8, qos: {{depth: 8}}}}]
     executors: [{{name: fast}}, {{name: slow, handles: [count]}}]
 tasks:
-  - {{name: control, executor: fast, rate: 100 Hz, instructions: {control}}}
-  - {{name: worker, executor: slow, interval: 10 ms, instructions: {worker}}}
-  - {{name: session, session: true, interval: 10 ms, instructions: {session}}}
+  - {{name: control, executor: fast, rate: 100 Hz, stack: auto, instructions: {control}}}
+  - {{name: worker, executor: slow, interval: 10 ms, stack: auto, instructions: {worker}}}
+  - {{name: session, session: true, interval: 10 ms, stack: auto, instructions: {session}}}
 """
 JOBS, ROUNDS = 4, 3
 """Jobs of a task in each of its turns, and turns of each (c/measured_tasks.c): in the order of the application file."""
@@ -89,3 +95,62 @@ def test_no_job_has_more_instructions_than_the_analysis_used(tasked: Built) -> N
             "instructions",
             True,
         )
+
+
+def stacks_of(built: Built, image: Path, *options: str) -> subprocess.CompletedProcess[str]:
+    call = [sys.executable, "-m", "microros_gen", "stacks", "out", "--image", str(image), *options]
+    return subprocess.run(call, cwd=built.out.parent, text=True, capture_output=True, check=False)
+
+
+def rows_of(built: Built, image: Path) -> Mapping[str, Mapping[str, Any]]:
+    found = json.loads(stacks_of(built, image, "--format", "json").stdout)["tasks"]
+    return {row["task"]: row for row in found}
+
+
+@pytest.mark.system
+def test_two_passes_give_each_task_the_stack_that_it_needs(tasked: Built) -> None:
+    home, sizes = tasked.out.parent, tasked.out.parent / "microros.stacks.yaml"
+    first = tasked.link(C_FILES / "measured_tasks.c", home / "first.elf", "-DMEASURED_STACKS")
+    written = stacks_of(tasked, first, "-o", str(sizes))
+    assert (written.returncode, written.stderr) == (0, "")
+    done = build(home, "tasked.yaml", APPLICATION.format(**INSTRUCTIONS))
+    assert (done.returncode, "MG-7146" in done.stderr) == (0, False), done.stderr
+    second = tasked.link(C_FILES / "measured_tasks.c", home / "second.elf", "-DMEASURED_STACKS")
+    rows = rows_of(tasked, second)
+    assert {name: row["has"] for name, row in rows.items()} == yaml.safe_load(sizes.read_text())
+    assert all(row["has"] == row["needs"] and row["open"] == [] for row in rows.values()), rows
+    with board(replace(tasked, target=target(BOARD)), second) as running:
+        running.go_on()
+        running.wait_for(lambda: running.words("stack_report", len(rows) + 1)[-1])
+        peaks = dict(zip(rows, running.words("stack_report", len(rows)), strict=True))
+    for name, row in rows.items():
+        assert row["chain"] // 4 < peaks[name] <= row["chain"] + row["context"] < row["has"], (peaks, rows)
+
+
+@pytest.mark.system
+@pytest.mark.parametrize("size", [1000, 3000])
+def test_a_large_variable_of_a_callback_is_in_the_stack_of_its_task(tasked: Built, size: int) -> None:
+    home = tasked.out.parent
+    (home / "microros.stacks.yaml").write_text("{control: 1600, worker: 1600, session: 1600}\n")
+    assert build(home, "tasked.yaml", APPLICATION.format(**INSTRUCTIONS)).returncode == 0
+    plain = tasked.link(C_FILES / "measured_tasks.c", home / "plain.elf")
+    large = tasked.link(C_FILES / "measured_tasks.c", home / "large.elf", f"-DLARGE_SIZE={size}")
+    before, after = (rows_of(tasked, image) for image in (plain, large))
+    assert size <= after["control"]["chain"] - before["control"]["chain"] <= size + 16
+    assert after["worker"]["chain"] == before["worker"]["chain"]
+    done = stacks_of(tasked, large)
+    assert (done.returncode == 1) == (after["control"]["chain"] + 256 > 1600), done.stderr
+    assert ("the task 'control' may need" in done.stderr) == (done.returncode == 1)
+
+
+@pytest.mark.system
+def test_what_has_no_bound_is_named(tasked: Built) -> None:
+    home = tasked.out.parent
+    image = tasked.link(C_FILES / "measured_tasks.c", home / "recurses.elf", "-DRECURSES")
+    sizes = home / "none.yaml"
+    done = stacks_of(tasked, image, "-o", str(sizes))
+    assert (done.returncode, sizes.exists()) == (1, False)
+    assert without_id(done.stderr).splitlines()[0] == (
+        "microros-gen: error: the stack of the task 'control' has no bound: recurse: recursion."
+        " Write its size instead of auto: `stack: 4 KiB`"
+    )

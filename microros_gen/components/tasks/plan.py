@@ -43,12 +43,16 @@ _WAIT_MOST_US = 1_000_000
 
 @dataclass(frozen=True, kw_only=True)
 class TaskPlan:
-    """A task; times are microseconds, 0: none. `executor` is its position among the declared ones, None: the session.
+    """A task; times are microseconds, 0: none. It begins in the function `entry`.
+
+    `executor` is the position of its executor among the declared ones, None: the session. `stack_auto`: the size of its
+    stack follows from an image.
 
     `priority` is 1 for the highest, `level` 1 for the lowest.
     """
 
     name: str
+    entry: str
     executor: int | None
     period_us: int
     interval_us: int
@@ -58,6 +62,7 @@ class TaskPlan:
     lock_us: int
     overrun: str
     stack: int
+    stack_auto: bool
     priority: int
     level: int
 
@@ -75,15 +80,15 @@ class TaskPlan:
     @property
     def setting_entry(self) -> str:
         """Return its row of rclc_task_settings, as C."""
-        entry = "session" if self.executor is None else "period" if self.period_us else "events"
         stack = f"stack_of_{self.name}"
-        return f'{{"{self.name}", rclc_tasks_run_{entry}, {stack}, {self.stack}u, {self.level}u}}'
+        return f'{{"{self.name}", {self.entry}, {stack}, {self.stack}u, {self.level}u}}'
 
 
 @dataclass(frozen=True, kw_only=True)
 class TasksPlan:
     """The tasks in the order of the application file, that of the session last.
 
+    `stack_context` is what the system puts on each stack, bytes.
     `responses` is the analysis of their deadlines, by priority; empty where it cannot be made, because of `gaps`.
     `margin_us`: time after a deadline from which on the watchdog is not fed; 0: without one.
     """
@@ -91,6 +96,7 @@ class TasksPlan:
     tasks: tuple[TaskPlan, ...]
     stack_macro: str = ""
     stack_headers: tuple[str, ...] = ()
+    stack_context: int = 0
     responses: tuple[Response, ...] = ()
     margin_us: int = 0
     gaps: tuple[str, ...] = ()
@@ -202,10 +208,13 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> TasksPlan:
     priorities = priorities_of(tasks)
     open_gaps = gaps(tasks)
     os = context.target.os
+    _warn_of_stacks(tasks, os.task_stack, diagnostics)
     return TasksPlan(
+        stack_context=os.task_stack_context,
         tasks=tuple(
             TaskPlan(
                 name=task.name,
+                entry=_entry(task),
                 executor=_position(application, task),
                 period_us=task.period_us,
                 interval_us=task.interval_us,
@@ -215,6 +224,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> TasksPlan:
                 lock_us=task.lock_us or task.time_us,
                 overrun=task.overrun,
                 stack=_aligned(max(task.stack or os.task_stack, os.task_stack_least)),
+                stack_auto=task.stack_auto,
                 priority=priority,
                 level=len(tasks) + 1 - priority,
             )
@@ -252,6 +262,20 @@ def _position(application: Application, task: TaskDecl) -> int | None:
 
 def _deadline(task: TaskDecl) -> int:
     return task.deadline_us or task.period_us or task.interval_us
+
+
+def _entry(task: TaskDecl) -> str:
+    kind = "session" if task.is_session else "period" if task.period_us else "events"
+    return f"rclc_tasks_run_{kind}"
+
+
+def _warn_of_stacks(tasks: Iterable[TaskDecl], plain: int, diagnostics: Diagnostics) -> None:
+    """Warn of sizes that are to follow from an image which nobody has measured yet."""
+    for task in tasks:
+        if task.stack_auto and task.stack is None:
+            message = f"the stack that the task '{task.name}' needs is not known yet: it has {plain} bytes"
+            hint = "Build the image, then run `microros-gen stacks OUT -o microros.stacks.yaml`"
+            diagnostics.warning(message, task.stack_span, hint, id="MG-7146")
 
 
 def _aligned(size: int) -> int:

@@ -2,7 +2,8 @@
 /*
  * The jobs of tasks, one after the other in main: what a task calls to rest ends its job, and returns for the next one
  * until there were enough. A mark stands before and after each job; with MEASURED_HOLDS instead before and after the
- * library's lock is held. The agent is in the firmware. The application file is that of test_tasks.py.
+ * library's lock is held, and with MEASURED_STACKS each task has its own stack, whose high-water mark is found. The agent
+ * is in the firmware. The application file is that of test_tasks.py.
  */
 #include "measured.h"
 
@@ -145,8 +146,26 @@ void port_wake(void)
 {
 }
 
+#ifdef RECURSES
+static uint32_t recurse(uint32_t depth_left)
+{
+  volatile uint32_t here = depth_left;
+
+  return depth_left == 0u ? here : recurse(depth_left - 1u) + here;
+}
+#endif
+
 static void on_release(uint8_t task)
 {
+#ifdef RECURSES
+  said.data = (int32_t)recurse(task);
+#endif
+#ifdef LARGE_SIZE
+  volatile uint8_t large[LARGE_SIZE];
+
+  large[0] = task;
+  large[LARGE_SIZE - 1] = large[0];
+#endif
   (void)task;
   ++said.data;
   check(rcl_publish(&publisher, &said, NULL) == RCL_RET_OK);
@@ -158,6 +177,59 @@ static void on_message(const void * message)
   ++heard_count;
 }
 
+#ifdef MEASURED_STACKS
+enum { FILL = 0xa5 };
+
+void call_on(port_task_entry_t entry, uint8_t task, void * top);
+
+/* Calls the entry with the process stack, on which the processor also puts the registers of what an interrupt stops. */
+__asm(
+  ".pushsection .text.call_on, \"ax\"\n"
+  ".global call_on\n"
+  ".type call_on, %function\n"
+  ".thumb_func\n"
+  "call_on:\n"
+  "push {r4, lr}\n"
+  "msr psp, r2\n"
+  "mov r4, r0\n"
+  "mov r0, r1\n"
+  "movs r2, #2\n"
+  "msr control, r2\n"
+  "isb\n"
+  "blx r4\n"
+  "movs r2, #0\n"
+  "msr control, r2\n"
+  "isb\n"
+  "pop {r4, pc}\n"
+  ".size call_on, . - call_on\n"
+  ".popsection\n");
+
+uint32_t stack_report[MICROROS_TASKS + 1]; /* high-water marks; then whether they are complete */
+
+static void enter(uint8_t task)
+{
+  const port_task_t * setting = &rclc_task_settings[task];
+  volatile uint8_t * stack = setting->stack;
+  uint32_t unused = 0;
+
+  for (uint32_t i = 0; i < setting->stack_size; ++i) {
+    stack[i] = (uint8_t)FILL;
+  }
+  call_on(setting->entry, task, (uint8_t *)setting->stack + setting->stack_size);
+  while (unused < setting->stack_size && stack[unused] == (uint8_t)FILL) {
+    ++unused;
+  }
+  if (stack_report[task] < setting->stack_size - unused) {
+    stack_report[task] = setting->stack_size - unused;
+  }
+}
+#else
+static void enter(uint8_t task)
+{
+  rclc_task_settings[task].entry(task);
+}
+#endif
+
 /* Ends where the task has had its jobs. */
 static void run(uint8_t task)
 {
@@ -165,7 +237,7 @@ static void run(uint8_t task)
   rests = 0;
   self = task;
   is_measured = true;
-  rclc_task_settings[task].entry(task);
+  enter(task);
   is_measured = false;
   self = PORT_TASK_NONE;
 }
@@ -196,8 +268,12 @@ int main(void)
     run(RCLC_TASK_SESSION);
   }
   check(heard_count == (uint32_t)ROUNDS * (uint32_t)JOBS);
+#ifdef MEASURED_STACKS
+  stack_report[MICROROS_TASKS] = 1;
   for (;;) {
-    mark(); /* the end of what is measured */
-    finish();
   }
+#else
+  mark(); /* the end of what is measured */
+  finish();
+#endif
 }
