@@ -183,26 +183,25 @@ enum { FILL = 0xa5 };
 void call_on(port_task_entry_t entry, uint8_t task, void * top);
 
 /* Calls the entry with the process stack, on which the processor also puts the registers of what an interrupt stops. */
-__asm(
-  ".pushsection .text.call_on, \"ax\"\n"
-  ".global call_on\n"
-  ".type call_on, %function\n"
-  ".thumb_func\n"
-  "call_on:\n"
-  "push {r4, lr}\n"
-  "msr psp, r2\n"
-  "mov r4, r0\n"
-  "mov r0, r1\n"
-  "movs r2, #2\n"
-  "msr control, r2\n"
-  "isb\n"
-  "blx r4\n"
-  "movs r2, #0\n"
-  "msr control, r2\n"
-  "isb\n"
-  "pop {r4, pc}\n"
-  ".size call_on, . - call_on\n"
-  ".popsection\n");
+__asm(".pushsection .text.call_on, \"ax\"\n"
+      ".global call_on\n"
+      ".type call_on, %function\n"
+      ".thumb_func\n"
+      "call_on:\n"
+      "push {r4, lr}\n"
+      "msr psp, r2\n"
+      "mov r4, r0\n"
+      "mov r0, r1\n"
+      "movs r2, #2\n"
+      "msr control, r2\n"
+      "isb\n"
+      "blx r4\n"
+      "movs r2, #0\n"
+      "msr control, r2\n"
+      "isb\n"
+      "pop {r4, pc}\n"
+      ".size call_on, . - call_on\n"
+      ".popsection\n");
 
 uint32_t stack_report[MICROROS_TASKS + 1]; /* high-water marks; then whether they are complete */
 
@@ -259,7 +258,8 @@ int main(void)
     check(rclc_executor_init(&executors[i], &support.context, 1, &allocator) == RCL_RET_OK);
   }
   check(
-    rclc_executor_add_subscription(&executors[1], &subscription, &heard, on_message, ON_NEW_DATA) == RCL_RET_OK);
+    rclc_executor_add_subscription(&executors[1], &subscription, &heard, on_message, ON_NEW_DATA) ==
+    RCL_RET_OK);
   check(rclc_task_set_executor(RCLC_TASK_CONTROL, &executors[0], on_release) == RCL_RET_OK);
   check(rclc_task_set_executor(RCLC_TASK_WORKER, &executors[1], NULL) == RCL_RET_OK);
   for (uint32_t i = 0; i < (uint32_t)ROUNDS; ++i) {
