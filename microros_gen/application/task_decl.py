@@ -25,9 +25,9 @@ class TaskDecl:
     """A task, which runs `executor` (`node/name`), or the session where that is None. Times are microseconds.
 
     `node` is the position of the executor's node. `period_us` 0: its handles release it, at most once in
-    `interval_us`. `instructions` is the longest run where no time is said, `lock_us` the longest that it holds the
-    library's lock. `deadline_us`, `time_us`, `instructions`, `lock_us` and `priority` 0, `stack` None and `criticality`
-    empty: not said. `priority` 1 is the highest. `stack_auto`: an image says how large the stack is.
+    `interval_us`. `instructions` is the longest run where no time is said, `lock_us` (or `lock_instructions`) the
+    longest that it holds the library's lock. Numbers that are 0, `stack` None and `criticality` empty: not said.
+    `priority` 1 is the highest. `stack_auto`: an image says how large the stack is.
     """
 
     name: str
@@ -40,6 +40,7 @@ class TaskDecl:
     time_us: int = 0
     instructions: int = 0
     lock_us: int = 0
+    lock_instructions: int = 0
     overrun: str = "skip"
     stack: int | None = None
     stack_auto: bool = False

@@ -71,6 +71,7 @@ def _task(item: YamlNode, nodes: Sequence[NodeDecl], diagnostics: Diagnostics) -
         time_us=times["time"],
         instructions=int_of(child(item, "instructions")) or 0,
         lock_us=times["lock"],
+        lock_instructions=int_of(child(item, "lock_instructions")) or 0,
         overrun=text_of(child(item, "overrun")) or TaskDecl.overrun,
         stack=size_of(child(item, "stack")),
         stack_auto=text_of(child(item, "stack")) == AUTO,
@@ -159,10 +160,21 @@ def _check_times(item: YamlNode, task: TaskDecl, diagnostics: Diagnostics) -> No
         message = f"the task '{task.name}' has time and instructions"
         hint = "Keep one: the time of a run follows from its instructions"
         diagnostics.error(message, span_of(child(item, "instructions")), hint, id="MG-3290")
-    if task.lock_us and not (task.time_us or task.instructions):
-        message = f"'lock' of the task '{task.name}' has no effect without 'time', its longest execution time"
-        diagnostics.error(message, span_of(child(item, "lock")), "Add `time`, or remove it", id="MG-3235")
-    elif task.time_us and task.lock_us > task.time_us:
+    _check_lock(item, task, diagnostics)
+
+
+def _check_lock(item: YamlNode, task: TaskDecl, diagnostics: Diagnostics) -> None:
+    for key, number in (("lock", task.lock_us), ("lock_instructions", task.lock_instructions)):
+        if number and not (task.time_us or task.instructions):
+            message = (
+                f"'{key}' of the task '{task.name}' has no effect without 'time', its longest execution time"
+            )
+            diagnostics.error(message, span_of(child(item, key)), "Add `time`, or remove it", id="MG-3235")
+    if task.lock_us and task.lock_instructions:
+        message = f"the task '{task.name}' has lock and lock_instructions"
+        hint = "Keep one: the time follows from the instructions"
+        diagnostics.error(message, span_of(child(item, "lock_instructions")), hint, id="MG-3293")
+    if task.time_us and task.lock_us > task.time_us:
         message = f"the task '{task.name}' holds the lock for {task.lock_us} us, longer than it runs"
         hint = f"Write lock: {task.time_us} us or less"
         diagnostics.error(message, span_of(child(item, "lock")), hint, id="MG-3236")

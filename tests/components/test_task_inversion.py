@@ -46,6 +46,7 @@ def test_a_lock_with_inheritance_bounds_how_long_a_task_is_blocked(tmp_path: Pat
     assert isinstance(part, TasksPlan)
     high = next(r for r in part.responses if r.task.name == "high")
     assert (high.blocking_us, high.blockers[0].task, high.response_us) == (50_000, "low", 60_000)
+    assert high.response_us is not None
     program = program_of(rendered(tmp_path, APPLICATION), "task_inversion.c", more=("-pthread",))
     assert waited_us(program, "plain") > SPIN_US > high.response_us
     assert waited_us(program, "inherits") <= high.response_us

@@ -309,6 +309,8 @@ def test_times_follow_from_instructions_and_the_target(tmp_path: Path) -> None:
         "worker": (2000, "time"),
         "log": (3000, "time"),
     }
+    part = counted(tmp_path, text.replace("lock: 40 us", "lock_instructions: 301"))
+    assert [row["b"] for row in part.schedule] == [60, 31, 30, 0]
     slower = COUNTED.replace("2.5", "25")
     with pytest.raises(UserError, match="1991 instructions of the task 'control' take 1991 us"):
         counted(tmp_path, text, slower)
@@ -332,6 +334,11 @@ def test_times_follow_from_instructions_and_the_target(tmp_path: Path) -> None:
             COUNTED,
             "instructions: 1000, lock: 101 us",
             "the task 'control' holds the lock for 101 us, longer than it runs. Write lock: 100 us or less",
+        ),
+        (
+            COUNTED,
+            "time: 100 us, lock_instructions: 1001",
+            "the task 'control' holds the lock for 101 us, longer than it runs. Write lock_instructions: 1000 or less",
         ),
     ],
 )
@@ -408,6 +415,14 @@ def test_the_analysis_has_the_priorities_of_the_generated_tasks() -> None:
         (
             "{name: t, executor: a, period: 1 ms, time: 1 us, instructions: 9}",
             "the task 't' has time and instructions",
+        ),
+        (
+            "{name: t, executor: a, period: 1 ms, time: 1 us, lock: 1 us, lock_instructions: 9}",
+            "the task 't' has lock and lock_instructions",
+        ),
+        (
+            "{name: t, executor: a, lock_instructions: 9}",
+            "'lock_instructions' of the task 't' has no effect without",
         ),
         ("{name: t, executor: a, lock: 2 ms}", "'lock' of the task 't' has no effect without 'time'"),
         (

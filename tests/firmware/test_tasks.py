@@ -30,6 +30,8 @@ provides: [tasks, lock, wait, wake, udp]
 """
 INSTRUCTIONS = {"control": 1000, "worker": 760, "session": 660}
 """Bounds of the jobs, as a user would write them: measured here, and rounded up."""
+HOLDS = {"control_lock": 590, "worker_lock": 90, "session_lock": 330}
+"""For how many instructions each holds the library's lock at most."""
 APPLICATION = """\
 version: 1
 profiles: [pure_sender, pure_reader]
@@ -43,9 +45,12 @@ nodes:
     subscriptions: [{{topic: count, type: std_msgs/msg/Int32, local: only, queue: 8, qos: {{depth: 8}}}}]
     executors: [{{name: fast}}, {{name: slow, handles: [count]}}]
 tasks:
-  - {{name: control, executor: fast, rate: 100 Hz, stack: auto, instructions: {control}}}
-  - {{name: worker, executor: slow, interval: 10 ms, stack: auto, instructions: {worker}}}
-  - {{name: session, session: true, interval: 10 ms, stack: auto, instructions: {session}}}
+  - {{name: control, executor: fast, rate: 100 Hz, stack: auto,
+     instructions: {control}, lock_instructions: {control_lock}}}
+  - {{name: worker, executor: slow, interval: 10 ms, stack: auto,
+     instructions: {worker}, lock_instructions: {worker_lock}}}
+  - {{name: session, session: true, interval: 10 ms, stack: auto,
+     instructions: {session}, lock_instructions: {session_lock}}}
 """
 JOBS, ROUNDS = 4, 3
 """Jobs of a task in each of its turns, and turns of each (c/measured_tasks.c): in the order of the application file."""
@@ -56,7 +61,7 @@ def tasked(tmp_path_factory: pytest.TempPathFactory) -> Built:
     need(BOARD, emulator=True)
     home = tmp_path_factory.mktemp("tasked")
     (home / "tasked.yaml").write_text(TARGET)
-    done = build(home, "tasked.yaml", APPLICATION.format(**INSTRUCTIONS))
+    done = build(home, "tasked.yaml", APPLICATION.format(**INSTRUCTIONS, **HOLDS))
     assert done.returncode == 0, done.stderr
     found = read_target("tasked.yaml", home, None, Diagnostics())
     assert found is not None
@@ -113,7 +118,7 @@ def test_two_passes_give_each_task_the_stack_that_it_needs(tasked: Built) -> Non
     first = tasked.link(C_FILES / "measured_tasks.c", home / "first.elf", "-DMEASURED_STACKS")
     written = stacks_of(tasked, first, "-o", str(sizes))
     assert (written.returncode, written.stderr) == (0, "")
-    done = build(home, "tasked.yaml", APPLICATION.format(**INSTRUCTIONS))
+    done = build(home, "tasked.yaml", APPLICATION.format(**INSTRUCTIONS, **HOLDS))
     assert (done.returncode, "MG-7146" in done.stderr) == (0, False), done.stderr
     second = tasked.link(C_FILES / "measured_tasks.c", home / "second.elf", "-DMEASURED_STACKS")
     rows = rows_of(tasked, second)
@@ -132,7 +137,7 @@ def test_two_passes_give_each_task_the_stack_that_it_needs(tasked: Built) -> Non
 def test_a_large_variable_of_a_callback_is_in_the_stack_of_its_task(tasked: Built, size: int) -> None:
     home = tasked.out.parent
     (home / "microros.stacks.yaml").write_text("{control: 1600, worker: 1600, session: 1600}\n")
-    assert build(home, "tasked.yaml", APPLICATION.format(**INSTRUCTIONS)).returncode == 0
+    assert build(home, "tasked.yaml", APPLICATION.format(**INSTRUCTIONS, **HOLDS)).returncode == 0
     plain = tasked.link(C_FILES / "measured_tasks.c", home / "plain.elf")
     large = tasked.link(C_FILES / "measured_tasks.c", home / "large.elf", f"-DLARGE_SIZE={size}")
     before, after = (rows_of(tasked, image) for image in (plain, large))
@@ -154,3 +159,19 @@ def test_what_has_no_bound_is_named(tasked: Built) -> None:
         "microros-gen: error: the stack of the task 'control' has no bound: recurse: recursion."
         " Write its size instead of auto: `stack: 4 KiB`"
     )
+
+
+@pytest.mark.system
+def test_no_task_holds_the_lock_for_more_instructions_than_the_analysis_used(tasked: Built) -> None:
+    rate, rows = tasked.target.instructions_per_us, schedule_of(tasked)
+    assert rate is not None
+    longest = {}
+    for name in INSTRUCTIONS:
+        regions = counted(tasked, f"-DMEASURED_HOLDS=RCLC_TASK_{name.upper()}")
+        longest[name] = max(regions[0::2])  # between two of them the task does not hold it
+    for name, most in longest.items():
+        assert 0.9 * HOLDS[f"{name}_lock"] < most <= HOLDS[f"{name}_lock"], longest
+    chain = {blocker["task"]: blocker["time"] for row in rows.values() for blocker in row["blocked_by"]}
+    assert {"worker", "session"} & set(chain)
+    for name, time_us in chain.items():
+        assert longest[name] <= time_us * rate

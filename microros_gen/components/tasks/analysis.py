@@ -25,41 +25,48 @@ def is_placed_by_rule(task: TaskDecl) -> bool:
 
 
 def timed(tasks: Sequence[TaskDecl], target: Target, diagnostics: Diagnostics) -> tuple[TaskDecl, ...]:
-    """Return the tasks with the times of those that have a number of instructions instead; 0 after an error.
+    """Return the tasks with the times of those that have a number of instructions instead, unless that is an error.
 
     A target that does not say how long an instruction takes, a run that is longer than its deadline, and a lock that is
     held for longer than that, are errors.
     """
     return tuple(
-        task if not task.instructions else replace(task, time_us=_time_of(task, target, diagnostics))
+        _timed(task, target, diagnostics) if task.instructions or task.lock_instructions else task
         for task in tasks
     )
 
 
-def _time_of(task: TaskDecl, target: Target, diagnostics: Diagnostics) -> int:
+def _timed(task: TaskDecl, target: Target, diagnostics: Diagnostics) -> TaskDecl:
     rate = target.instructions_per_us
     if rate is None:
         message = (
             f"the target {target.name} does not say how long an instruction of the task '{task.name}' takes"
         )
-        hint = (
-            "Write `time: 1 ms` instead, or `cycles_per_instruction: …` and `cpu_hz: …` into the target file"
-        )
+        hint = "Write `time: 1 ms` and the like instead, or `cycles_per_instruction: …` into the target file"
         diagnostics.error(message, task.span, hint, id="MG-7143")
-        return 0
-    time_us = time_of_instructions(task.instructions, rate)
-    deadline_us = task.deadline_us or task.period_us or task.interval_us or LONGEST_US
-    if time_us > deadline_us:
+        return task
+    time_us = time_of_instructions(task.instructions, rate) if task.instructions else task.time_us
+    lock_us = time_of_instructions(task.lock_instructions, rate) if task.lock_instructions else task.lock_us
+    if task.instructions and time_us > _deadline_us(task):
         of = f"{task.instructions} instructions of the task '{task.name}'"
-        message = f"{of} take {time_us} us on {target.name}, longer than its deadline of {deadline_us} us"
-        hint = f"Write instructions: {floor(deadline_us * rate)} or less, or a later deadline"
+        message = (
+            f"{of} take {time_us} us on {target.name}, longer than its deadline of {_deadline_us(task)} us"
+        )
+        hint = f"Write instructions: {floor(_deadline_us(task) * rate)} or less, or a later deadline"
         diagnostics.error(message, task.span, hint, id="MG-7144")
-        return 0
-    if task.lock_us > time_us:
-        message = f"the task '{task.name}' holds the lock for {task.lock_us} us, longer than it runs"
-        diagnostics.error(message, task.span, f"Write lock: {time_us} us or less", id="MG-7145")
-        return 0
-    return time_us
+        return task
+    if lock_us > time_us:
+        message = f"the task '{task.name}' holds the lock for {lock_us} us, longer than it runs"
+        most = (
+            f"lock_instructions: {floor(time_us * rate)}" if task.lock_instructions else f"lock: {time_us} us"
+        )
+        diagnostics.error(message, task.span, f"Write {most} or less", id="MG-7145")
+        return task
+    return replace(task, time_us=time_us, lock_us=lock_us)
+
+
+def _deadline_us(task: TaskDecl) -> int:
+    return task.deadline_us or task.period_us or task.interval_us or LONGEST_US
 
 
 def gaps(tasks: Sequence[TaskDecl]) -> tuple[str, ...]:

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The jobs of tasks, one after the other in main: what a task calls to rest ends its job, and returns for the next one
- * until there were enough. A mark stands before and after each job; with MEASURED_HOLDS instead before and after the
- * library's lock is held, and with MEASURED_STACKS each task has its own stack, whose high-water mark is found. The agent
+ * until there were enough. A mark stands before and after each job; with MEASURED_HOLDS=TASK instead before and
+ * after that task holds the library's lock, and with MEASURED_STACKS each task has its own stack, whose high-water mark is found. The agent
  * is in the firmware. The application file is that of test_tasks.py.
  */
 #include "measured.h"
@@ -235,7 +235,9 @@ static void run(uint8_t task)
   check(rclc_tasks_start() == RCL_RET_OK);
   rests = 0;
   self = task;
-  is_measured = true;
+#ifdef MEASURED_HOLDS
+  is_measured = task == (uint8_t)MEASURED_HOLDS;
+#endif
   enter(task);
   is_measured = false;
   self = PORT_TASK_NONE;

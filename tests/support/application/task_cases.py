@@ -110,6 +110,14 @@ TASK_CASES = {
         "3:57",
         "'tasks[0].instructions' must be a number of instructions, 1 to 1000000000000; it is the text '5 ms'",
     ),
+    "tasks[].lock_instructions": KeyCase(
+        _in_task("rate: 1 Hz, time: 9 ms, lock_instructions: 50"),
+        _task(lambda t: (t.lock_instructions, t.lock_us)),
+        (50, 0),
+        _in_task("rate: 1 Hz, time: 9 ms, lock_instructions: 0"),
+        "3:74",
+        "'tasks[0].lock_instructions' must be a number of instructions, 1 to 1000000000000; it is 0",
+    ),
     "tasks[].criticality": KeyCase(
         _in_task("criticality: low"),
         _task(lambda t: t.criticality),
