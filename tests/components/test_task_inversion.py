@@ -50,3 +50,6 @@ def test_a_lock_with_inheritance_bounds_how_long_a_task_is_blocked(tmp_path: Pat
     program = program_of(rendered(tmp_path, APPLICATION), "task_inversion.c", more=("-pthread",))
     assert waited_us(program, "plain") > SPIN_US > high.response_us
     assert waited_us(program, "inherits") <= high.response_us
+    assert waited_us(program, "raised") <= high.task.time_us, (
+        "no task above the one with the lock ran meanwhile"
+    )

@@ -64,6 +64,7 @@ SETTINGS = (
     "configUSE_TIMERS",
     "INCLUDE_eTaskGetState",
     "INCLUDE_vTaskDelete",
+    "INCLUDE_vTaskPrioritySet",
     "INCLUDE_vTaskSuspend",
     "INCLUDE_xTaskDelayUntil",
     "INCLUDE_xTaskGetCurrentTaskHandle",

@@ -106,6 +106,13 @@ bool port_task_has_priorities(void)
   return true;
 }
 
+bool port_task_set_priority(uint8_t task, uint8_t priority)
+{
+  (void)task;
+  (void)priority;
+  return true;
+}
+
 void port_task_set(uint8_t task)
 {
   (void)task;

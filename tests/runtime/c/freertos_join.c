@@ -17,6 +17,7 @@ enum { TICKS = 3 };
 static jmp_buf suspension;
 static uint32_t delays;
 static bool is_deleted;
+static bool is_changed;
 
 TaskHandle_t xTaskCreateStatic(
   TaskFunction_t function, const char * name, configSTACK_DEPTH_TYPE depth, void * argument,
@@ -33,6 +34,12 @@ void vTaskSuspend(TaskHandle_t task)
 {
   CHECK(task == NULL);
   longjmp(suspension, 1);
+}
+
+void vTaskPrioritySet(TaskHandle_t task, UBaseType_t priority)
+{
+  CHECK(task != NULL && priority == tskIDLE_PRIORITY + 2u);
+  is_changed = true;
 }
 
 void vTaskDelay(TickType_t ticks)
@@ -124,6 +131,7 @@ int main(void)
   static const port_task_t setting = {"task", entry, stack, sizeof(stack), 1};
 
   CHECK(port_task_create(0, &setting));
+  CHECK(port_task_set_priority(0, 2) && is_changed);
   port_task_join(0);
   CHECK(is_deleted);
   return 0;

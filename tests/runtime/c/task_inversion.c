@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Priority inversion: task_inversion inherits|plain. The low task holds the library's lock; the high one publishes and so
- * waits for it; the middle one takes the processor, the only one of the program. Prints how long the publish took. With
- * `plain` the lock of the port has no priority inheritance, and the high task waits for the middle one as well. Status 77:
- * the process may not use priorities. The application file is that of test_task_inversion.py.
+ * Priority inversion: task_inversion inherits|plain|raised. The low task holds the library's lock; the high one publishes
+ * and so waits for it; the middle one takes the processor, the only one of the program. Prints how long the publish took.
+ * With `plain` the lock of the port has no priority inheritance, and the high task waits for the middle one as well; with
+ * `raised` it has none, either, but the low task gives itself the highest priority before. Status 77: the process may not
+ * use priorities. The application file is that of test_task_inversion.py.
  */
 #define _GNU_SOURCE
 #include "unit.h"
@@ -28,6 +29,7 @@ enum { EXECUTORS = 3, SKIPPED = 77, HOLD_US = 15000, SPIN_US = 250000, US_PER_S 
 typedef int (*set_protocol_t)(pthread_mutexattr_t * kind, int protocol);
 
 static bool is_plain;
+static bool is_raised;
 static rcl_publisher_t publisher;
 static sem_t high_may;
 static sem_t middle_may;
@@ -90,7 +92,9 @@ static void on_middle(uint8_t task)
 /* The high task runs at once, up to the lock; the middle one as soon as no task above it does. */
 static void on_low(uint8_t task)
 {
-  (void)task;
+  if (is_raised) {
+    CHECK(rclc_task_set_priority(task, 1) == RCL_RET_OK);
+  }
   port_lock();
   CHECK(sem_post(&high_may) == 0);
   CHECK(sem_post(&middle_may) == 0);
@@ -124,7 +128,8 @@ int main(int count, char * arguments[])
   rclc_executor_t executors[EXECUTORS];
 
   CHECK(count == 2);
-  is_plain = strcmp(arguments[1], "plain") == 0;
+  is_raised = strcmp(arguments[1], "raised") == 0;
+  is_plain = is_raised || strcmp(arguments[1], "plain") == 0;
   use_one_processor();
   CHECK(
     sem_init(&high_may, 0, 0) == 0 && sem_init(&middle_may, 0, 0) == 0 && sem_init(&all_is_done, 0, 0) == 0);

@@ -17,7 +17,7 @@
 
 #include <string.h>
 
-enum { PERIOD = 1000, RUNS = 12, LONG_RUN = 3, LONG = 2500, SHORT = 100 };
+enum { PERIOD = 1000, RUNS = 12, LONG_RUN = 3, LONG = 2500, SHORT = 100, REFUSED_LEVEL = 2 };
 
 static const uint32_t start = UINT32_MAX - 2500u;
 
@@ -31,6 +31,8 @@ static uint32_t made;
 static bool stops_in_sleep;
 static uint32_t waits;
 static bool is_joining;
+static uint8_t changed_task;
+static uint8_t changed_level;
 
 bool port_task_create(uint8_t task, const port_task_t * setting)
 {
@@ -55,6 +57,13 @@ uint8_t port_task_self(void)
 bool port_task_has_priorities(void)
 {
   return false;
+}
+
+bool port_task_set_priority(uint8_t task, uint8_t priority)
+{
+  changed_task = task;
+  changed_level = priority;
+  return priority != (uint8_t)REFUSED_LEVEL;
 }
 
 void port_task_set(uint8_t task)
@@ -169,6 +178,23 @@ int main(void)
   CHECK(rclc_task_set_overrun(RCLC_TASK_SKIPS, on_overrun) == RCL_RET_INVALID_ARGUMENT);
   CHECK(rclc_task_set_overrun(RCLC_TASK_TELLS, on_overrun) == RCL_RET_OK);
   CHECK(rclc_tasks_stop() == RCL_RET_ERROR);
+
+  /* 1 is the highest for the application, and the lowest for the port. */
+  CHECK(
+    rclc_task_set_priority(RCLC_TASK_TELLS, 1) == RCL_RET_ERROR && changed_level == 0u); /* they do not run */
+  made = 0;
+  CHECK(rclc_tasks_start() == RCL_RET_OK);
+  CHECK(rclc_task_set_priority(RCLC_TASK_TELLS, 1) == RCL_RET_OK);
+  CHECK(changed_task == RCLC_TASK_TELLS && changed_level == (uint8_t)MICROROS_TASKS);
+  CHECK(rclc_task_set_priority(RCLC_TASK_SESSION, MICROROS_TASKS) == RCL_RET_OK);
+  CHECK(changed_task == RCLC_TASK_SESSION && changed_level == 1u);
+  CHECK(
+    rclc_task_set_priority(RCLC_TASK_SKIPS, MICROROS_TASKS - 1) == RCL_RET_ERROR); /* refused by the system */
+  CHECK(rclc_task_set_priority(RCLC_TASK_SKIPS, 0) == RCL_RET_INVALID_ARGUMENT);
+  CHECK(rclc_task_set_priority(RCLC_TASK_SKIPS, MICROROS_TASKS + 1) == RCL_RET_INVALID_ARGUMENT);
+  CHECK(rclc_task_set_priority(MICROROS_TASKS, 1) == RCL_RET_INVALID_ARGUMENT);
+  CHECK(rclc_tasks_stop() == RCL_RET_OK);
+  CHECK(rclc_task_set_priority(RCLC_TASK_TELLS, 1) == RCL_RET_ERROR);
 
   /* Run 3 takes from 3000 to 5500: the releases at 4000 and 5000 are left out. */
   counters = run(RCLC_TASK_SKIPS);

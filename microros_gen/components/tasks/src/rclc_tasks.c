@@ -103,6 +103,18 @@ static void tasks_end(uint8_t count)
   }
 }
 
+/* The task may have a higher priority than the caller, so it must not run before it counts as made. */
+static bool task_make(uint8_t task)
+{
+  bool is_made;
+
+  microros_lock();
+  is_made = port_task_create(task, &rclc_task_settings[task]);
+  rclc_task_states[task].is_made = is_made;
+  microros_unlock();
+  return is_made;
+}
+
 rcl_ret_t rclc_tasks_start(void)
 {
   if (rclc_tasks_continue()) {
@@ -125,13 +137,10 @@ rcl_ret_t rclc_tasks_start(void)
   rmw_tasks_set_running(true);
   microros_unlock();
   for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS; ++task) {
-    if (!port_task_create(task, &rclc_task_settings[task])) {
+    if (!task_make(task)) {
       tasks_end(task);
       return tasks_refuse("the system makes no task");
     }
-    microros_lock();
-    rclc_task_states[task].is_made = true;
-    microros_unlock();
   }
   return RCL_RET_OK;
 }

@@ -16,6 +16,7 @@
 #define configMAX_PRIORITIES (5) /* as in most configurations: a constant of the preprocessor */
 #define INCLUDE_vTaskDelay 1
 #define INCLUDE_vTaskDelete 1
+#define INCLUDE_vTaskPrioritySet 1
 #define INCLUDE_vTaskSuspend 1
 #define INCLUDE_xTaskDelayUntil 1
 #define INCLUDE_xTaskGetCurrentTaskHandle 1

@@ -30,6 +30,7 @@ eTaskState eTaskGetState(TaskHandle_t task);
 #endif
 UBaseType_t uxTaskGetStackHighWaterMark(TaskHandle_t task);
 void vTaskDelete(TaskHandle_t task);
+void vTaskPrioritySet(TaskHandle_t task, UBaseType_t priority);
 void vTaskSuspend(TaskHandle_t task);
 
 #define taskENTER_CRITICAL() kernel_critical(1)

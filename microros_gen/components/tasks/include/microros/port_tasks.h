@@ -27,7 +27,8 @@ typedef struct port_task_t {
 } port_task_t;
 
 /* Makes the task and its event, and starts it. A task that was joined can be made again. Returns false if the system
- * refuses. Another task is never in a function of this header for the same task meanwhile, here and in port_task_join. */
+ * refuses. The caller holds the library's lock, which a task that runs at once may wait for. Another task is never in a
+ * function of this header for the same task meanwhile, here and in port_task_join. */
 bool port_task_create(uint8_t task, const port_task_t * setting);
 
 /* Waits until the entry of a task that was made has returned, and releases what the system has of it. */
@@ -38,6 +39,10 @@ uint8_t port_task_self(void);
 
 /* Returns whether the system keeps to the priorities of the tasks that were made. */
 bool port_task_has_priorities(void);
+
+/* Gives a task that was made, and is not joined yet, another priority: 1 is the lowest, MICROROS_TASKS the highest. Returns
+ * false if the system keeps to no priorities. From any task. */
+bool port_task_set_priority(uint8_t task, uint8_t priority);
 
 /* Sets the event of a task: it ends the wait in progress, or the next one. From any task. */
 void port_task_set(uint8_t task);

@@ -14,6 +14,9 @@
 #if !defined(INCLUDE_vTaskDelete) || INCLUDE_vTaskDelete != 1
 #error "FreeRTOSConfig.h: set INCLUDE_vTaskDelete to 1"
 #endif
+#if !defined(INCLUDE_vTaskPrioritySet) || INCLUDE_vTaskPrioritySet != 1
+#error "FreeRTOSConfig.h: set INCLUDE_vTaskPrioritySet to 1"
+#endif
 #if !defined(INCLUDE_vTaskSuspend) || INCLUDE_vTaskSuspend != 1
 #error "FreeRTOSConfig.h: set INCLUDE_vTaskSuspend to 1"
 #endif
@@ -119,6 +122,12 @@ uint8_t port_task_self(void)
 
 bool port_task_has_priorities(void)
 {
+  return true;
+}
+
+bool port_task_set_priority(uint8_t task, uint8_t priority)
+{
+  vTaskPrioritySet(kernel_tasks[task].handle, (UBaseType_t)tskIDLE_PRIORITY + priority);
   return true;
 }
 

@@ -73,11 +73,18 @@ static bool thread_make(posix_task_t * place, const pthread_attr_t * kind)
   return pthread_create(&place->thread, kind, task_begin, place) == 0;
 }
 
+static struct sched_param priority_of(uint8_t priority)
+{
+  const struct sched_param found = {.sched_priority = port_posix_task_priority(priority)};
+
+  return found;
+}
+
 /* First with the priority, then without: only the attempt tells whether the process may. */
 static bool thread_start(posix_task_t * place)
 {
   const port_task_t * setting = place->setting;
-  struct sched_param priority = {.sched_priority = port_posix_task_priority(setting->priority)};
+  const struct sched_param priority = priority_of(setting->priority);
   pthread_attr_t kind;
   bool is_made = false;
 
@@ -128,6 +135,14 @@ uint8_t port_task_self(void)
 bool port_task_has_priorities(void)
 {
   return !is_plain;
+}
+
+/* Without the right to use priorities the system refuses. */
+bool port_task_set_priority(uint8_t task, uint8_t priority)
+{
+  const struct sched_param wanted = priority_of(priority);
+
+  return pthread_setschedparam(posix_tasks[task].thread, SCHED_FIFO, &wanted) == 0;
 }
 
 void port_task_set(uint8_t task)
