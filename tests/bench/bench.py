@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """`make bench`: generate and build, encode and decode besides Fast CDR, instructions, parameters, life cycle, flash of
-types, firmware, whole images, the client, links of boards, the agent, the agent under attack.
+types, firmware, whole images, the client, links of boards, tasks, the agent, the agent under attack.
 
 Times depend on the machine; so each stands besides a peer that ran in the same minutes. Instruction counts come
 from callgrind or QEMU and repeat exactly with one compiler.
@@ -27,6 +27,7 @@ from tests.bench.lifecycle import bench_lifecycle
 from tests.bench.local import bench_local
 from tests.bench.parameters import bench_parameters
 from tests.bench.peer import bench_peer
+from tests.bench.tasks import bench_tasks
 from tests.bench.type_flash import bench_type_flash
 
 PARTS = (
@@ -42,6 +43,7 @@ PARTS = (
     "images",
     "client",
     "peer",
+    "tasks",
     "agent",
     "attacks",
 )
@@ -85,6 +87,8 @@ def main() -> int:
             bench_client(work / "client")
         if "peer" in options.parts:
             bench_peer(work / "peer")
+        if "tasks" in options.parts:
+            bench_tasks(work / "tasks")
         if "agent" in options.parts:
             bench_agent(work / "agent", Target(*options.agent) if options.agent else None)
         if "attacks" in options.parts:
