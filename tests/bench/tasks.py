@@ -40,7 +40,7 @@ def bench_tasks(work: Path) -> None:
     work.mkdir()
     programs = {name: _program(work, name, text) for name, text in APPLICATIONS.items()}
     print(
-        "tasks: deviation of the time between two runs from 1 ms, microseconds; reliable messages beside them"
+        "tasks: deviation of the time between two runs from 1 ms, microseconds; messages of a full reliable stream"
     )
     print("                50 %   99 %    most   messages/s  priorities")
     for _ in range(ROUNDS):
