@@ -26,6 +26,12 @@ static const uint64_t ns_per_us = 1000;
 
 static kernel_task_t kernel_tasks[MICROROS_TASKS];
 
+/* The tasks have the lowest of the preemptive priorities; a smaller number is a higher one. */
+static int priority_of(uint8_t priority)
+{
+  return (PORT_ZEPHYR_LOWEST_PRIORITY) + 1 - (int)priority;
+}
+
 static void task_begin(void * place, void * task, void * unused)
 {
   const kernel_task_t * kernel_task = (const kernel_task_t *)place;
@@ -44,7 +50,7 @@ bool port_task_create(uint8_t task, const port_task_t * setting)
   place->setting = setting;
   thread = k_thread_create(
     &place->thread, (k_thread_stack_t *)setting->stack, setting->stack_size, task_begin, place,
-    (void *)(uintptr_t)task, NULL, (PORT_ZEPHYR_LOWEST_PRIORITY) + 1 - (int)setting->priority, K_FP_REGS,
+    (void *)(uintptr_t)task, NULL, priority_of(setting->priority), K_FP_REGS,
     K_NO_WAIT);
   (void)k_thread_name_set(thread, setting->name); /* without CONFIG_THREAD_NAME it has none */
   return true;
@@ -69,6 +75,12 @@ uint8_t port_task_self(void)
 
 bool port_task_has_priorities(void)
 {
+  return true;
+}
+
+bool port_task_set_priority(uint8_t task, uint8_t priority)
+{
+  k_thread_priority_set(&kernel_tasks[task].thread, priority_of(priority));
   return true;
 }
 

@@ -106,6 +106,7 @@ typedef void (*k_thread_entry_t)(void * first, void * second, void * third);
 k_tid_t k_thread_create(
   struct k_thread * thread, k_thread_stack_t * stack, size_t stack_size, k_thread_entry_t entry, void * first,
   void * second, void * third, int priority, uint32_t options, k_timeout_t delay);
+void k_thread_priority_set(k_tid_t thread, int prio);
 int k_thread_join(struct k_thread * thread, k_timeout_t timeout);
 int k_thread_name_set(k_tid_t thread, const char * name);
 int k_thread_stack_space_get(const struct k_thread * thread, size_t * unused);
