@@ -9,6 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from microros_gen.application.find import APPLICATION_FILE
+from microros_gen.application.kinds import KIND
 from microros_gen.application.model import Application, ChipImage, EndpointDecl, NodeDecl
 from microros_gen.application.names import expand_topic_name
 from microros_gen.application.parser import parse_application
@@ -18,6 +19,7 @@ from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
 from microros_gen.documents.files import read_text, reason_of
 from microros_gen.documents.named import Named
 from microros_gen.interfaces.closure import resolve_interfaces, split_type_name
+from microros_gen.interfaces.derived import SERVICE_PARTS, derived_name
 from microros_gen.interfaces.find import InterfaceFinder
 
 PEER_KINDS = ("publisher", "subscription")
@@ -76,7 +78,7 @@ def peer_ends(application: Application) -> Iterator[tuple[int, EndpointDecl, Pee
 
 
 def _end(node: NodeDecl, endpoint: EndpointDecl) -> PeerEnd:
-    type_name = split_type_name(endpoint.type, "msg")
+    type_name = split_type_name(endpoint.type, KIND[endpoint.kind].type_kind)
     return PeerEnd(
         kind=endpoint.kind,
         domain_id=node.domain_id,
@@ -170,12 +172,7 @@ def _image(
     if found is None:
         return None
     other, source, file = found
-    ends = tuple(
-        _end(node, e)
-        for node in other.nodes
-        for e in node.endpoints
-        if e.kind in PEER_KINDS and e.local == "chip"
-    )
+    ends = tuple(_end(node, e) for node in other.nodes for e in node.endpoints if e.local == "chip")
     hashes, files = _hashes(other, ends, file.parent, diagnostics)
     return ChipImage(name, position, other, hashes, (file, *files)), source
 
@@ -213,7 +210,10 @@ def _hashes(
     interfaces = resolve_interfaces(wanted, finder, diagnostics)
     if diagnostics.has_errors():
         return {}, ()
-    hashes = {str(name): interfaces.type_hash(name) for name in interfaces.roots}
+    parts = (
+        derived_name(name, part) for name in interfaces.roots if name.kind == "srv" for part in SERVICE_PARTS
+    )
+    hashes = {str(name): interfaces.type_hash(name) for name in (*interfaces.roots, *parts)}
     return hashes, tuple(Path(entry.source.name) for entry in interfaces)
 
 

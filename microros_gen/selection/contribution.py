@@ -74,6 +74,7 @@ HOOK_POINTS: Mapping[str, HookPoint] = MappingProxyType(
         "node_opened": HookPoint(("node",), value=True),
         "node_closing": HookPoint(("node",)),
         "receiver_opened": HookPoint(("place",)),
+        "receiver_closed": HookPoint(("endpoint",)),
         "pumped": HookPoint(()),
         "round_begins": HookPoint(("executor",)),
         "round_ends": HookPoint(("executor",)),

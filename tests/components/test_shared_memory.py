@@ -48,6 +48,68 @@ def test_its_rings(tmp_path: Path) -> None:
     assert first.shown == "/ping (chip), /pong (chip); no agent is needed"
 
 
+SUM = "{name: /sum, type: example_interfaces/srv/AddTwoInts, local: chip, queue: 3}"
+SERVES, CALLS = (
+    text.replace("+executor", "+executor, +services") + f"    {key}: [{SUM}]\n"
+    for text, key in ((FIRST, "services"), (SECOND, "clients"))
+)
+
+
+def test_the_rings_of_a_service(tmp_path: Path) -> None:
+    """One for its requests, which the client writes, and after it one for its replies."""
+    written(tmp_path, SYSTEM, SERVES, CALLS)
+    first, second = part(tmp_path, "first"), part(tmp_path, "second")
+    head = 1 + 3
+    assert [(r.part, r.words, r.slots, r.sends) for r in first.rings if r.topic == "/sum"] == [
+        ("Request", head + 4, 3, False),
+        ("Response", head + 2, 3, True),
+    ]
+    assert [(r.at, r.sends) for r in second.rings] == [(r.at, not r.sends) for r in first.rings]
+    assert first.shared_key == second.shared_key
+    assert (first.calls, first.services, second.services) == (True, True, True)
+    assert first.shown == "/ping (chip), /pong (chip), /sum (chip); no agent is needed"
+    assert part(written(tmp_path), "first").shared_key != first.shared_key
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        (SUM, "{name: /sun, type: std_srvs/srv/Trigger, local: chip}", "does not call '/sum' over it"),
+        ("clients", "services", "the other image of the chip, 'second', does not call '/sum' over it"),
+        (
+            "AddTwoInts",
+            "SetBool",
+            "'/sum' has the type example_interfaces/srv/AddTwoInts here, and the client of the board 'second' "
+            "(second/microros.yaml:10) has example_interfaces/srv/SetBool",
+        ),
+        ("queue: 3", "queue: 4", "the ring of '/sum' has 3 slots here and 4 for the client of the board"),
+    ],
+)
+def test_services_that_do_not_agree(tmp_path: Path, old: str, new: str, words: str) -> None:
+    assert words in refused(written(tmp_path, SYSTEM, SERVES, CALLS.replace(old, new)))
+
+
+def test_limits_of_services_agree(tmp_path: Path) -> None:
+    """They are those of the request and of the response."""
+    ends = [
+        text.replace("example_interfaces/srv/AddTwoInts", "std_srvs/srv/Trigger") for text in (SERVES, CALLS)
+    ]
+    assert part(written(tmp_path, SYSTEM, *ends), "first").calls
+    other = ends[1].replace("queue: 3", "queue: 3, limits: {message: 5}")
+    assert "the limits of '/sum' differ from those of the client of" in refused(
+        written(tmp_path, SYSTEM, ends[0], other)
+    )
+
+
+def test_the_other_image_has_another_service(tmp_path: Path) -> None:
+    folder = tmp_path / "example_interfaces" / "srv"
+    folder.mkdir(parents=True)
+    (folder / "AddTwoInts.srv").write_text("int64 a\nint64 b\n---\nint64 total\n")
+    second = CALLS.replace("version: 1\n", "version: 1\ninterface_paths: [..]\n")
+    words = "example_interfaces/srv/AddTwoInts is defined otherwise than for the client of the board 'second'"
+    assert words in refused(written(tmp_path, SYSTEM, SERVES, second))
+
+
 def test_the_plan_was_made_from_all_files(tmp_path: Path) -> None:
     written(tmp_path)
     found = {path.resolve() for path in compiler.read_paths(planned(tmp_path))}
@@ -169,8 +231,9 @@ def test_the_other_image_has_other_interfaces(tmp_path: Path) -> None:
             "'/ping' has `history: keep_all`",
         ),
         (
-            "services: [{name: a, type: example_interfaces/srv/AddTwoInts, local: chip}]",
-            "services are not between two images: '/a' has `local: chip`",
+            "services: [{name: a, type: example_interfaces/srv/AddTwoInts, local: chip}]\n"
+            "    clients: [{name: a, type: example_interfaces/srv/AddTwoInts, local: only}]",
+            "a service between two images has one end in each: '/a' has two in this one",
         ),
         (
             "publishers: [{topic: ping, type: std_msgs/msg/String, local: chip, qos: {depth: 255}}]",

@@ -126,6 +126,112 @@ def test_a_reader_that_restarts_gets_later_messages(programs: tuple[Path, Path],
             assert heard(again, 3) == [f"got {SURE} {text}" for text in "efg"]
 
 
+def test_an_image_that_closes_hears_nothing(programs: tuple[Path, Path], memory: Path) -> None:
+    """A reliable publisher has no subscription then, and what was written before is not for the next context."""
+    with both(programs, memory) as (first, second):
+        assert [first.publish(SURE, text) for text in "abc"] == ["", "", ""]
+        assert second.publish(SURE, "last") == ""
+        assert second.call("close")[:2] == (0, "")
+        assert [first.publish(SURE, text) for text in "defgh"] == [""] * 5
+        assert heard(first, 1) == [f"got {SURE} last"]
+        assert second.call("open")[:2] == (0, "")
+        follow(first, second)
+        assert [first.publish(SURE, text) for text in "ij"] == ["", ""]
+        assert heard(second, 2) == [f"got {SURE} i", f"got {SURE} j"]
+
+
+def test_a_subscription_that_closes_hears_nothing(programs: tuple[Path, Path], memory: Path) -> None:
+    with both(programs, memory) as (first, second):
+        assert second.call("unsubscribe")[:2] == (0, "")
+        assert [first.publish(SURE, text) for text in "abcde"] == [""] * 5
+        assert second.publish(SURE, "more") == ""
+        assert heard(first, 1) == [f"got {SURE} more"]
+
+
+def served(image: Image, command: str) -> list[str]:
+    """Return what a command prints once it succeeds: the other image's message is on its way."""
+    end = deadline(10)
+    while (done := image.call(command))[0] != 0 and time.monotonic() < end:
+        image.spin()
+    assert done[:2] == (0, ""), done
+    return done[2]
+
+
+def test_services_in_both_directions(programs: tuple[Path, Path], memory: Path) -> None:
+    """Each image has a server and a client; more requests than twice the slots: the counts wrap."""
+    with both(programs, memory) as (first, second):
+        for image in (first, second):
+            assert image.counts("available") == {"available": 1}
+            assert image.call("attend")[:2] == (0, "")
+        for number in range(1, 10):
+            assert first.ask(number, 10) == ("", [f"sent {number}"])
+            assert second.ask(number, 20) == ("", [f"sent {number}"])
+            assert heard(second, 1) == [f"asked {number} 10"]
+            assert heard(first, 2) == [f"asked {number} 20", f"reply {number} {number + 10}"]
+            assert heard(second, 1) == [f"reply {number} {number + 20}"]
+
+
+def test_requests_that_wait(programs: tuple[Path, Path], memory: Path) -> None:
+    """Two in the queue of the server, two in the ring; what it has taken arrives in order, and replies likewise."""
+    with both(programs, memory) as (first, second):
+        assert [first.ask(number, 0)[0] for number in (1, 2)] == ["", ""]
+        second.spin()
+        assert [first.ask(number, 0)[0] for number in (3, 4)] == ["", ""]
+        full = "/second/sum: the other image has not taken earlier messages: raise its depth or queue"
+        assert first.ask(5, 0) == (full, [])
+        for number in range(1, 5):
+            assert served(second, "serve") == [f"asked {number} 0"]
+            assert second.call("respond")[1] == (full if number == 3 else "")
+            second.spin()
+            if number == 3:
+                first.spin()  # takes the first two, which the client does not wait for any more
+                assert second.call("respond")[1] == ""
+        assert [line for _ in range(2) for line in served(first, "reply")] == ["reply 3 3", "reply 4 4"]
+        assert first.ask(6, 0) == ("", ["sent 5"])
+        assert served(second, "serve") == ["asked 6 0"]
+
+
+def test_a_client_that_restarts_gets_no_replies_of_the_former_one(
+    programs: tuple[Path, Path], memory: Path
+) -> None:
+    """The first request of the new one has the same number as that of the former one."""
+    with both(programs, memory) as (first, second):
+        assert first.ask(1, 1) == ("", ["sent 1"])
+        assert served(second, "serve") == ["asked 1 1"]
+        first.kill()
+        with Image(programs[0], memory) as again:
+            follow(again, second)
+            assert again.ask(20, 20) == ("", ["sent 1"])
+            assert second.call("respond")[:2] == (0, "")
+            assert served(second, "serve") == ["asked 20 20"]
+            assert second.call("respond")[:2] == (0, "")
+            assert served(again, "reply") == ["reply 1 40"]
+            assert again.call("reply")[0] != 0
+        assert second.counts("available") == {"available": 1}  # killed: nobody closed it
+
+
+def test_a_server_that_restarts(programs: tuple[Path, Path], memory: Path) -> None:
+    """Its replies from before arrive; requests that it had not taken are lost, as with the agent."""
+    with both(programs, memory) as (first, second):
+        assert first.ask(1, 1) == ("", ["sent 1"])
+        assert served(second, "serve") == ["asked 1 1"]
+        assert second.call("respond")[:2] == (0, "")
+        assert first.ask(2, 2) == ("", ["sent 2"])
+        second.kill()
+        with Image(programs[1], memory) as again:
+            follow(first, again)
+            assert served(first, "reply") == ["reply 1 2"]
+            assert first.ask(3, 3) == ("", ["sent 3"])
+            assert served(again, "serve") == ["asked 3 3"]
+            assert again.call("respond")[:2] == (0, "")
+            assert served(first, "reply") == ["reply 3 6"]
+            assert again.call("close")[:2] == (0, "")
+            assert first.counts("available") == {"available": 0}
+            assert [first.ask(number, 0)[0] for number in range(4)] == [
+                ""
+            ] * 4  # dropped, as without a server
+
+
 def test_memory_that_is_cleared_while_both_run(programs: tuple[Path, Path], memory: Path) -> None:
     """One core may clear it when the other one has begun: both ends become valid again."""
     with both(programs, memory) as (first, second):
@@ -158,6 +264,9 @@ def test_no_message_is_torn(programs: tuple[Path, Path], memory: Path) -> None:
 def refused(image: Image, other: str, words: str) -> None:
     """Each subscription says once that nothing can arrive, to whoever looks for messages."""
     assert image.call(f"take {BEST}")[:2] == (1, f"/{other}/best: {words}")
+    own = "first" if other == "second" else "second"
+    assert image.call("serve")[:2] == (1, f"/{own}/sum: {words}")
+    assert image.ask(1, 1) == (f"/{other}/sum: {words}", [])
     assert image.spin() == [f"error /{other}/sure: {words}"]
     assert image.spin() == []
 
@@ -183,7 +292,16 @@ def test_an_image_of_another_build(programs: tuple[Path, Path], memory: Path, tm
 
 
 def test_a_platform_without_such_memory(programs: tuple[Path, Path], tmp_path: Path) -> None:
-    with Image(programs[0], tmp_path) as first:  # a folder cannot be mapped
+    """It is asked once in a context, and again in the next one."""
+    memory = tmp_path / "memory"
+    memory.mkdir()  # a folder cannot be mapped
+    with Image(programs[0], memory) as first:
         words = "the platform has no memory that two images share"
         assert first.publish(BEST, "a") == f"/first/best: {words}"
         refused(first, "second", words)
+        memory.rmdir()
+        assert first.spin() == []
+        assert (first.publish(BEST, "a"), memory.exists()) == (f"/first/best: {words}", False)
+        assert first.call("close")[:2] == (0, "")
+        assert first.call("open")[:2] == (0, "")
+        assert first.publish(BEST, "a") == ""

@@ -22,11 +22,11 @@ def service_roots(application: Application, messages: Mapping[TypeName, Message]
     return [
         Root(
             derived_name(service, part),
-            _rules(endpoint.limits, service, part, messages),
+            part_rules(endpoint.limits, service, part, messages),
             endpoint.type_span or endpoint.span,
             room,
             Entity(kind, index, full_name(node, endpoint), node_name(node), sends),
-            _rules(endpoint.usual_limits, service, part, messages),
+            part_rules(endpoint.usual_limits, service, part, messages),
         )
         for kind in ("service", "client")
         for index, (_, node, endpoint) in enumerate(declarations(application, kind))
@@ -35,10 +35,10 @@ def service_roots(application: Application, messages: Mapping[TypeName, Message]
     ]
 
 
-def _rules(
+def part_rules(
     rules: tuple[LimitRule, ...], service: TypeName, part: str, messages: Mapping[TypeName, Message]
 ) -> tuple[LimitRule, ...]:
-    """Return the rules for one of the two messages, their paths below it."""
+    """Return the rules for `part` (`Request` or `Response`) of a service, their paths below that message."""
     request, response = (derived_name(service, name) for name in ("Request", "Response"))
     members = {name: {f.name for f in messages[name].fields} for name in (request, response)}
     own, other = (request, response) if part == "Request" else (response, request)

@@ -51,7 +51,7 @@ _ELSEWHERE: Mapping[str, tuple[str, ...]] = {
     "woken": ("woken",),
     "support": ("support_opened", "support_closed"),
     "node": ("node_opened", "node_closing"),
-    "receiver": ("receiver_opened",),
+    "receiver": ("receiver_opened", "receiver_closed"),
     "waiting": ("pumped", "rests", "rested"),
     "round": ("round_begins", "round_ends"),
     "contingency": ("contingency",),

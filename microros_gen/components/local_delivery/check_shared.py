@@ -1,29 +1,66 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rules of `local: chip`: one end of a topic in each of two images, which agree about its messages and its ring."""
+"""The rules of `local: chip`: one end of a topic or service in each of two images.
+
+They agree about its messages and its rings.
+"""
 
 from __future__ import annotations
 
-from microros_gen.application.kinds import SERVICE_KINDS, TOPIC_KINDS
+from microros_gen.application.kinds import KIND, NAMES
 from microros_gen.application.model import Application, ChipImage, EndpointDecl
 from microros_gen.client.plan.declared import declarations, full_name, type_name
 from microros_gen.client.plan.features import PlanContext
-from microros_gen.components.local_delivery.check import MOST_SLOTS, End
+from microros_gen.client.plan.service_limits import part_rules
+from microros_gen.components.local_delivery.check import MOST_SLOTS
 from microros_gen.components.local_delivery.shared import slots_of
 from microros_gen.diagnostics import Diagnostics
+from microros_gen.interfaces.derived import derived_name
+from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.capacity import Defaults, Root, plan_capacities
 from microros_gen.typesupport.plan.size import TypeLimits
 
-Key = tuple[int, str]
-"""Domain and name of a topic."""
+Key = tuple[int, str, bool]
+"""Domain and name, and whether that is the name of a service."""
+
+_OTHER_ENDS = {
+    "publisher": "subscription",
+    "subscription": "publisher",
+    "service": "client",
+    "client": "service",
+}
+_VERBS = {"publisher": "publish", "subscription": "subscribe to", "service": "serve", "client": "call"}
+
+
+@dataclass(frozen=True)
+class _End:
+    """An endpoint, and its index among those of its kind."""
+
+    index: int
+    endpoint: EndpointDecl
+
+    @property
+    def missing(self) -> str:
+        """Return what the other image has to do with its name."""
+        return _VERBS[_OTHER_ENDS[self.endpoint.kind]]
+
+    @property
+    def types(self) -> tuple[TypeName, ...]:
+        """Return the types of its messages: two of a service."""
+        return _messages(self.endpoint)
+
+    def limits(self, context: PlanContext) -> tuple[TypeLimits | None, ...]:
+        """Return the limits of its messages."""
+        known = (context.types[name] for name in self.types)
+        return tuple(type_.limits_of(self.endpoint.kind, self.index) for type_ in known)
 
 
 @dataclass(frozen=True)
 class _Pair:
-    """The two ends of a topic; `other` is that of the other image."""
+    """The two ends of a topic or service; `other` is that of the other image."""
 
     topic: str
-    own: End
+    own: _End
     other: EndpointDecl
     image: ChipImage
 
@@ -36,8 +73,7 @@ class _Pair:
 
 
 def check_shared(context: PlanContext, diagnostics: Diagnostics) -> None:
-    """Report topics between images that have other ends than one in each, or ends that do not agree."""
-    _check_services(context.application, diagnostics)
+    """Report topics and services between images that have other ends than one in each, or ends that do not agree."""
     _check_single(context.application, diagnostics)
     own = _ends(context.application)
     if not own:
@@ -59,38 +95,34 @@ def check_shared(context: PlanContext, diagnostics: Diagnostics) -> None:
         _check_image(own, image, context, diagnostics)
 
 
-def _ends(application: Application) -> dict[Key, End]:
-    """Return the ends of topics between images."""
+def _ends(application: Application) -> dict[Key, _End]:
+    """Return the ends of topics and services between images."""
     return {
-        (node.domain_id, full_name(node, endpoint)): End(index, endpoint)
-        for kind in TOPIC_KINDS
+        (node.domain_id, full_name(node, endpoint), KIND[kind].service_type): _End(index, endpoint)
+        for kind in NAMES
         for index, (_, node, endpoint) in enumerate(declarations(application, kind))
         if endpoint.local == "chip"
     }
 
 
-def _check_services(application: Application, diagnostics: Diagnostics) -> None:
-    for kind in SERVICE_KINDS:
-        for _, node, endpoint in declarations(application, kind):
-            if endpoint.local == "chip":
-                diagnostics.error(
-                    f"services are not between two images: '{full_name(node, endpoint)}' has `local: chip`",
-                    endpoint.span,
-                    "Use topics in both directions, or `local: only`",
-                    id="MG-7241",
-                )
+def _messages(endpoint: EndpointDecl) -> tuple[TypeName, ...]:
+    """Return the types of what an endpoint sends and receives."""
+    kind = KIND[endpoint.kind]
+    name = type_name(endpoint.type, kind.type_kind)
+    return tuple(derived_name(name, part) if part else name for part, _ in kind.parts)
 
 
 def _check_single(application: Application, diagnostics: Diagnostics) -> None:
-    """Report topics between images that have more than one end in this one, and rings that are too long."""
+    """Report names between images that have more than one end in this one, and rings that are too long."""
     seen: dict[Key, EndpointDecl] = {}
-    for kind in TOPIC_KINDS:
+    for kind in NAMES:
+        what = "service" if KIND[kind].service_type else "topic"
         for _, node, endpoint in declarations(application, kind):
             topic = full_name(node, endpoint)
-            other = seen.setdefault((node.domain_id, topic), endpoint)
+            other = seen.setdefault((node.domain_id, topic, KIND[kind].service_type), endpoint)
             if other is not endpoint and "chip" in (other.local, endpoint.local):
                 diagnostics.error(
-                    f"a topic between two images has one end in each: '{topic}' has two in this one",
+                    f"a {what} between two images has one end in each: '{topic}' has two in this one",
                     endpoint.span,
                     "Write `local: only` at both, or rename one",
                     id="MG-7240",
@@ -105,43 +137,48 @@ def _check_single(application: Application, diagnostics: Diagnostics) -> None:
 
 
 def _check_image(
-    own: dict[Key, End], image: ChipImage, context: PlanContext, diagnostics: Diagnostics
+    own: dict[Key, _End], image: ChipImage, context: PlanContext, diagnostics: Diagnostics
 ) -> None:
     """Report ends that the other one of the two images does not have, and what two ends do not agree about."""
-    others = {key: end.endpoint for key, end in _ends(image.application).items()}
+    others = _ends(image.application)
     for key, end in own.items():
         other = others.get(key)
-        if other is None or other.kind == end.endpoint.kind:
-            missing = "subscribe to" if end.publishes else "publish"
-            message = f"the other image of the chip, '{image.board}', does not {missing} '{key[1]}' over it"
+        if other is None or other.endpoint.kind == end.endpoint.kind:
+            message = (
+                f"the other image of the chip, '{image.board}', does not {end.missing} '{key[1]}' over it"
+            )
             hint = "Write `local: chip` at the other end, too, or remove it here"
             diagnostics.error(message, end.endpoint.span, hint, id="MG-7244")
         else:
-            _check_pair(_Pair(key[1], end, other, image), context, diagnostics)
+            _check_pair(_Pair(key[1], end, other.endpoint, image), context, diagnostics)
     for key, other in others.items():
         if key not in own:
-            missing = "subscribe to" if other.kind == "publisher" else "publish"
-            message = f"the other image of the chip does not {missing} '{key[1]}' over it"
+            message = f"the other image of the chip does not {other.missing} '{key[1]}' over it"
             hint = "Declare its other end there with `local: chip`, or remove `local: chip` here"
-            diagnostics.error(message, other.span, hint, id="MG-7251")
+            diagnostics.error(message, other.endpoint.span, hint, id="MG-7251")
 
 
 def _check_pair(pair: _Pair, context: PlanContext, diagnostics: Diagnostics) -> None:
     own, other, topic = pair.own.endpoint, pair.other, pair.topic
-    name, others = type_name(own.type), type_name(other.type)
+    kind = KIND[own.kind]
+    name, others = type_name(own.type, kind.type_kind), type_name(other.type, kind.type_kind)
     if name != others:
         message = f"'{topic}' has the type {name} here, and {pair.shown} has {others}"
         diagnostics.error(message, own.type_span or own.span, "Give both the same type", id="MG-7245")
         return
-    type_hash = pair.image.hashes.get(str(others))
-    if type_hash not in (None, context.types[name].type_hash):
+    hashes = pair.image.hashes
+    if any(hashes.get(str(part)) not in (None, context.types[part].type_hash) for part in pair.own.types):
         message = f"{name} is defined otherwise than for {pair.shown}: their type hashes differ"
         hint = "Use the same interface files for both images"
         diagnostics.error(message, own.type_span or own.span, hint, id="MG-7246")
         return
-    writer, reader = (own, other) if pair.own.publishes else (other, own)
-    if reader.qos.reliability == "reliable" and writer.qos.reliability != "reliable":
-        needs = "is best effort" if pair.own.publishes else "is reliable"
+    writer, reader = (own, other) if own.kind == "publisher" else (other, own)
+    if (
+        not kind.service_type
+        and reader.qos.reliability == "reliable"
+        and writer.qos.reliability != "reliable"
+    ):
+        needs = "is best effort" if own is writer else "is reliable"
         message = f"'{topic}' {needs} here and never matches {pair.shown}"
         hint = "Write `qos: {reliability: best_effort}` at the subscription"
         diagnostics.error(message, own.qos.span or own.span, hint, id="MG-7247")
@@ -149,18 +186,27 @@ def _check_pair(pair: _Pair, context: PlanContext, diagnostics: Diagnostics) -> 
         message = (
             f"the ring of '{topic}' has {slots_of(own)} slots here and {slots_of(other)} for {pair.shown}"
         )
-        hint = "Write the same `qos: {depth: …}` at both"
+        hint = (
+            "Write the same `queue` at both"
+            if kind.service_type
+            else "Write the same `qos: {depth: …}` at both"
+        )
         diagnostics.error(message, own.qos.span or own.span, hint, id="MG-7248")
-    if pair.own.limits(context.types) != _limits(pair, context):
+    if pair.own.limits(context) != _limits(pair, context):
         message = f"the limits of '{topic}' differ from those of {pair.shown}"
         hint = "Write the same `limits:` at both, or by the type"
         diagnostics.error(message, own.span, hint, id="MG-7249")
 
 
-def _limits(pair: _Pair, context: PlanContext) -> TypeLimits | None:
+def _limits(pair: _Pair, context: PlanContext) -> tuple[TypeLimits | None, ...]:
     """Return the limits of the other end, whose type is that of this one; what is wrong with them its build reports."""
     messages = {name: known.message for name, known in context.types.items()}
-    name = type_name(pair.other.type)
-    root = Root(name, pair.other.limits, pair.other.span)
-    rules = pair.image.application.limits
-    return plan_capacities(messages, [root], rules, Defaults(None, None), Diagnostics()).limits[name]
+    kind, rules = KIND[pair.other.kind], pair.image.application.limits
+    name = type_name(pair.other.type, kind.type_kind)
+    found = []
+    for type_, (part, _) in zip(pair.own.types, kind.parts, strict=True):
+        own = part_rules(pair.other.limits, name, part, messages) if part else pair.other.limits
+        root = Root(type_, own, pair.other.span)
+        planned = plan_capacities(messages, [root], rules, Defaults(None, None), Diagnostics())
+        found.append(planned.limits[type_])
+    return tuple(found)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from microros_gen.application.kinds import RECEIVING, EntityKind
+from microros_gen.application.kinds import NAMES, RECEIVING, EntityKind
 from microros_gen.application.model import Application, EndpointDecl, NodeDecl
 from microros_gen.client.plan.declared import declarations, full_name, type_name
 from microros_gen.client.plan.features import PlanContext
@@ -127,9 +127,9 @@ class LocalRoute:
 class LocalPlan:
     """`queue_of`: of each receiver, as C.
 
-    `server_of`: the queue of each client's server, as C, and an end. `services`: there is such a server.
-    `rings` are those of topics between two images, `ring_of`: of each endpoint, as C. `shared_image`:
-    whether this image is the first (0) or the second one of its chip.
+    `server_of`: the queue of each client's server, as C, and an end. `services`: there is such a server, or one in
+    another image. `rings` are those of topics and services between two images, `ring_of`: of each endpoint (that of the
+    requests of a service), as C. `shared_image`: whether this image is the first (0) or the second one of its chip.
     `copies` are functions that the queues call, as lines of C; `headers`: of the types and of their storage.
     """
 
@@ -147,8 +147,13 @@ class LocalPlan:
 
     @property
     def shared(self) -> bool:
-        """Return whether a topic leads to another image of the chip."""
+        """Return whether a topic or service leads to another image of the chip."""
         return bool(self.rings)
+
+    @property
+    def calls(self) -> bool:
+        """Return whether a service does."""
+        return any(ring.part for ring in self.rings)
 
     @property
     def hears(self) -> bool:
@@ -172,7 +177,7 @@ class LocalPlan:
 
     @property
     def ring_count(self) -> int:
-        """Return the number of such topics."""
+        """Return the number of rings."""
         return len(self.rings)
 
     @property
@@ -197,7 +202,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LocalPlan:
     for queue in queues:
         receivers[queue.receiver] = str(queue.index)
     shared = rings(context)
-    ring_of = {ring.endpoint: str(index) for index, ring in enumerate(shared)}
+    ring_of = {ring.endpoint: str(index) for index, ring in enumerate(shared) if ring.part != "Response"}
     endpoints = context.runtime.entities.publisher_places + len(receivers)
     servers = tuple(_servers(context, queues))
     types = [queue.type for queue in queues]
@@ -206,7 +211,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LocalPlan:
         queues=queues,
         queue_of=tuple(receivers),
         server_of=(*servers, _NONE),
-        services=any(server != _NONE for server in servers),
+        services=any(ring.part for ring in shared) or any(server != _NONE for server in servers),
         routes=tuple(_routes(context, queues)),
         copies=copy_lines(types, messages),
         headers=tuple(sorted({h for name in types for h in _headers(context.types[name])})),
@@ -311,7 +316,8 @@ def _shown(application: Application, alone: bool) -> str:
     """Return what a report says: the topics, and of each whether its messages leave the image."""
     words = {
         full_name(node, endpoint): f"{full_name(node, endpoint)} ({endpoint.local})"
-        for _, node, endpoint in declarations(application, "publisher", "subscription", "service")
-        if endpoint.local == "chip" or (endpoint.local != "never" and endpoint.kind != "publisher")
+        for _, node, endpoint in declarations(application, *NAMES)
+        if endpoint.local == "chip"
+        or (endpoint.local != "never" and endpoint.kind in ("subscription", "service"))
     }
     return ", ".join(words.values()) + ("; no agent is needed" if alone else "")

@@ -8,7 +8,16 @@
  *   dropped                `dropped COUNT` of messages, of all topics
  *   take TOPIC             takes one as bytes: `got TOPIC TEXT`
  *   flood MS FIRST         publishes numbers on 0, each three times in a text, as fast as it can: `sent COUNT`
- *   listen MS              hears them: `heard COUNT`, `torn COUNT` and `back COUNT` of what is not as it was sent */
+ *   listen MS              hears them: `heard COUNT`, `torn COUNT` and `back COUNT` of what is not as it was sent
+ *   ask A B                sends a request to /OTHER/sum: `sent NUMBER`
+ *   serve                  takes a request of /OWN/sum and keeps it: `asked A B`
+ *   respond                answers that
+ *   reply                  takes a response: `reply NUMBER SUM`
+ *   attend                 from now on `spin` answers requests and prints replies
+ *   available              `available COUNT` of servers that the client has in the other image
+ *   unsubscribe            closes the subscriptions
+ *   close, open            shuts the context down, begins again */
+#include <example_interfaces/srv/add_two_ints.h>
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
 #include <rclc/executor.h>
@@ -23,13 +32,18 @@
 #include <string.h>
 
 #include "microros/port.h"
+#include "microros/rmw_local_service.h"
 
-enum { TOPICS = 2, LINE = 80, TEXT = 41, NUMBER = 10, BYTES = 64 };
+enum { TOPICS = 2, ENDS = 2, LINE = 80, TEXT = 41, NUMBER = 10, BYTES = 64 };
 
 static const char * const out_names[TOPICS] = {"/" OWN "/best", "/" OWN "/sure"};
 static const char * const in_names[TOPICS] = {"/" OTHER "/best", "/" OTHER "/sure"};
 static rcl_publisher_t publishers[TOPICS];
 static rcl_subscription_t subscriptions[TOPICS];
+static rcl_service_t service;
+static rcl_client_t client;
+static rmw_request_id_t asked_by;
+static int64_t asked_sum;
 static bool listens;
 static uint32_t last;
 static unsigned heard_count;
@@ -62,6 +76,91 @@ static void hear(const void * message, void * context)
   } else {
     (void)printf("got %s %s\n", (const char *)context, text);
   }
+}
+
+static rcl_ret_t ask(int64_t a, int64_t b)
+{
+  const example_interfaces__srv__AddTwoInts_Request request = {.a = a, .b = b};
+  int64_t number = 0;
+  const rcl_ret_t code = rcl_send_request(&client, &request, &number);
+
+  if (code == RCL_RET_OK) {
+    (void)printf("sent %" PRId64 "\n", number);
+  }
+  return code;
+}
+
+static rcl_ret_t serve(void)
+{
+  example_interfaces__srv__AddTwoInts_Request request;
+  const rcl_ret_t code = rcl_take_request(&service, &asked_by, &request);
+
+  if (code == RCL_RET_OK) {
+    (void)printf("asked %" PRId64 " %" PRId64 "\n", request.a, request.b);
+    asked_sum = request.a + request.b;
+  }
+  return code;
+}
+
+static rcl_ret_t respond(void)
+{
+  example_interfaces__srv__AddTwoInts_Response response = {.sum = asked_sum};
+
+  return rcl_send_response(&service, &asked_by, &response);
+}
+
+static rcl_ret_t take_reply(void)
+{
+  example_interfaces__srv__AddTwoInts_Response response;
+  rmw_request_id_t id;
+  const rcl_ret_t code = rcl_take_response(&client, &id, &response);
+
+  if (code == RCL_RET_OK) {
+    (void)printf("reply %" PRId64 " %" PRId64 "\n", id.sequence_number, response.sum);
+  }
+  return code;
+}
+
+static void on_request(const void * request, void * response)
+{
+  const example_interfaces__srv__AddTwoInts_Request * in = request;
+
+  (void)printf("asked %" PRId64 " %" PRId64 "\n", in->a, in->b);
+  ((example_interfaces__srv__AddTwoInts_Response *)response)->sum = in->a + in->b;
+}
+
+static void on_reply(const void * response, rmw_request_id_t * id)
+{
+  const example_interfaces__srv__AddTwoInts_Response * in = response;
+
+  (void)printf("reply %" PRId64 " %" PRId64 "\n", id->sequence_number, in->sum);
+}
+
+static rcl_ret_t attend(rclc_executor_t * executor)
+{
+  static example_interfaces__srv__AddTwoInts_Request request;
+  static example_interfaces__srv__AddTwoInts_Response response;
+  static example_interfaces__srv__AddTwoInts_Response reply;
+  const rcl_ret_t code = rclc_executor_add_service(executor, &service, &request, &response, on_request);
+
+  return code != RCL_RET_OK ? code
+                            : rclc_executor_add_client_with_request_id(executor, &client, &reply, on_reply);
+}
+
+/* The question that rcl_service_server_is_available asks (component graph, which needs an agent). */
+static void available(void)
+{
+  bool is_open = false;
+  const bool is_known = rmw_local_server(client.impl->data, &is_open);
+
+  (void)printf("available %d\n", is_known && is_open ? 1 : 0);
+}
+
+static rcl_ret_t unsubscribe(rcl_node_t * node)
+{
+  const rcl_ret_t code = rcl_subscription_fini(&subscriptions[0], node);
+
+  return code != RCL_RET_OK ? code : rcl_subscription_fini(&subscriptions[1], node);
 }
 
 static int answer(rcl_ret_t code)
@@ -164,12 +263,14 @@ static int open_all(rclc_support_t * support, rcl_node_t * node, rclc_executor_t
   static char topics[TOPICS][2] = {"0", "1"};
   static std_msgs__msg__String heard[TOPICS];
   const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, String);
+  const rosidl_service_type_support_t * sum =
+    ROSIDL_GET_SRV_TYPE_SUPPORT(example_interfaces, srv, AddTwoInts);
   rcl_allocator_t allocator = rcl_get_default_allocator();
 
   if (
     rclc_support_init(support, 0, NULL, &allocator) != RCL_RET_OK ||
     rclc_node_init_default(node, OWN, "", support) != RCL_RET_OK ||
-    rclc_executor_init(executor, &support->context, TOPICS, &allocator) != RCL_RET_OK) {
+    rclc_executor_init(executor, &support->context, TOPICS + ENDS, &allocator) != RCL_RET_OK) {
     return 2;
   }
   for (size_t i = 0; i < (size_t)TOPICS; ++i) {
@@ -183,7 +284,30 @@ static int open_all(rclc_support_t * support, rcl_node_t * node, rclc_executor_t
       return 3;
     }
   }
-  return 0;
+  return rclc_service_init_default(&service, node, sum, "/" OWN "/sum") == RCL_RET_OK &&
+             rclc_client_init_default(&client, node, sum, "/" OTHER "/sum") == RCL_RET_OK
+           ? 0
+           : 3;
+}
+
+/* Ends the context first, as an application may do that stops in a hurry. */
+static rcl_ret_t close_all(rclc_support_t * support, rcl_node_t * node, rclc_executor_t * executor)
+{
+  const rcl_ret_t code = rcl_shutdown(&support->context);
+
+  for (size_t i = 0; i < (size_t)TOPICS; ++i) {
+    (void)rcl_publisher_fini(&publishers[i], node);
+    (void)rcl_subscription_fini(&subscriptions[i], node);
+  }
+  (void)rcl_service_fini(&service, node);
+  (void)rcl_client_fini(&client, node);
+  (void)rclc_executor_fini(executor);
+  (void)rcl_node_fini(node);
+  (void)rclc_support_fini(support);
+  rcl_reset_error();
+  *node = rcl_get_zero_initialized_node();
+  *executor = rclc_executor_get_zero_initialized_executor();
+  return code;
 }
 
 int main(void)
@@ -217,6 +341,24 @@ int main(void)
       flood((uint32_t)value, topic);
     } else if (sscanf(line, "listen %d", &value) == 1) {
       listen(&executor, (uint32_t)value);
+    } else if (sscanf(line, "ask %d %u", &value, &topic) == 2) {
+      code = ask(value, topic);
+    } else if (strcmp(line, "serve\n") == 0) {
+      code = serve();
+    } else if (strcmp(line, "respond\n") == 0) {
+      code = respond();
+    } else if (strcmp(line, "reply\n") == 0) {
+      code = take_reply();
+    } else if (strcmp(line, "attend\n") == 0) {
+      code = attend(&executor);
+    } else if (strcmp(line, "available\n") == 0) {
+      available();
+    } else if (strcmp(line, "unsubscribe\n") == 0) {
+      code = unsubscribe(&node);
+    } else if (strcmp(line, "close\n") == 0) {
+      code = close_all(&support, &node, &executor);
+    } else if (strcmp(line, "open\n") == 0) {
+      code = open_all(&support, &node, &executor) == 0 ? RCL_RET_OK : RCL_RET_ERROR;
     } else {
       return 4;
     }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Instructions of a message from a publisher to a callback of the same image, and of the way over the agent."""
+"""Instructions of a message from a publisher to a callback: of the same image, of another image, and over the agent."""
 
 from __future__ import annotations
 
@@ -19,9 +19,16 @@ session: {connect_timeout: 20 s, create_timeout: 20 s, liveliness_timeout: 20 s}
 nodes:
   - name: device
     publishers: [{topic: count, type: TYPE, local: WHERE}]
-    subscriptions: [{topic: count, type: TYPE, local: WHERE}]
+    subscriptions: [{topic: HEARD, type: TYPE, local: WHERE}]
 """
+SYSTEM = """\
+version: 1
+boards: {device: {application: microros.yaml}, other: {application: other.yaml}}
+chips: [[device, other]]
+"""
+REFERENCE = "system: {file: system.yaml, board: device}\n"
 MESSAGES = {"Int32": ("std_msgs/msg/Int32", ()), "Pose": ("geometry_msgs/msg/Pose", ("-DMEASURED_POSE",))}
+MEASURED = {"only": (), "never": ("-DMEASURED_AGENT",), "chip": ("-DMEASURED_CHIP",)}
 TRANSPORTS = {"udp": (), "serial": ("-DMEASURED_LINE",)}
 _LINE = (
     *("line_take", "line_stuff", "line_crc", "line_frame", "port_serial_open", "port_serial_close"),
@@ -48,13 +55,22 @@ class Way:
         return self.publish + self.spin
 
 
-def way(builds: Builds, name: str, local: bool, message: str = "Int32", transport: str = "udp") -> Way:
-    """Count the second message on a board: `local`, or over the agent, whose work does not count."""
+def way(builds: Builds, name: str, local: str, message: str = "Int32", transport: str = "udp") -> Way:
+    """Count the second message on a board; `local` as in the application file.
+
+    The work of the agent does not count, nor that of the other image of a chip, which sends the message back.
+    """
     type_, flags = MESSAGES[message]
-    text = APPLICATION.replace("WHERE", "only" if local else "never")
-    text = text.replace("TYPE", type_).replace("TRANSPORT", transport)
-    flags = (*flags, *TRANSPORTS[transport], *(() if local else ("-DMEASURED_AGENT",)))
-    image = builds.application(builds.build(name, text), "measured_local.c", *flags)
+    text = APPLICATION.replace("WHERE", local).replace("TYPE", type_).replace("TRANSPORT", transport)
+    beside: tuple[tuple[str, str], ...] = ()
+    if local == "chip":
+        other = text.replace("count", "SAID").replace("HEARD", "count").replace("SAID", "heard")
+        other = other.replace("device", "other") + REFERENCE.replace("device", "other")
+        beside = (("system.yaml", SYSTEM), ("other.yaml", other))
+        text = text.replace("HEARD", "heard") + REFERENCE
+    text = text.replace("HEARD", "count")
+    flags = (*flags, *TRANSPORTS[transport], *MEASURED[local])
+    image = builds.application(builds.build(name, text, beside), "measured_local.c", *flags)
     emulator = target(name).emulator
     assert emulator is not None
     command = [emulator.program, *emulator.arguments, *EXIT]

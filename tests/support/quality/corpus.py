@@ -101,6 +101,10 @@ _PEER = (
     "    subscriptions:\n"
     "      - {topic: /answer, type: std_msgs/msg/UInt8, peer: only, qos: {reliability: best_effort}, queue: 1}\n"
 )
+_CHIP_CALLS = (
+    "    services: [{name: sum, type: std_srvs/srv/Trigger, local: chip, queue: 3}]\n"
+    "    clients: [{name: ask, type: std_srvs/srv/Trigger, local: chip}]\n"
+)
 _CHIP = (
     "version: 1\nprofiles: [pure_sender, pure_reader]\nsystem: {file: system.yaml, board: own}\n"
     "limits: {'*': {string: 12, sequence: 3}}\nnodes:\n  - name: probe\n    publishers:\n"
@@ -119,6 +123,9 @@ def _other(text: str) -> str:
         .replace("publishers", "subscriptions_")
         .replace("subscriptions:", "publishers:")
         .replace("subscriptions_", "subscriptions")
+        .replace("services:", "clients_:")
+        .replace("clients:", "services:")
+        .replace("clients_:", "clients:")
         .replace(", queue: 1", "")
         .replace(", queue: 2", "")
     )
@@ -137,7 +144,11 @@ SYSTEMS: Mapping[str, str] = MappingProxyType(
 """The system files of applications that have one."""
 
 OTHERS: Mapping[str, str] = MappingProxyType(
-    {name: _other(_CHIP if name.startswith("local") else _PEER) for name in SYSTEMS}
+    {
+        **{name: _other(_PEER) for name in SYSTEMS if name.startswith("peer")},
+        "local_chip": _other(_CHIP),
+        "local_chip_tasks": _other(_CHIP + _CHIP_CALLS),
+    }
 )
 """The applications of their other boards."""
 
@@ -320,7 +331,9 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "local": _LOCAL,
         "local_services": _LOCAL_SERVICES,
         "local_chip": _CHIP,
-        "local_chip_tasks": _CHIP + "components: [+multithread, +executor]\nerrors: code\n",
+        "local_chip_tasks": _CHIP
+        + _CHIP_CALLS
+        + "components: [+services, +multithread, +executor]\nerrors: code\n",
         "local_also": _LOCAL.replace("local: only", "local: also", 1)
         + "components: [+multithread]\nerrors: code\n",
         "peer": _PEER,

@@ -44,7 +44,7 @@ FIRST, SECOND = _application("first", PING, PONG), _application("second", PONG, 
 TOPICS = """\
 version: 1
 profiles: [pure_sender, pure_reader]
-components: [+executor]
+components: [+executor, +services]
 limits: {"*": {string: 40}}
 system: {file: ../system.yaml, board: OWN}
 nodes:
@@ -59,6 +59,8 @@ nodes:
         qos: {depth: 3, reliability: best_effort}
         queue: 8
       - {topic: /OTHER/sure, type: std_msgs/msg/String, local: chip, qos: {depth: 3}, queue: 8}
+    services: [{name: /OWN/sum, type: example_interfaces/srv/AddTwoInts, local: chip, queue: 2}]
+    clients: [{name: /OTHER/sum, type: example_interfaces/srv/AddTwoInts, local: chip, queue: 2}]
 """
 BOARDS = ("first", "second")
 
@@ -111,6 +113,10 @@ class Image(CommandedProgram):
     def spin(self, milliseconds: int = 2) -> list[str]:
         """Return what it hears, and what the executor reports."""
         return self.call(f"spin {milliseconds}")[2]
+
+    def ask(self, a: int, b: int) -> tuple[str, list[str]]:
+        """Send a request; return the error text and `sent` with its number."""
+        return self.call(f"ask {a} {b}")[1:]
 
     def counts(self, command: str) -> dict[str, int]:
         """Return the numbers that a command prints, by their names."""

@@ -28,6 +28,7 @@ void rmw_local_open(const xrce_endpoint_t * reader)
     if (rmw_local_queues[queue].bind != NULL) {
       rmw_local_queues[queue].bind();
     }
+    rmw_shared_opened(reader);
   }
 }
 

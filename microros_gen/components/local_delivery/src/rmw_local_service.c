@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Services between clients and servers of one image: each has a queue, like a subscription. */
+/* Services between clients and servers of one image, or of two: each has a queue, like a subscription. */
 #include "microros/rmw_local_service.h"
 
 #include "microros/error.h"
@@ -7,7 +7,9 @@
 #include "microros/rmw_encode.h"
 #include "microros/rmw_local.h"
 #include "microros/rmw_local_deliver.h"
+#include "microros/rmw_local_shared.h"
 #include "microros/rmw_local_wake.h"
+#include "microros/rmw_shared_call.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_local_fresh.h"
 #include "microros/xrce_wire.h"
@@ -26,11 +28,18 @@ static uint8_t local_queue(const xrce_endpoint_t * endpoint)
   return rmw_local_queue_of[endpoint->index - MICROROS_PUBLISHERS_MAX];
 }
 
-bool rmw_local_waits(const xrce_endpoint_t * endpoint)
+static bool local_has_message(const xrce_endpoint_t * endpoint)
 {
   const uint8_t index = local_queue(endpoint);
 
   return index != (uint8_t)RMW_LOCAL_NONE && rmw_local_states[index].count != 0u;
+}
+
+/* A client is told by its send call that nothing can arrive. */
+bool rmw_local_waits(const xrce_endpoint_t * endpoint)
+{
+  return local_has_message(endpoint) || (MICROROS_NODES_MAX + endpoint->index < XRCE_REQUESTERS_AT &&
+                                         rmw_shared_is_wrong(endpoint));
 }
 
 /* Returns RMW_RET_ERROR, with a text, for a message above the limits of its type. */
@@ -93,7 +102,11 @@ bool rmw_local_take_request(
   const uint8_t index = local_queue(service);
   const rmw_local_origin_t * origin;
 
-  if (!rmw_local_waits(service) || service_agent_first(service, index)) {
+  if (rmw_shared_is_wrong(service)) {
+    *result = rmw_shared_report(service);
+    return true;
+  }
+  if (!local_has_message(service) || service_agent_first(service, index)) {
     return false;
   }
   origin = &rmw_local_queues[index].origins[rmw_local_states[index].head];
@@ -107,12 +120,27 @@ bool rmw_local_take_request(
 
 bool rmw_local_is_request(const rmw_request_id_t * request)
 {
-  bool is_local = xrce_get_be16(&request->writer_guid[LOCAL_CLIENT_AT]) < MICROROS_CLIENTS_MAX;
+  bool is_local = true;
 
   for (size_t i = 0; i < (size_t)LOCAL_MARK_SIZE; ++i) {
     is_local = is_local && request->writer_guid[i] == (uint8_t)LOCAL_MARK;
   }
   return is_local;
+}
+
+/* Puts a response into the queue of its client if that calls this server and is open. */
+static void local_reply(
+  const xrce_endpoint_t * service, const rmw_local_origin_t * origin, const void * ros_response)
+{
+  const uint8_t index = rmw_local_queue_of[LOCAL_FIRST_CLIENT + origin->client];
+
+  if (
+    index != (uint8_t)RMW_LOCAL_NONE &&
+    rmw_local_server_of[origin->client] ==
+      local_queue(service) && /* an identity from outside may name any client */
+    rmw_local_is_open(service->client, &rmw_local_queues[index])) {
+    local_put(service->client, index, ros_response, origin);
+  }
 }
 
 rmw_ret_t rmw_local_respond(
@@ -123,15 +151,14 @@ rmw_ret_t rmw_local_respond(
     .client = xrce_get_be16(&request->writer_guid[LOCAL_CLIENT_AT]),
     .number = xrce_get_be16(&request->writer_guid[LOCAL_NUMBER_AT]),
     .sequence = request->sequence_number};
-  const uint8_t index = rmw_local_queue_of[LOCAL_FIRST_CLIENT + origin.client];
-  const rmw_ret_t result = local_check(sent, ros_response);
+  rmw_ret_t result;
 
-  if (
-    result == RMW_RET_OK && index != (uint8_t)RMW_LOCAL_NONE &&
-    rmw_local_server_of[origin.client] ==
-      local_queue(service) && /* an identity from outside may name any client */
-    rmw_local_is_open(service->client, &rmw_local_queues[index])) {
-    local_put(service->client, index, ros_response, &origin);
+  if (rmw_shared_has_ring(service)) {
+    return rmw_shared_call_reply(service, &origin, ros_response);
+  }
+  result = local_check(sent, ros_response);
+  if (result == RMW_RET_OK && origin.client < MICROROS_CLIENTS_MAX) {
+    local_reply(service, &origin, ros_response);
   }
   return result;
 }
@@ -145,6 +172,10 @@ bool rmw_local_server(const xrce_endpoint_t * client, bool * is_open)
 {
   const uint8_t index = rmw_local_server_of[local_client(client)];
 
+  if (rmw_shared_has_ring(client)) {
+    *is_open = rmw_shared_call_is_open(client);
+    return true;
+  }
   if (index == (uint8_t)RMW_LOCAL_NONE) {
     return false;
   }
@@ -159,8 +190,12 @@ rmw_ret_t rmw_local_send_request(
   const rmw_local_origin_t origin = {
     .client = local_client(client), .number = number->request, .sequence = number->sequence};
   const uint8_t index = rmw_local_server_of[origin.client];
-  const rmw_ret_t result = local_check(sent, ros_request);
+  rmw_ret_t result;
 
+  if (rmw_shared_has_ring(client)) {
+    return rmw_shared_call_request(client, number->request, number->sequence, ros_request);
+  }
+  result = local_check(sent, ros_request);
   if (result != RMW_RET_OK || !rmw_local_is_open(client->client, &rmw_local_queues[index])) {
     return result;
   }
@@ -175,7 +210,7 @@ bool rmw_local_find_reply(const xrce_endpoint_t * client, uint16_t * number)
 {
   const uint8_t index = local_queue(client);
 
-  if (!rmw_local_waits(client)) {
+  if (!local_has_message(client)) {
     return false;
   }
   *number = rmw_local_queues[index].origins[rmw_local_states[index].head].number;

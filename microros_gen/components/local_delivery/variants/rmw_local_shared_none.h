@@ -16,6 +16,11 @@ static inline bool rmw_shared_has_ring(const xrce_endpoint_t * endpoint)
   return false;
 }
 
+static inline void rmw_shared_opened(const xrce_endpoint_t * endpoint)
+{
+  (void)endpoint;
+}
+
 static inline rmw_ret_t rmw_shared_publish(const xrce_endpoint_t * writer, const void * message)
 {
   (void)writer;

@@ -13,7 +13,7 @@ extern "C" {
 /*
  * Returns the memory, of at least `bytes` bytes, aligned to 4, which both images see at any address; the same one in each call. It
  * belongs to the platform, and is not cached. NULL: the platform has no such memory. Its first content may be anything; it stays
- * while one of the images restarts. Called with the lock held, again after NULL. */
+ * while one of the images restarts. Called with the lock held, after NULL again with the next rclc_support_init. */
 uint32_t * port_shared_region(size_t bytes);
 
 /* A memory barrier, for the compiler as well: the other image sees earlier writes before later ones, and earlier reads and writes

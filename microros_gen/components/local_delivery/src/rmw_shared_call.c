@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Requests and replies between two images: a service has a ring for each, and one client. */
+#include "microros/rmw_shared_call.h"
+
+#include "microros/error.h"
+#include "microros/rmw_encode.h"
+#include "microros/rmw_shared_ring.h"
+#include "microros/xrce_client.h"
+#include "microros/xrce_services.h"
+
+#include <stddef.h>
+
+/* Words of a call in its slot, between size and body: the number of the request and the run of its client, then the two halves of
+ * the sequence number. A reply has those of its request. */
+enum { CALL_NUMBER = 1, CALL_LOW = 2, CALL_HIGH = 3, CALL_WORDS = 3 };
+
+enum { CALL_FIRST_SERVICE = XRCE_REPLIERS_AT - MICROROS_NODES_MAX };
+
+enum { CALL_FIRST_CLIENT = XRCE_REQUESTERS_AT - MICROROS_NODES_MAX };
+
+/* Returns the ring of a client's requests or of a server's, which have one. That of the replies is the next one. */
+static const rmw_shared_ring_t * call_requests(uint16_t endpoint)
+{
+  return &rmw_shared_rings[rmw_shared_ring_of[endpoint]];
+}
+
+static const rmw_shared_ring_t * call_replies(uint16_t endpoint)
+{
+  return &rmw_shared_rings[rmw_shared_ring_of[endpoint] + 1u];
+}
+
+uint32_t rmw_shared_call_words(const rmw_shared_ring_t * ring)
+{
+  return ring->endpoint >= (uint16_t)CALL_FIRST_SERVICE ? (uint32_t)CALL_WORDS : 0u;
+}
+
+/* Returns the part of a client's run that its requests carry: a client that was opened again gets no replies to earlier ones. */
+static uint16_t call_run(uint16_t client)
+{
+  return (uint16_t)(rmw_shared_writer(call_requests(client)).run & UINT16_MAX);
+}
+
+bool rmw_shared_call_is_wanted(const rmw_shared_ring_t * ring, const uint32_t * slot)
+{
+  return ring->endpoint < (uint16_t)CALL_FIRST_CLIENT ||
+         slot[CALL_NUMBER] >> 16 == (uint32_t)call_run(ring->endpoint);
+}
+
+void rmw_shared_call_note(
+  const rmw_shared_ring_t * ring, const uint32_t * slot, const rmw_local_queue_t * queue, uint8_t place)
+{
+  if (ring->endpoint >= (uint16_t)CALL_FIRST_SERVICE) {
+    const uint64_t sequence = (uint64_t)slot[CALL_HIGH] << 32 | slot[CALL_LOW];
+
+    queue->origins[place].number = (uint16_t)(slot[CALL_NUMBER] & UINT16_MAX);
+    queue->origins[place].client = (uint16_t)(slot[CALL_NUMBER] >> 16);
+    queue->origins[place].sequence = (int64_t)sequence;
+  }
+}
+
+void rmw_shared_call_opened(const xrce_endpoint_t * endpoint)
+{
+  if (
+    endpoint->index >= (uint16_t)CALL_FIRST_CLIENT && rmw_shared_has_ring(endpoint) &&
+    rmw_shared_look() == RMW_SHARED_ROOM) {
+    rmw_shared_renew(call_requests(endpoint->index)); /* nobody waits for replies to what is in the ring */
+  }
+}
+
+bool rmw_shared_call_is_open(const xrce_endpoint_t * client)
+{
+  uint32_t count; /* only asked whether there is a reader */
+  const rmw_shared_room_t room = rmw_shared_reserve(call_requests(client->index), &count);
+
+  return room == RMW_SHARED_ROOM || room == RMW_SHARED_FULL;
+}
+
+/* Writes a message with its identity to a ring. Without a reader in the other image it is dropped. */
+static rmw_ret_t call_write(
+  const xrce_endpoint_t * endpoint, const rmw_shared_ring_t * ring, const rmw_local_origin_t * origin,
+  const void * message)
+{
+  const microros_message_type_t * sent = xrce_service_of(endpoint)->sent;
+  const uint64_t sequence = (uint64_t)origin->sequence;
+  cdr_fault_t fault; /* set if the message is refused */
+  uint32_t count;
+  uint32_t size;
+  uint32_t * slot;
+  const rmw_shared_room_t room = rmw_shared_reserve(ring, &count);
+
+  if (room != RMW_SHARED_ROOM) {
+    return rmw_shared_error(room, endpoint->name);
+  }
+  slot = rmw_shared_slot(ring, count);
+  size = sent->encode(message, (uint8_t *)&slot[1 + (int)CALL_WORDS], &fault);
+  if (size == 0u) {
+    return rmw_encode_refuse(sent, &fault);
+  }
+  slot[CALL_NUMBER] = (uint32_t)origin->client << 16 | origin->number;
+  slot[CALL_LOW] = (uint32_t)(sequence & UINT32_MAX);
+  slot[CALL_HIGH] = (uint32_t)(sequence >> 32);
+  rmw_shared_commit(ring, count, size);
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_shared_call_request(
+  const xrce_endpoint_t * client, uint16_t number, int64_t sequence, const void * message)
+{
+  const rmw_local_origin_t origin = {
+    .client = rmw_shared_look() == RMW_SHARED_ROOM ? call_run(client->index) : 0u,
+    .number = number,
+    .sequence = sequence};
+
+  return call_write(client, call_requests(client->index), &origin, message);
+}
+
+rmw_ret_t rmw_shared_call_reply(
+  const xrce_endpoint_t * service, const rmw_local_origin_t * origin, const void * message)
+{
+  return call_write(service, call_replies(service->index), origin, message);
+}
