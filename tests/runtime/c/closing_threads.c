@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The first node, which has the client of the graph, is closed and opened again while another task spins. That task is
- * slow wherever it reads the time, so that the node is closed between any two steps of it.
+ * The first node, which has the client of the graph, is closed and opened again while another task spins and a third one
+ * queries. The task that spins is slow wherever it reads the time, so that the node is closed between any two steps of it.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "unit.h"
 
 #include <microros/port.h>
+#include <rcl/error_handling.h>
+#include <rcl/graph.h>
 #include <rcl/rcl.h>
 #include <rclc/executor.h>
 #include <rclc/rclc.h>
@@ -64,6 +66,20 @@ static void * spin(void * argument)
   return NULL;
 }
 
+/* While the first node is closed, or being opened, a query has an error. */
+static void * ask(void * argument)
+{
+  (void)argument;
+  while (!atomic_load(&ends)) {
+    size_t count = 0;
+    const rcl_ret_t result = rcl_count_publishers(&second, "/count", &count);
+
+    CHECK(result == RCL_RET_OK || rcl_error_is_set());
+    rcl_reset_error();
+  }
+  return NULL;
+}
+
 static void reopen(uint32_t after_ms)
 {
   atomic_store(&closes, true);
@@ -77,6 +93,7 @@ static void reopen(uint32_t after_ms)
 int main(void)
 {
   pthread_t thread;
+  pthread_t asking;
 
   allocator = rcl_get_default_allocator();
   CHECK(rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK);
@@ -89,10 +106,12 @@ int main(void)
     RCL_RET_OK);
   CHECK(rclc_executor_add_guard_condition(&executor, &condition, nothing) == RCL_RET_OK);
   CHECK(pthread_create(&thread, NULL, spin, NULL) == 0);
+  CHECK(pthread_create(&asking, NULL, ask, NULL) == 0);
   for (uint32_t i = 0; i < ROUNDS; ++i) {
     reopen(i);
   }
   atomic_store(&ends, true);
   CHECK(pthread_join(thread, NULL) == 0);
+  CHECK(pthread_join(asking, NULL) == 0);
   return 0;
 }

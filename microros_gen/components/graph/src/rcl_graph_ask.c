@@ -2,6 +2,7 @@
 #include "microros/rcl_graph_server.h"
 
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/rmw_service.h"
 #include "microros/text.h"
 
@@ -11,8 +12,28 @@ enum { GRAPH_ATTEMPTS = 2 };
 
 char rcl_graph_texts[MICROROS_GRAPH_TEXTS][MICROROS_GRAPH_NAME_SIZE];
 
-/* Waits for the response to request `first` or a later one; an earlier query, which has expired, may have left its own.
- * RCL_RET_TIMEOUT without a text: none has arrived in half of the time, or before the limit. */
+/* Takes a response that has arrived, of request `first` or a later one; an earlier query, which has expired, may have left its
+ * own. RCL_RET_CLIENT_TAKE_FAILED: there is none. */
+static rcl_ret_t graph_take(
+  const rcl_client_t * client, int64_t first, void * response, rcl_graph_bind_t bind)
+{
+  rmw_request_id_t header;
+  rcl_ret_t result;
+
+  if (!rcl_client_is_valid(client)) {
+    return microros_error_named(RCL_RET_ERROR, microros_error_graph_closed, NULL);
+  }
+  if (!rmw_requester_is_ready(client->impl)) {
+    return RCL_RET_CLIENT_TAKE_FAILED;
+  }
+  if (bind != NULL) {
+    bind(response);
+  }
+  result = rcl_take_response(client, &header, response);
+  return result == RCL_RET_OK && header.sequence_number < first ? RCL_RET_CLIENT_TAKE_FAILED : result;
+}
+
+/* Waits for the response. RCL_RET_TIMEOUT without a text: none has arrived in half of the time, or before the limit. */
 static rcl_ret_t graph_await(
   const rcl_client_t * client, int64_t first, void * response, rcl_graph_bind_t bind,
   const rcl_waiting_t * limit)
@@ -21,21 +42,14 @@ static rcl_ret_t graph_await(
     rcl_graph_waiting((uint32_t)MICROROS_CREATE_TIMEOUT_MS / (uint32_t)GRAPH_ATTEMPTS, limit);
 
   for (;;) {
-    rcl_waiting_receive();
-    if (!rcl_client_is_valid(client)) {
-      return microros_error_named(RCL_RET_ERROR, microros_error_graph_closed, NULL);
-    }
-    if (rmw_requester_is_ready(client->impl)) {
-      rmw_request_id_t header;
-      rcl_ret_t result;
+    rcl_ret_t result;
 
-      if (bind != NULL) {
-        bind(response);
-      }
-      result = rcl_take_response(client, &header, response);
-      if (result != RCL_RET_CLIENT_TAKE_FAILED && (result != RCL_RET_OK || header.sequence_number >= first)) {
-        return result;
-      }
+    rcl_waiting_receive();
+    microros_lock(); /* otherwise another task may close the node between two steps */
+    result = graph_take(client, first, response, bind);
+    microros_unlock();
+    if (result != RCL_RET_CLIENT_TAKE_FAILED) {
+      return result;
     }
     if (rcl_waiting_is_over(&waiting)) {
       return RCL_RET_TIMEOUT;
@@ -53,12 +67,13 @@ rcl_ret_t rcl_graph_ask(
 
   /* A request that is sent before the server is discovered, or while a session is lost, has no response. */
   for (uint32_t attempt = 0; attempt < (uint32_t)GRAPH_ATTEMPTS && result != RCL_RET_OK; ++attempt) {
+    const rcl_client_t now = rcl_graph_source_client(client);
     int64_t sequence_number;
 
     if (limit != NULL && rcl_waiting_is_over(limit)) {
       break;
     }
-    result = rcl_send_request(client, request, &sequence_number);
+    result = rcl_send_request(&now, request, &sequence_number);
     if (result != RCL_RET_OK) {
       return result;
     }

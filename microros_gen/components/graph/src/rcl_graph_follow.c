@@ -18,10 +18,12 @@ rcl_ret_t rcl_graph_open(rcl_node_t * node)
 {
   const uint16_t index = rmw_node_index(node->impl);
 
+  microros_lock(); /* another task may announce a change now */
   graph_triggers[index].taken = true;
   graph_triggers[index].seen = graph_triggers[index].triggered;
   graph_conditions[index].impl = &graph_triggers[index];
   graph_conditions[index].context = node->context;
+  microros_unlock();
   if (index != 0u) {
     return RCL_RET_OK;
   }
@@ -31,7 +33,9 @@ rcl_ret_t rcl_graph_open(rcl_node_t * node)
 
 void rcl_graph_close(rcl_node_t * node)
 {
+  microros_lock();
   graph_triggers[rmw_node_index(node->impl)].taken = false;
+  microros_unlock();
   if (graph_node != node->impl) {
     return;
   }

@@ -2,6 +2,7 @@
 /* The endpoints for the graph server, in the first node. */
 #include "microros/rcl_graph_server.h"
 
+#include "microros/lock.h"
 #include "microros/rcl_client_open.h"
 #include "microros/rmw_node.h"
 #include "microros/rmw_subscription.h"
@@ -13,23 +14,71 @@ rcl_client_t rcl_graph_endpoints_client;
 
 static rmw_subscription_t * graph_notices;
 
+rcl_client_t rcl_graph_source_client(const rcl_client_t * client)
+{
+  rcl_client_t found;
+
+  microros_lock();
+  found = *client;
+  microros_unlock();
+  return found;
+}
+
+/* Makes a client the one that queries use, and returns the former one. */
+static rcl_client_t graph_exchange(rcl_client_t * client, rcl_client_t next)
+{
+  rcl_client_t former;
+
+  microros_lock();
+  former = *client;
+  *client = next;
+  microros_unlock();
+  return former;
+}
+
 static rcl_ret_t graph_open_client(
   rcl_client_t * client, const rcl_node_t * node, const rosidl_service_type_support_t * type,
   const char * name)
 {
-  *client = rcl_get_zero_initialized_client();
-  return rcl_client_open(client, node, type, name, &rmw_qos_profile_services_default);
+  rcl_client_t opened = rcl_get_zero_initialized_client();
+  const rcl_ret_t result = rcl_client_open(&opened, node, type, name, &rmw_qos_profile_services_default);
+
+  (void)graph_exchange(client, opened);
+  return result;
+}
+
+static void graph_close_client(rcl_client_t * client, rcl_node_t * node)
+{
+  rcl_client_t former = graph_exchange(client, rcl_get_zero_initialized_client());
+
+  (void)rcl_client_fini(&former, node); /* cannot fail: the node is open */
+}
+
+/* Makes a subscription the one that is followed, and returns the former one. */
+static rmw_subscription_t * graph_follow(rmw_subscription_t * next)
+{
+  rmw_subscription_t * former;
+
+  microros_lock();
+  former = graph_notices;
+  graph_notices = next;
+  microros_unlock();
+  return former;
 }
 
 static rcl_ret_t graph_open_notices(const rcl_node_t * node)
 {
   rmw_qos_profile_t qos = rmw_qos_profile_default;
+  rmw_subscription_t * opened = NULL;
+  rmw_ret_t result;
 
   qos.durability = RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL;
   qos.depth = 1;
-  return rmw_subscription_open(
+  result = rmw_subscription_open(
     node->impl, ROSIDL_GET_MSG_TYPE_SUPPORT(microros_graph_msgs, msg, Change), "/microros_graph/changes",
-    &qos, &graph_notices);
+    &qos, &opened);
+  (void)graph_follow(opened);
+  return result;
 }
 
 rcl_ret_t rcl_graph_source_open(rcl_node_t * node)
@@ -51,17 +100,20 @@ rcl_ret_t rcl_graph_source_open(rcl_node_t * node)
 
 void rcl_graph_source_close(rcl_node_t * node)
 {
-  if (rmw_subscription_is_open(graph_notices)) {
-    rmw_subscription_close(graph_notices);
+  rmw_subscription_t * notices = graph_follow(NULL);
+
+  if (rmw_subscription_is_open(notices)) {
+    rmw_subscription_close(notices);
   }
-  /* Cannot fail: the node is open. */
-  (void)rcl_client_fini(&rcl_graph_names_client, node);
-  (void)rcl_client_fini(&rcl_graph_endpoints_client, node);
+  graph_close_client(&rcl_graph_names_client, node);
+  graph_close_client(&rcl_graph_endpoints_client, node);
 }
 
 bool rcl_graph_source_is_open(void)
 {
-  return rcl_client_is_valid(&rcl_graph_names_client);
+  const rcl_client_t client = rcl_graph_source_client(&rcl_graph_names_client);
+
+  return rcl_client_is_valid(&client);
 }
 
 bool rcl_graph_source_has_changed(void)

@@ -13,9 +13,13 @@
 extern "C" {
 #endif
 
-/* Clients of the server's services; invalid while their node is closed. */
+/* Clients of the server's services; invalid while their node is closed. Another task may close it at any time: read them with
+ * rcl_graph_source_client. */
 extern rcl_client_t rcl_graph_names_client;
 extern rcl_client_t rcl_graph_endpoints_client;
+
+/* Returns a client as it is now. What it refers to stays when its node is closed; its calls then fail. */
+rcl_client_t rcl_graph_source_client(const rcl_client_t * client);
 
 /* --- rcl_graph_ask.c --- */
 
