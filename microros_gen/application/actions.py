@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from typing import TypedDict
 
 from microros_gen.application.action_decl import ActionClientDecl, ActionDecl
+from microros_gen.application.limit_rule import LimitRule
+from microros_gen.application.limits import endpoint_limits
 from microros_gen.application.names import expand_topic_name, expanded_fault, substitute, topic_fault
 from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.documents.tree_values import child, int_of, items, report_name, span_of, text_of, time_of
@@ -52,6 +54,7 @@ class _Shared(TypedDict):
     type: str
     span: Span | None
     type_span: Span | None
+    limits: tuple[LimitRule, ...]
 
 
 def _shared(item: YamlNode, node: str, namespace: str, diagnostics: Diagnostics) -> _Shared:
@@ -61,6 +64,7 @@ def _shared(item: YamlNode, node: str, namespace: str, diagnostics: Diagnostics)
         "type": text_of(kind) or "",
         "span": item.span,
         "type_span": span_of(kind),
+        "limits": endpoint_limits(child(item, "limits"), text_of(kind) or ""),
     }
 
 

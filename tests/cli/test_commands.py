@@ -13,7 +13,7 @@ import pytest
 from microros_gen.cli.main import _COMMANDS
 from tests.support.command_line import Runner
 from tests.support.paths import ROOT
-from tests.support.selection.profiles import BUILTIN_PROFILES
+from tests.support.selection.profiles import ALL_PROFILES, BUILTIN_PROFILES
 
 IDL = str(ROOT / "microros_gen" / "idl")
 ALL_COMMANDS = [*_COMMANDS, "agent udp4", "modes check", "modes simulate", "modes graph"]
@@ -52,7 +52,7 @@ def graph_of(run: Runner, *arguments: str) -> str:
 def test_profiles_lists_all(run: Runner) -> None:
     lines = table_of(run, "profiles")
     assert lines[0].split() == ["PROFILE", "STATUS", "COMPONENTS", "WHAT", "FOR"]
-    assert [line.split()[0] for line in lines[1:]] == list(BUILTIN_PROFILES)
+    assert [line.split()[0] for line in lines[1:]] == list(ALL_PROFILES)
     listed = data_of(run, "profiles")
     assert {entry["name"]: entry["status"] for entry in listed}["pure_sender"] == "ready"
     assert set(listed[0]) == {"name", "summary", "status", "components", "axes"}

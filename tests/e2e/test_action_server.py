@@ -13,7 +13,7 @@ import pytest
 from tests.support.agent.process import running_agent
 from tests.support.e2e.action_peer import DEVICE, MODEL, ActionPeer, action_peer
 from tests.support.e2e.commanded import CommandedProgram
-from tests.support.e2e.images import C_FILES, Images, ends_well, started
+from tests.support.e2e.images import C_FILES, QUICK, Images, ends_well, kill, started
 from tests.support.e2e.relay import Relay
 from tests.support.patience import deadline, seconds
 
@@ -282,3 +282,25 @@ def test_the_agent_restarts_in_the_middle_of_a_goal(program: Path, image_port: R
             running.stdin.write("end\n")
             ends_well(running)
             process.__exit__(None, None, None)
+
+
+def test_the_example_of_the_profile(images: Images, image_port: Relay, agent: object, domain: int) -> None:
+    """It computes Fibonacci numbers; the type is that which rclpy has here."""
+    text = (
+        "version: 1\nprofiles: [pure_action_server]\nsession: {connect_timeout: 20 s, create_timeout: 20 s}\n"
+        "nodes:\n  - name: device\n    namespace: /arm\n    actions:\n"
+        "      - {name: fibonacci, type: test_msgs/action/Fibonacci, goals: 2, limits: {sequence: 16}}\n"
+    )
+    image = images.build(image_port.port, text, flags=(*QUICK, "-DEXAMPLE_PERIOD_MS=20"))
+    program = image.out / "bin" / "pure_action_server"
+    with action_peer(domain) as peer, started(program) as process:
+        assert peer.ask(do="wait", action=DEVICE, timeout=seconds(30))
+        for order, numbers in ((8, FIBONACCI), (0, [])):
+            answer = peer.send(order)
+            assert answer["accepted"]
+            assert peer.result(answer["goal"]) == [SUCCEEDED, numbers]
+        assert peer.send(17)["accepted"] is False
+        heard = [numbers for goal, numbers in peer.ask(do="feedback") if goal == 0]
+        assert heard
+        assert all(numbers == FIBONACCI[: len(numbers)] for numbers in heard)
+        kill(process)

@@ -127,7 +127,7 @@ def test_a_reader_that_restarts_gets_later_messages(programs: tuple[Path, Path],
 
 
 def test_an_image_that_closes_hears_nothing(programs: tuple[Path, Path], memory: Path) -> None:
-    """A reliable publisher has no subscription then, and what was written before is not for the next context."""
+    """A reliable publisher has no subscription then, and earlier messages are not for the next context."""
     with both(programs, memory) as (first, second):
         assert [first.publish(SURE, text) for text in "abc"] == ["", "", ""]
         assert second.publish(SURE, "last") == ""

@@ -18,7 +18,7 @@ from microros_gen.cli.profiles import select_profile
 from microros_gen.cli.tables import format_selection, selection_data
 from microros_gen.selection.component import Catalogue
 from microros_gen.selection.model import Selection
-from tests.support.selection.profiles import BUILTIN_PROFILES
+from tests.support.selection.profiles import ALL_PROFILES, BUILTIN_PROFILES
 
 GOLDEN = Path(__file__).parent / "golden"
 UPDATE = os.environ.get("MICROROS_UPDATE_GOLDEN") == "1"
@@ -74,11 +74,11 @@ def run(*arguments: str) -> str:
     return result.output
 
 
-def test_profiles_lists_all_seven() -> None:
+def test_profiles_lists_all() -> None:
     lines = run().splitlines()
-    assert [line.split()[0] for line in lines] == ["PROFILE", *BUILTIN_PROFILES]
+    assert [line.split()[0] for line in lines] == ["PROFILE", *ALL_PROFILES]
     assert lines[1].split()[1:4] == ["ready", "node,", "publish"]
-    assert [entry["name"] for entry in json.loads(run("--format", "json"))] == list(BUILTIN_PROFILES)
+    assert [entry["name"] for entry in json.loads(run("--format", "json"))] == list(ALL_PROFILES)
     assert run("--format", "dot").startswith("digraph profiles {")
 
 

@@ -12,7 +12,7 @@ from microros_gen.application.action_decl import ActionClientDecl
 from microros_gen.application.model import Application, EndpointDecl, LimitRule, NodeDecl, Qos
 from microros_gen.client.plan.declared import full_name, type_name
 from microros_gen.client.plan.features import PlanContext, refuse_own_limits
-from microros_gen.components.actions.plan import ActionEnds, place_of
+from microros_gen.components.actions.plan import ActionEnds, own_limits, place_of
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.names import c_name
@@ -125,8 +125,11 @@ def record(part: ActionClientPlan) -> object:
 
 
 def limits(application: Application) -> tuple[LimitRule, ...]:
-    """Return the limit of what a server says to a cancel request."""
-    goals = max((action.goals for node in application.nodes for action in node.action_clients), default=0)
-    rule = LimitRule((f"{_CANCEL}_Response", "goals_canceling"), goals, goals, single=True)
+    """Return the limit of what a server says to a cancel request, and those that the clients declare."""
+    declared = [action for node in application.nodes for action in node.action_clients]
+    goals = max((action.goals for action in declared), default=0)
+    if not goals:
+        return ()
+    cancel = LimitRule((f"{_CANCEL}_Response", "goals_canceling"), goals, goals, single=True)
     configured = {rule.path for rule in application.limits}
-    return (rule,) if goals and rule.path not in configured else ()
+    return tuple(rule for rule in (cancel, *own_limits(declared)) if rule.path not in configured)

@@ -13,10 +13,11 @@ from microros_gen.application.model import Application, EndpointDecl, LimitRule,
 from microros_gen.client.plan.declared import full_name, type_name
 from microros_gen.client.plan.features import PlanContext, refuse_own_limits
 from microros_gen.client.plan.receiving import buffers_of
-from microros_gen.components.actions.plan import ActionEnds, place_of
+from microros_gen.components.actions.plan import ActionEnds, own_limits, place_of
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.dds_names import dds_type
-from microros_gen.interfaces.derived import derived_name
+from microros_gen.interfaces.derived import ACTION_PARTS, derived_name
+from microros_gen.interfaces.types import Primitive, SequenceType, TypeName
 from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.names import c_name, include_path
 
@@ -24,6 +25,11 @@ _CANCEL = "action_msgs/srv/CancelGoal"
 _STATUS = "action_msgs/msg/GoalStatusArray"
 _STATUS_QOS = Qos(durability="transient_local", depth=1)
 """rcl_action_qos_profile_status_default; the feedback has rmw_qos_profile_default."""
+_NUMBERS = [("sequence", SequenceType(Primitive.INT32))]
+_FIBONACCI = [[("order", Primitive.INT32)], _NUMBERS, _NUMBERS]
+"""Members of goal, result and feedback of a Fibonacci action, in whichever package."""
+_MOST_NUMBERS = 47
+"""So many Fibonacci numbers are below 2^31."""
 SERVICES = ("send_goal", "cancel_goal", "get_result")
 TOPICS = ("feedback", "status")
 
@@ -42,7 +48,8 @@ class ActionServer:
     """A server: `c_type` begins the C names of its type; `send_goal` and `get_result` are DDS names of service types.
 
     `places` in the table of declared endpoints, in the order of SERVICES and TOPICS. `storages` has one element, or
-    none where a goal request has no variable size.
+    none where a goal request has no variable size. `numbers` has one for a Fibonacci action: how many of them its
+    example computes at most.
     """
 
     index: int
@@ -57,11 +64,18 @@ class ActionServer:
     goals: int
     result_timeout_ms: int
     storages: tuple[GoalStorage, ...] = ()
+    numbers: tuple[int, ...] = ()
 
     @property
     def binder(self) -> str:
         """Return the C function that binds a goal request to storage; NULL where it needs none."""
         return f"server_{self.index}_bind" if self.storages else "NULL"
+
+    @property
+    def turns(self) -> str:
+        """Return how often the example gives feedback of a goal, as C."""
+        request = f"(const {self.c_type}_SendGoal_Request *)goal->ros_goal_request"
+        return f"(({request})->goal.order)" if self.numbers else "GOAL_TURNS"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -153,7 +167,23 @@ def _server(context: PlanContext, index: int, at: int, node: NodeDecl, action: A
         goals=action.goals,
         result_timeout_ms=action.result_timeout_ms,
         storages=(storage,) if request.storage else (),
+        numbers=_numbers(action_type, context),
     )
+
+
+def _numbers(action: TypeName, context: PlanContext) -> tuple[int, ...]:
+    """Return how many Fibonacci numbers results and feedback have room for, none where the type has no such members."""
+    parts = [context.types[derived_name(action, part)].message for part in ACTION_PARTS]
+    shapes = [[(field.name, field.type) for field in part.fields] for part in parts]
+    if shapes != _FIBONACCI:
+        return ()
+    sizes = {
+        part: context.types[derived_name(action, part)].max_encoded_size
+        for part in ("GetResult_Response", "FeedbackMessage")
+    }
+    # After the status and the length, or the id of the goal and the length, of four bytes each.
+    rooms = ((sizes["GetResult_Response"] - 8) // 4, (sizes["FeedbackMessage"] - 20) // 4)
+    return (min(*rooms, _MOST_NUMBERS),)
 
 
 def record(part: ActionServerPlan) -> object:
@@ -169,13 +199,15 @@ def record(part: ActionServerPlan) -> object:
 
 
 def limits(application: Application) -> tuple[LimitRule, ...]:
-    """Return the limits of what is exchanged about several goals."""
-    goals = max((action.goals for node in application.nodes for action in node.actions), default=0)
+    """Return the limits of what is exchanged about several goals, and those that the servers declare."""
+    declared = [action for node in application.nodes for action in node.actions]
+    goals = max((action.goals for action in declared), default=0)
     if not goals:
         return ()
     rules = (
         LimitRule((_STATUS, "status_list"), goals, goals, single=True),
         LimitRule((f"{_CANCEL}_Response", "goals_canceling"), goals, goals, single=True),
+        *own_limits(declared),
     )
     configured = {rule.path for rule in application.limits}
     return tuple(rule for rule in rules if rule.path not in configured)

@@ -3,15 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Protocol
 
+from microros_gen.application.action_decl import ActionClientDecl, ActionDecl
 from microros_gen.application.kinds import NAMES
+from microros_gen.application.limit_rule import LimitRule
 from microros_gen.client.plan.declared import declarations, type_name
 from microros_gen.client.plan.features import PlanContext
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.dds_names import dds_type
-from microros_gen.interfaces.derived import derived_name
+from microros_gen.interfaces.derived import ACTION_PARTS, derived_name
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.names import c_name, include_path, type_files
@@ -80,6 +82,23 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> ActionsPlan:
         types=tuple(_type(name) for name in sorted(every)),
         result_requests=max((action.waiting for action in declared), default=1),
     )
+
+
+def own_limits(declared: Iterable[ActionDecl | ActionClientDecl]) -> tuple[LimitRule, ...]:
+    """Return the limits that servers or clients declare, for the messages of their types; of two ends the larger."""
+    found: dict[tuple[str, ...], LimitRule] = {}
+    for action in declared:
+        for rule in action.limits:
+            for part in ACTION_PARTS:
+                path = (f"{action.type}_{part}",)
+                before = found.get(path, LimitRule(path))
+                found[path] = LimitRule(
+                    path,
+                    max((n for n in (before.string, rule.string) if n is not None), default=None),
+                    max((n for n in (before.sequence, rule.sequence) if n is not None), default=None),
+                    rule.span,
+                )
+    return tuple(found.values())
 
 
 def _type(name: TypeName) -> ActionType:

@@ -118,29 +118,29 @@ class Builds:
         self._folder = folder
         folder.mkdir(exist_ok=True)
 
-    def build(self, name: str, application: str = "", beside: tuple[tuple[str, str], ...] = ()) -> Built:
+    def build(self, name: str, application: str = "", more_files: tuple[tuple[str, str], ...] = ()) -> Built:
         """Run `microros-gen build --target name`; `application` empty: `--profile pure_sender` alone.
 
-        `beside`: names and texts of files that the application names.
+        `more_files`: names and texts of files that the application names.
         """
-        return self._made(name, application, "build", beside)
+        return self._made(name, application, "build", more_files)
 
     def merged(self, name: str, application: str = "") -> Built:
         """Generate, and compile the sources as few translation units: for images that only run."""
         return self._made(name, application, "generate")
 
     def _made(
-        self, name: str, application: str, command: str, beside: tuple[tuple[str, str], ...] = ()
+        self, name: str, application: str, command: str, more_files: tuple[tuple[str, str], ...] = ()
     ) -> Built:
         need(name)
-        key = hashlib.sha256("".join((application, *map(str, beside))).encode()).hexdigest()[:8]
+        key = hashlib.sha256("".join((application, *map(str, more_files))).encode()).hexdigest()[:8]
         home = self._folder / f"{name}-{key}-{command}"
         built = Built(home / "out", target(name))
         with self.once(home.name) as first:
             if first:
                 shutil.rmtree(home, ignore_errors=True)
                 home.mkdir()
-                for file, text in beside:
+                for file, text in more_files:
                     (home / file).write_text(text)
                 if command == "generate":
                     generate(home, name, application)

@@ -62,15 +62,15 @@ def way(builds: Builds, name: str, local: str, message: str = "Int32", transport
     """
     type_, flags = MESSAGES[message]
     text = APPLICATION.replace("WHERE", local).replace("TYPE", type_).replace("TRANSPORT", transport)
-    beside: tuple[tuple[str, str], ...] = ()
+    more_files: tuple[tuple[str, str], ...] = ()
     if local == "chip":
         other = text.replace("count", "SAID").replace("HEARD", "count").replace("SAID", "heard")
         other = other.replace("device", "other") + REFERENCE.replace("device", "other")
-        beside = (("system.yaml", SYSTEM), ("other.yaml", other))
+        more_files = (("system.yaml", SYSTEM), ("other.yaml", other))
         text = text.replace("HEARD", "heard") + REFERENCE
     text = text.replace("HEARD", "count")
     flags = (*flags, *TRANSPORTS[transport], *MEASURED[local])
-    image = builds.application(builds.build(name, text, beside), "measured_local.c", *flags)
+    image = builds.application(builds.build(name, text, more_files), "measured_local.c", *flags)
     emulator = target(name).emulator
     assert emulator is not None
     command = [emulator.program, *emulator.arguments, *EXIT]

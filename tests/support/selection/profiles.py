@@ -13,3 +13,6 @@ BUILTIN_PROFILES = (
     "simulation_node",
 )
 """The seven profiles, in its order."""
+
+ALL_PROFILES = (*BUILTIN_PROFILES, "pure_action_server")
+"""Those of the tool: D1.4 has no profile for actions."""

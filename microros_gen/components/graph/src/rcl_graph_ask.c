@@ -13,7 +13,7 @@ enum { GRAPH_ATTEMPTS = 2 };
 char rcl_graph_texts[MICROROS_GRAPH_TEXTS][MICROROS_GRAPH_NAME_SIZE];
 
 /* Takes a response that has arrived, of request `first` or a later one; an earlier query, which has expired, may have left its
- * own. RCL_RET_CLIENT_TAKE_FAILED: there is none. */
+ * own. RCL_RET_CLIENT_TAKE_FAILED: none waits. */
 static rcl_ret_t graph_take(
   const rcl_client_t * client, int64_t first, void * response, rcl_graph_bind_t bind)
 {

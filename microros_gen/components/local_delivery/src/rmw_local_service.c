@@ -154,7 +154,7 @@ rmw_ret_t rmw_local_respond(
   rmw_ret_t result;
 
   if (rmw_shared_has_ring(service)) {
-    return rmw_shared_call_reply(service, &origin, ros_response);
+    return rmw_shared_call_reply(service, sent, &origin, ros_response);
   }
   result = local_check(sent, ros_response);
   if (result == RMW_RET_OK && origin.client < MICROROS_CLIENTS_MAX) {
@@ -193,7 +193,7 @@ rmw_ret_t rmw_local_send_request(
   rmw_ret_t result;
 
   if (rmw_shared_has_ring(client)) {
-    return rmw_shared_call_request(client, number->request, number->sequence, ros_request);
+    return rmw_shared_call_request(client, sent, number, ros_request);
   }
   result = local_check(sent, ros_request);
   if (result != RMW_RET_OK || !rmw_local_is_open(client->client, &rmw_local_queues[index])) {

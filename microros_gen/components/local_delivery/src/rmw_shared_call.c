@@ -6,7 +6,6 @@
 #include "microros/rmw_encode.h"
 #include "microros/rmw_shared_ring.h"
 #include "microros/xrce_client.h"
-#include "microros/xrce_services.h"
 
 #include <stddef.h>
 
@@ -75,23 +74,28 @@ bool rmw_shared_call_is_open(const xrce_endpoint_t * client)
   return room == RMW_SHARED_ROOM || room == RMW_SHARED_FULL;
 }
 
+/* The ring of a message, and the name of its service for texts. */
+typedef struct call_way_t {
+  const rmw_shared_ring_t * ring;
+  const char * name;
+} call_way_t;
+
 /* Writes a message with its identity to a ring. Without a reader in the other image it is dropped. */
 static rmw_ret_t call_write(
-  const xrce_endpoint_t * endpoint, const rmw_shared_ring_t * ring, const rmw_local_origin_t * origin,
+  const call_way_t * way, const microros_message_type_t * sent, const rmw_local_origin_t * origin,
   const void * message)
 {
-  const microros_message_type_t * sent = xrce_service_of(endpoint)->sent;
   const uint64_t sequence = (uint64_t)origin->sequence;
   cdr_fault_t fault; /* set if the message is refused */
   uint32_t count;
   uint32_t size;
   uint32_t * slot;
-  const rmw_shared_room_t room = rmw_shared_reserve(ring, &count);
+  const rmw_shared_room_t room = rmw_shared_reserve(way->ring, &count);
 
   if (room != RMW_SHARED_ROOM) {
-    return rmw_shared_error(room, endpoint->name);
+    return rmw_shared_error(room, way->name);
   }
-  slot = rmw_shared_slot(ring, count);
+  slot = rmw_shared_slot(way->ring, count);
   size = sent->encode(message, (uint8_t *)&slot[1 + (int)CALL_WORDS], &fault);
   if (size == 0u) {
     return rmw_encode_refuse(sent, &fault);
@@ -99,23 +103,28 @@ static rmw_ret_t call_write(
   slot[CALL_NUMBER] = (uint32_t)origin->client << 16 | origin->number;
   slot[CALL_LOW] = (uint32_t)(sequence & UINT32_MAX);
   slot[CALL_HIGH] = (uint32_t)(sequence >> 32);
-  rmw_shared_commit(ring, count, size);
+  rmw_shared_commit(way->ring, count, size);
   return RMW_RET_OK;
 }
 
 rmw_ret_t rmw_shared_call_request(
-  const xrce_endpoint_t * client, uint16_t number, int64_t sequence, const void * message)
+  const xrce_endpoint_t * client, const microros_message_type_t * sent, const rmw_local_number_t * number,
+  const void * message)
 {
+  const call_way_t way = {call_requests(client->index), client->name};
   const rmw_local_origin_t origin = {
     .client = rmw_shared_look() == RMW_SHARED_ROOM ? call_run(client->index) : 0u,
-    .number = number,
-    .sequence = sequence};
+    .number = number->request,
+    .sequence = number->sequence};
 
-  return call_write(client, call_requests(client->index), &origin, message);
+  return call_write(&way, sent, &origin, message);
 }
 
 rmw_ret_t rmw_shared_call_reply(
-  const xrce_endpoint_t * service, const rmw_local_origin_t * origin, const void * message)
+  const xrce_endpoint_t * service, const microros_message_type_t * sent, const rmw_local_origin_t * origin,
+  const void * message)
 {
-  return call_write(service, call_replies(service->index), origin, message);
+  const call_way_t way = {call_replies(service->index), service->name};
+
+  return call_write(&way, sent, origin, message);
 }

@@ -17,8 +17,8 @@ enum { SHARED_VALID, SHARED_RUN, SHARED_COUNT, SHARED_END_WORDS };
 
 static const uint32_t shared_mark = 0x6d726f73u;
 
-static uint32_t * shared_region; /* NULL: not opened, or there is none */
-static bool shared_is_absent;    /* the platform said that there is none */
+static uint32_t * shared_region; /* NULL: not opened, or the platform has no such memory */
+static bool shared_is_absent;    /* the platform said so */
 
 static volatile uint32_t * shared_end(const rmw_shared_ring_t * ring, bool writes)
 {

@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "microros/rmw_local.h"
+#include "microros/rmw_local_service.h"
 #include "microros/rmw_local_shared.h"
 #include "rmw/ret_types.h"
 
@@ -47,19 +48,22 @@ static inline bool rmw_shared_call_is_open(const xrce_endpoint_t * client)
 }
 
 static inline rmw_ret_t rmw_shared_call_request(
-  const xrce_endpoint_t * client, uint16_t number, int64_t sequence, const void * message)
+  const xrce_endpoint_t * client, const microros_message_type_t * sent, const rmw_local_number_t * number,
+  const void * message)
 {
   (void)client;
+  (void)sent;
   (void)number;
-  (void)sequence;
   (void)message;
   return RMW_RET_ERROR;
 }
 
 static inline rmw_ret_t rmw_shared_call_reply(
-  const xrce_endpoint_t * service, const rmw_local_origin_t * origin, const void * message)
+  const xrce_endpoint_t * service, const microros_message_type_t * sent, const rmw_local_origin_t * origin,
+  const void * message)
 {
   (void)service;
+  (void)sent;
   (void)origin;
   (void)message;
   return RMW_RET_ERROR;
