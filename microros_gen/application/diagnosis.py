@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from microros_gen.application.diagnosis_decl import CheckDecl, DiagnosisDecl, LevelLimits
+from microros_gen.application.diagnosis_decl import CallbackDecl, CheckDecl, DiagnosisDecl, LevelLimits
 from microros_gen.application.model import NodeDecl
 from microros_gen.diagnostics import Diagnostics, Span, nearest
 from microros_gen.documents.tree_values import (
@@ -44,10 +44,12 @@ def parse_diagnosis(
         cpu=_limits(child(tree, "cpu"), "cpu", True, diagnostics) or default.cpu,
         supply=_limits(child(tree, "supply"), "supply", False, diagnostics) or default.supply,
         checks=_checks(child(tree, "checks"), nodes, diagnostics),
+        callbacks=_callbacks(child(tree, "callbacks"), diagnostics),
         span=tree.span,
         hardware_span=span_of(child(tree, "hardware_id")),
         deadline_span=span_of(child(tree, "deadline")),
         timers_span=span_of(child(tree, "timers")),
+        callbacks_span=span_of(child(tree, "callbacks")),
     )
 
 
@@ -93,6 +95,22 @@ def _checks(
             hint = "Give each a different name: it is a constant of the program"
             diagnostics.error(message, check.span, hint, id="MG-3112")
     return checks
+
+
+def _callbacks(tree: YamlNode | None, diagnostics: Diagnostics) -> tuple[CallbackDecl, ...]:
+    callbacks = tuple(_callback(item, diagnostics) for item in items(tree))
+    seen: dict[str, CallbackDecl] = {}
+    for callback in callbacks:
+        if seen.setdefault(callback.name, callback) is not callback:
+            message = f"duplicate callback '{callback.name}' of a diagnosis"
+            hint = "Give each a different name: it is a constant of the program"
+            diagnostics.error(message, callback.span, hint, id="MG-3300")
+    return callbacks
+
+
+def _callback(item: YamlNode, diagnostics: Diagnostics) -> CallbackDecl:
+    limit = _time(child(item, "limit"), "limit", DEADLINE_US, "2 ms", diagnostics)
+    return CallbackDecl(text_of(child(item, "name")) or "", limit or 0, item.span)
 
 
 def _check(item: YamlNode, nodes: Sequence[NodeDecl], diagnostics: Diagnostics) -> CheckDecl:

@@ -39,6 +39,15 @@ class CheckDecl:
 
 
 @dataclass(frozen=True)
+class CallbackDecl:
+    """A callback whose times are reported; `limit_us`: longer ones are overruns, 0: none are."""
+
+    name: str
+    limit_us: int = 0
+    span: Span | None = None
+
+
+@dataclass(frozen=True)
 class DiagnosisDecl:
     """Everything below `diagnosis:`; `deadline_us` of the callbacks of a round, 0: none.
 
@@ -53,7 +62,9 @@ class DiagnosisDecl:
     cpu: LevelLimits = LevelLimits(warn=95)
     supply: LevelLimits = LevelLimits()
     checks: tuple[CheckDecl, ...] = ()
+    callbacks: tuple[CallbackDecl, ...] = ()
     span: Span | None = None
     hardware_span: Span | None = None
     deadline_span: Span | None = None
     timers_span: Span | None = None
+    callbacks_span: Span | None = None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The checks of a diagnosis that a program sets or looks at: `diagnosis: {checks: […]}`."""
+"""The checks and callbacks of a diagnosis that a program names: `diagnosis: {checks: […], callbacks: […]}`."""
 
 from __future__ import annotations
 
@@ -8,37 +8,58 @@ from collections.abc import Iterable, Mapping
 from microros_gen.migrate.c_program import Call
 from microros_gen.migrate.draft import DraftValue, Flow, Remark, place
 
-_CALLS = ("rclc_diagnosis_set", "rclc_diagnosis_level")
-_CONSTANT = "DIAGNOSIS_"
+_CHECK = ("check", "DIAGNOSIS_", ("rclc_diagnosis_set", "rclc_diagnosis_level"))
+_CALLBACK = ("callback", "RCLC_CALLBACK_", ("rclc_diagnosis_watch", "rclc_diagnosis_get_callback"))
+"""What it is, the beginning of its constants, and the calls whose first argument is one."""
 _NEVER = "above: {error: 2147483647}"
 """Limits that no value exceeds."""
 
 
-def find_checks(calls: Iterable[Call]) -> tuple[Mapping[str, DraftValue], list[Remark]]:
-    """Return `diagnosis` with a check for each constant of the calls, and what somebody has to decide of it.
+def find_diagnosis(calls: Iterable[Call]) -> tuple[Mapping[str, DraftValue], list[Remark]]:
+    """Return `diagnosis` with what the constants of the calls name, and what somebody has to decide of it.
 
-    Nothing in a program says which values are faults.
+    Nothing in a program says which values are faults, or how long a callback may take.
     """
-    found: dict[str, Call] = {}
-    remarks: list[Remark] = []
-    for call in calls:
-        if call.name not in _CALLS or not call.arguments:
-            continue
-        names = [t.text for t in call.arguments[0] if t.text.startswith(_CONSTANT) and t.text != _CONSTANT]
-        if len(names) == 1:
-            found.setdefault(names[0].removeprefix(_CONSTANT).lower(), call)
-        else:
-            shown = "".join(token.text for token in call.arguments[0])
-            remarks.append(
-                Remark(f"{call.name}: the check `{shown}` is worked out when the program runs", call.span)
-            )
-    if not found:
-        return {}, remarks
-    for name, call in found.items():
+    every = tuple(calls)
+    checks, remarks = _named(every, *_CHECK)
+    for name, call in checks.items():
         text = (
             f"the limits of the check '{name}' are not in these sources: with `{_NEVER}` it is never a fault"
         )
         remarks.append(Remark(text, call.span))
+    callbacks, more = _named(every, *_CALLBACK)
+    for name, call in callbacks.items():
+        text = f"how long the callback '{name}' may take is not in these sources: add `limit`"
+        more.append(Remark(text, call.span))
+    return {
+        **_values("checks", {name: f", {_NEVER}" for name in checks}, checks),
+        **_values("callbacks", dict.fromkeys(callbacks, ""), callbacks),
+    }, remarks + more
+
+
+def _named(
+    calls: Iterable[Call], what: str, constant: str, functions: tuple[str, ...]
+) -> tuple[dict[str, Call], list[Remark]]:
+    """Return the names of the constants with the first call of each, and the calls that name none."""
+    found: dict[str, Call] = {}
+    remarks: list[Remark] = []
+    for call in calls:
+        if call.name not in functions or not call.arguments:
+            continue
+        names = [t.text for t in call.arguments[0] if t.text.startswith(constant) and t.text != constant]
+        if len(names) == 1:
+            found.setdefault(names[0].removeprefix(constant).lower(), call)
+        else:
+            shown = "".join(token.text for token in call.arguments[0])
+            text = f"{call.name}: the {what} `{shown}` is worked out when the program runs"
+            remarks.append(Remark(text, call.span))
+    return found, remarks
+
+
+def _values(key: str, named: Mapping[str, str], found: Mapping[str, Call]) -> dict[str, DraftValue]:
+    """Return the value of a key: a list of mappings with the names, each followed by its text."""
+    if not found:
+        return {}
     first = next(iter(found.values()))
-    checks = ", ".join(f"{{name: {name}, {_NEVER}}}" for name in found)
-    return {"checks": DraftValue(Flow(f"[{checks}]"), f"{first.name} ({place(first.span)})")}, remarks
+    items = ", ".join(f"{{name: {name}{rest}}}" for name, rest in named.items())
+    return {key: DraftValue(Flow(f"[{items}]"), f"{first.name} ({place(first.span)})")}

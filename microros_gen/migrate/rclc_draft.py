@@ -13,7 +13,7 @@ from microros_gen.migrate.c_program import Call, CFile, read_program
 from microros_gen.migrate.c_tokens import read_c
 from microros_gen.migrate.c_values import Values, handle_of
 from microros_gen.migrate.capacities import Fact, find_capacities
-from microros_gen.migrate.diagnosis_checks import find_checks
+from microros_gen.migrate.diagnosis_checks import find_diagnosis
 from microros_gen.migrate.draft import Draft, DraftNode, DraftValue, Remark, place
 from microros_gen.migrate.missing import find_missing, selected_by
 from microros_gen.migrate.parameter_clients import find_clients, owner, watches
@@ -91,8 +91,8 @@ def rclc_draft(
     settings, more = find_settings(calls, values)
     pools = {**settings.get("pools", {}), **_executors(calls), **server_pools(calls, values)}
     limits, guesses = server_limits(calls, values)
-    checks, unlimited = find_checks(calls)
-    groups = {**settings, **{k: v for k, v in (("pools", pools), (diagnosis_decl.KEY, checks)) if v}}
+    diagnosis, unlimited = find_diagnosis(calls)
+    groups = {**settings, **{k: v for k, v in (("pools", pools), (diagnosis_decl.KEY, diagnosis)) if v}}
     draft = Draft(
         profiles=profiles.names,
         components=_components(

@@ -13,6 +13,7 @@ from pathlib import Path
 from tests.bench.selections import bench_selections
 from tests.support.firmware.actions import CLIENT, SERVER
 from tests.support.firmware.board import Builds, Built
+from tests.support.firmware.diagnosis import APPLICATION as DIAGNOSED
 from tests.support.firmware.everything import APPLICATION as EVERYTHING
 from tests.support.firmware.footprint import SERVES, Sender, bounded_stack, image_sections
 from tests.support.firmware.lifecycle import APPLICATION as LIFE_CYCLE
@@ -95,6 +96,7 @@ IMAGES = (
     Image("the same with a history of two", f"{JOINTS}pools: {{history: 2}}\n"),
     Image("action server of Fibonacci, two goals, executor", SERVER, "actions.c"),
     Image("action client of Fibonacci, two goals, executor", CLIENT, "action_client.c"),
+    Image("diagnosis with a check and a callback, timer, executor", DIAGNOSED, "diagnosis.c"),
     Image("publisher with events, transforms, time of the agent", OBSERVED, "observed.c"),
     Image(
         "two publishers, subscription, server, client, timer on ROS time",

@@ -22,6 +22,7 @@ diagnosis:
   hardware_id: board-7
   deadline: 50 ms
   timers: true
+  callbacks: [{name: tick, limit: 3 ms}, {name: other}]
   checks:
     - {name: heat, above: {warn: 80, error: 90}, timeout: 5 s, mode: SAFE}
     - {name: battery, unit: mV, below: {error: -5}, node: other}
@@ -119,6 +120,8 @@ MISTAKES = {
     "mode": ("mode: SAFE", "mode: SAFER", "MG-3116", "Did you mean 'SAFE'?"),
     "key": ("period: 2 s", "perod: 2 s", "MG-1002", "Did you mean 'period'?"),
     "name of the library": ("name: heat", "name: session", "MG-7099", "Choose another name"),
+    "callback twice": ("name: other}]", "name: tick}]", "MG-3300", "Give each a different name"),
+    "limit": ("limit: 3 ms", "limit: 61 s", "MG-3110", "Write limit: 2 ms"),
     "supply": ("period: 2 s", "supply: {warn: 4750}", "MG-7097", "Define port_supply_mv"),
 }
 """What is replaced, by what, and the id and hint of what is reported."""
@@ -140,6 +143,13 @@ def test_a_deadline_needs_an_executor(tmp_path: Path) -> None:
     text = f"{BARE}components: [+diagnosis]\nnodes: [{{name: device}}]\ndiagnosis: {{deadline: 5 ms}}\n"
     with pytest.raises(UserError, match="no executor is selected"):
         planned(tmp_path, text)
+
+
+def test_callbacks_need_an_executor(tmp_path: Path) -> None:
+    text = f"{BARE}components: [+diagnosis]\nnodes: [{{name: n}}]\ndiagnosis: {{callbacks: [{{name: a}}]}}\n"
+    with pytest.raises(UserError) as error:
+        planned(tmp_path, text)
+    assert [d.id for d in error.value.diagnostics] == ["MG-3301"]
 
 
 def test_the_key_needs_the_component(tmp_path: Path) -> None:
@@ -320,3 +330,68 @@ def test_reset_causes_of_the_microbit(tmp_path: Path) -> None:
     run("gcc", "-std=c99", "-Wall", "-Werror", f"-I{out / 'include'}", tmp_path / "reset.c", "-o", program)
     found = {reasons: names[int(run(program, hex(reasons)))] for reasons in RESETS}
     assert found == RESETS
+
+
+CALLBACKS = """\
+version: 1
+profiles: [pure_sender]
+components: [+diagnosis, +timers, +executor, +subscribe]
+nodes:
+  - name: device
+    timers: [{name: tick, period: 10 ms}]
+    subscriptions: [{topic: arm/command, type: std_msgs/msg/Int32}]
+diagnosis: {callbacks: [{name: tick, limit: 2 ms}, {name: command}, {name: other}]}
+"""
+
+
+def test_callbacks_have_a_status_each(tmp_path: Path) -> None:
+    """Overruns where there is a limit; also where several tasks run executors; nothing where none is declared."""
+    found = planned(tmp_path, CALLBACKS)
+    assert names(found)[-3:] == [f"device: callback {name}" for name in ("tick", "command", "other")]
+    part = slice_of(found)
+    rows = {status.name: part.rows[status.first_row :][: status.row_count] for status in part.statuses}
+    tick, command = rows["device: callback tick"], rows["device: callback command"]
+    assert [(row.key, row.warns) for row in tick] == [
+        ("runs", False),
+        ("last_us", False),
+        ("longest_us", False),
+        ("overruns", True),
+    ]
+    assert [row.key for row in command] == ["runs", "last_us", "longest_us"]
+    threads = slice_of(planned(tmp_path, CALLBACKS.replace("+diagnosis", "+diagnosis, +multithread")))
+    assert (threads.times, threads.measures_time) == (False, True)
+    out = rendered(tmp_path, CALLBACKS.partition("diagnosis: {")[0])
+    assert not (out / "src" / "diagnosis" / "rclc_diagnosis_callbacks.c").exists()
+    assert "static inline rcl_ret_t rclc_handle_call" in (
+        out / "include" / "microros" / "rclc_handle_call.h"
+    ).read_text("utf-8")
+
+
+def test_the_example_watches_what_is_named_like_a_callback(tmp_path: Path) -> None:
+    (example,) = (rendered(tmp_path, CALLBACKS) / "examples").glob("*/main.c")
+    watched = re.findall(
+        r"rclc_diagnosis_watch\(\(uint8_t\)RCLC_CALLBACK_(\w+), &(\w+)\)", example.read_text()
+    )
+    assert watched == [("TICK", "timer_0"), ("COMMAND", "subscription_0")]
+
+
+@pytest.mark.parametrize("lock", ["", ", +multithread"], ids=["one task", "several"])
+def test_times_of_callbacks(tmp_path: Path, lock: str) -> None:
+    """Limits from both sides, a wrap of the clock, callbacks within callbacks, removed handles; sanitizers.
+
+    With several tasks the lock is held whenever the clock is read, and never while a callback runs.
+    """
+    text = CALLBACKS.replace("+diagnosis", f"+diagnosis{lock}")
+    out = rendered(tmp_path, text)
+    tables = slice_of(planned(tmp_path, text)).tables
+    (tmp_path / "tables.c").write_text("\n".join(('#include "microros/rclc_diagnosis_times.h"', *tables, "")))
+    sources = [
+        UNITS / "unit_diagnosis_callbacks.c",
+        out / "src" / "diagnosis" / "rclc_diagnosis_callbacks.c",
+        tmp_path / "tables.c",
+    ]
+    flags = ("-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror")
+    checks = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+    program = tmp_path / "unit"
+    run("gcc", *flags, *checks, f"-I{out / 'include'}", *sources, "-o", program)
+    assert run(program) == "ok\n"

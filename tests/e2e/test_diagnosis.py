@@ -30,6 +30,7 @@ diagnosis:
   period: 200 ms
   hardware_id: board-7
   deadline: 50 ms
+  callbacks: [{name: tick, limit: 100 ms}]
   checks:
     - name: battery
       unit: mV
@@ -49,7 +50,7 @@ nodes:
 STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror")
 TOPIC, TYPE = "/diagnostics", "diagnostic_msgs/msg/DiagnosticArray"
 OK, WARN, ERROR, STALE = range(4)
-NAMES = {"executor", "timers", "errors", "log", "session", "battery"}
+NAMES = {"executor", "timers", "errors", "log", "session", "battery", "callback tick"}
 
 
 class Board:
@@ -147,6 +148,25 @@ def test_overruns_and_missed_deadlines(board: Board) -> None:
     assert 150_000 <= int(after["longest_us"]) < 10_000_000
     timers = board.next("timers", lambda s: int(values(s)["overruns"]) > int(before["timers"]["overruns"]))
     assert int(values(timers)["latest_us"]) >= 20_000
+
+
+def test_times_of_a_callback(board: Board) -> None:
+    """One of 150 ms is the longest and an overrun, which is a warning; those after it are short. C has the same numbers."""
+    before = values(board.next("callback tick"))
+    assert list(before) == ["runs", "last_us", "longest_us", "overruns"]
+    board.call("busy 150")
+    late = board.next("callback tick", lambda s: s["message"] == "overruns has changed")
+    assert late["level"] == WARN
+    after = values(board.next("callback tick", lambda s: int(values(s)["last_us"]) < 100_000))
+    assert int(after["runs"]) > int(before["runs"])
+    assert int(after["overruns"]) > int(before["overruns"])
+    assert int(after["longest_us"]) >= 150_000
+    code, _, (line,) = board.call("times")
+    runs, last_us, longest_us, overruns = map(int, line.split())
+    assert code == 0
+    assert runs >= int(after["runs"])
+    assert overruns >= int(after["overruns"])
+    assert longest_us >= int(after["longest_us"]) >= last_us
 
 
 def shares_in(status: dict[str, Any]) -> list[int]:

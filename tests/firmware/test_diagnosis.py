@@ -11,29 +11,12 @@ import pytest
 
 from tests.support.agent.observer import Observer
 from tests.support.firmware.board import Builds, board, need
-from tests.support.firmware.footprint import touched_stack
+from tests.support.firmware.diagnosis import APPLICATION
+from tests.support.firmware.footprint import bounded_stack, image_sections, touched_stack
 from tests.support.firmware.running import started
 from tests.support.patience import deadline
 
 NAME = "qemu-mps2-an386"
-PLAIN = """\
-version: 1
-profiles: [pure_sender]
-errors: code
-session: {connect_timeout: 20 s, create_timeout: 20 s, liveliness_timeout: 20 s}
-nodes:
-  - name: device
-    namespace: /arm
-    timers: [{name: tick, period: 20 ms}]
-"""
-APPLICATION = f"""\
-{PLAIN}components: [+timers, +executor, +diagnosis]
-memory: {{stack: 8 KiB}}
-diagnosis:
-  period: 500 ms
-  stack: {{warn: 35, error: 90}}
-  checks: [{{name: heat, above: {{error: 80}}}}]
-"""
 USED = 3000
 """Bytes of the stack that the program uses after some seconds."""
 
@@ -73,6 +56,7 @@ def test_the_stack_is_what_the_memory_says(
         heat = statuses(observer, "heat", lambda values, status: True)
         executor = statuses(observer, "executor", lambda values, status: values["cpu_percent"] != "unknown")
         reset = statuses(observer, "reset", lambda values, status: True)
+        tick = statuses(observer, "callback tick", lambda values, status: int(values["runs"]) > 0)
         running.wait_for(lambda: running.words("diagnosis_report", 2)[1] > 200, 60)
         used = int(before["values"]["peak"]) + USED // 2
         after = statuses(  # the percentage is that of the start of a report, the rows that of its message
@@ -92,3 +76,18 @@ def test_the_stack_is_what_the_memory_says(
     assert int(executor["values"]["cpu_percent"]) <= 100
     assert int(executor["values"]["rounds"]) > 0
     assert reset["values"] == {"cause": "unknown"}
+    times = {key: int(value) for key, value in tick["values"].items()}
+    assert times.keys() == {"runs", "last_us", "longest_us", "overruns"}
+    assert times["last_us"] <= times["longest_us"]
+
+
+@pytest.mark.system
+def test_what_an_image_with_diagnosis_takes(builds: Builds) -> None:
+    """Ceilings on the Cortex-M4: executor, timer, a check and a measured callback; figures.md has all processors."""
+    need(NAME)
+    built = builds.build(NAME, APPLICATION)
+    image = builds.application(built, "diagnosis.c")
+    size = image_sections(built, image)
+    assert size.text + size.data <= 14_700
+    assert size.ram <= 2_500
+    assert bounded_stack(built, image) <= 3_700, "3,000 bytes of it are those of use_stack"

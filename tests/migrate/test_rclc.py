@@ -512,5 +512,30 @@ def test_checks_of_a_diagnosis_are_declared(tmp_path: Path) -> None:
     assert part.declared == ("battery", "motor_heat")
 
 
+def test_callbacks_of_a_diagnosis_are_declared(tmp_path: Path) -> None:
+    """Beside the checks, each once; somebody has to write how long they may take."""
+    text = program(
+        "(void)rclc_diagnosis_watch((uint8_t)RCLC_CALLBACK_TICK, &timer);\n"
+        "(void)rclc_diagnosis_get_callback(RCLC_CALLBACK_TICK, &times);\n"
+        "(void)rclc_diagnosis_level(DIAGNOSIS_BATTERY);\n"
+        "(void)rclc_diagnosis_watch(i, &timer);"
+    )
+    draft = adopted(text).draft
+    assert "+diagnosis" in draft.components
+    group = draft.groups["diagnosis"]
+    assert str(group["callbacks"].value) == "[{name: tick}]"
+    assert "0.c:5:9: how long the callback 'tick' may take is not in these sources: add `limit`" in reasons(
+        text
+    )
+    assert "0.c:8:7: rclc_diagnosis_watch: the callback `i` is worked out when the program runs" in reasons(
+        text
+    )
+    base = "version: 1\nprofiles: [pure_sender]\ncomponents: [+diagnosis, +executor]\nnodes: [{name: n}]\n"
+    keys = ", ".join(f"{key}: {value.value}" for key, value in group.items())
+    part = planned(tmp_path, f"{base}diagnosis: {{{keys}}}\n").project.runtime.features.of("diagnosis")
+    assert isinstance(part, DiagnosisPlan)
+    assert [callback.name for callback in part.callbacks] == ["tick"]
+
+
 def test_without_calls_of_a_diagnosis_none_is_proposed() -> None:
     assert "diagnosis" not in adopted(program("rclc_other(DIAGNOSIS_BATTERY, 5);")).draft.groups

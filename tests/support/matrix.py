@@ -195,7 +195,8 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "    parameters: [{name: speed, type: double}]\n    modes: {SLOW: {speed: 0.5}}\n"
         + "    timers: [{name: tick, period: 50 ms}]\nprofiles: [managed_service]\n"
         + "components: [+timers, +diagnosis]\n"
-        + "diagnosis: {deadline: 5 ms, checks: [{name: battery, below: {error: 11000}, mode: SLOW}]}\n",
+        + "diagnosis: {deadline: 5 ms, checks: [{name: battery, below: {error: 11000}, mode: SLOW}],\n"
+        + "  callbacks: [{name: tick, limit: 2 ms}]}\n",
         "on-silence": _BUSY
         + "    subscriptions: [{topic: near, type: std_msgs/msg/Int32, on_silence: {after: 1 s, call: stop_motors}}]\n"
         + "profiles: [pure_reader]\n",

@@ -5,11 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from microros_gen.application.diagnosis_decl import DiagnosisDecl, LevelLimits
+from microros_gen.application.diagnosis_decl import CallbackDecl, DiagnosisDecl, LevelLimits
 from microros_gen.application.model import Application, LimitRule
 from microros_gen.client.plan.features import PlanContext, refuse_own_limits
 from microros_gen.client.plan.streams import WRITE_DATA_OVERHEAD
 from microros_gen.client.plan.values import Values
+from microros_gen.client.views.example_running import RunningView
+from microros_gen.components.diagnosis.callbacks import CALLBACK, callback_rows, constant_of, example_watch
 from microros_gen.components.diagnosis.tables import (
     CheckRow,
     CounterRow,
@@ -63,6 +65,7 @@ class DiagnosisPlan:
     checks: tuple[CheckRow, ...]
     declared: tuple[str, ...]
     periods: tuple[int, ...]
+    callbacks: tuple[CallbackDecl, ...]
     missing: str
     size: int
 
@@ -92,6 +95,16 @@ class DiagnosisPlan:
         return len(self.periods)
 
     @property
+    def callback_count(self) -> int:
+        """Return the number of callbacks whose times are reported one by one."""
+        return len(self.callbacks)
+
+    @property
+    def measures_time(self) -> bool:
+        """Return whether anything is measured in microseconds."""
+        return self.times or bool(self.callbacks)
+
+    @property
     def shown(self) -> str:
         """Return what a report says: the period and the names of all statuses."""
         names = ", ".join(status.name.partition(": ")[2] for status in self.statuses)
@@ -105,12 +118,18 @@ class DiagnosisPlan:
 
     @property
     def tables(self) -> tuple[str, ...]:
-        """Return the lists of words, and of periods, as C."""
+        """Return the lists of words, of periods, and of limits of callbacks, as C."""
         words = ", ".join(f'"{word}"' for word in _RESETS)
         resets = f"static const char * const diagnosis_resets[] = {{{words}}};"
         numbers = ", ".join(f"INT64_C({period * _NS_PER_US})" for period in self.periods)
         periods = f"const int64_t rcl_diagnosis_periods[] = {{{numbers}}};"
-        return (*((resets,) if self.reset else ()), *((periods,) if self.periods else ()))
+        times = ", ".join(f"{callback.limit_us}u" for callback in self.callbacks)
+        limits_us = f"const uint32_t rcl_diagnosis_limits_us[] = {{{times}}};"
+        return (
+            *((resets,) if self.reset else ()),
+            *((periods,) if self.periods else ()),
+            *((limits_us,) if self.callbacks else ()),
+        )
 
     @property
     def checks_table(self) -> tuple[str, ...]:
@@ -125,11 +144,13 @@ class DiagnosisPlan:
 
     @property
     def constants(self) -> tuple[str, ...]:
-        """Return the positions of the application's checks as lines of C."""
-        if not self.declared:
-            return ()
-        names = (f"  DIAGNOSIS_{name.upper()} = {i}," for i, name in enumerate(self.declared))
-        return ("", "enum {", *names, "};")
+        """Return the positions of the application's checks and callbacks as lines of C."""
+        checks = (f"  DIAGNOSIS_{name.upper()} = {i}," for i, name in enumerate(self.declared))
+        times = (f"  {constant_of(callback)} = {i}," for i, callback in enumerate(self.callbacks))
+        return (
+            *(("", "enum {", *checks, "};") if self.declared else ()),
+            *(("", "enum {", *times, "};") if self.callbacks else ()),
+        )
 
     @property
     def example_function(self) -> tuple[str, ...]:
@@ -149,6 +170,10 @@ class DiagnosisPlan:
             "",
         )
 
+    def example_watch(self, running: RunningView | None) -> Iterator[str]:
+        """Yield statements of the example, which watch the entities that are named like a declared callback."""
+        yield from example_watch(self.callbacks, running)
+
     @property
     def example_turn(self) -> tuple[str, ...]:
         """Return its call."""
@@ -165,17 +190,25 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> DiagnosisPlan:
     has = {name: _offered(context, name) for name in ("stack_peak", "reset_cause", "supply_voltage")}
     supply = has["supply_voltage"]
     _check_measured(context, declared, times, supply, diagnostics)
+    if declared.callbacks and not context.selection.has("executor"):
+        message = "'callbacks' of a diagnosis is for callbacks of executors, and no executor is selected"
+        hint = "Add +executor to components, or remove it"
+        diagnostics.error(message, declared.callbacks_span, hint, id="MG-3301")
     timers = _timers(application) if declared.timers else ()
     if declared.timers and not timers:
         message = "'timers' of a diagnosis is for declared timers, and no node has one"
         hint = "Add to a node: `timers: [{name: tick, period: 100 ms}]`"
         diagnostics.error(message, declared.timers_span, hint, id="MG-7189")
-    rows = [*_own_rows(context, times, has, [name for name, _ in timers]), *_contributed(context)]
+    rows = [
+        *_own_rows(context, times, has, [name for name, _ in timers]),
+        *_contributed(context),
+        *callback_rows(declared.callbacks),
+    ]
     checks = [*_own_checks(declared, cpu, has["stack_peak"], supply)]
     statuses, rows_in_order, checks_in_order = statuses_of(application, declared, rows, checks, diagnostics)
     if len(statuses) > MOST_STATUSES:
         message = f"a device has {len(statuses)} statuses, {MOST_STATUSES} at most"
-        diagnostics.error(message, declared.span, "Remove some checks", id="MG-7095")
+        diagnostics.error(message, declared.span, "Remove some checks or callbacks", id="MG-7095")
     size = largest(statuses, rows_in_order, checks_in_order, declared.hardware_id, _RESETS)
     _check_size(context, size, declared, diagnostics)
     missing = [
@@ -199,6 +232,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> DiagnosisPlan:
         checks=checks_in_order,
         declared=tuple(check.name for check in declared.checks),
         periods=tuple(period for _, period in timers),
+        callbacks=declared.callbacks,
         missing=", ".join(missing),
         size=size,
     )
@@ -310,6 +344,7 @@ def record(part: DiagnosisPlan) -> object:
         "checks": [check.entry for check in part.checks],
         "declared": list(part.declared),
         "periods": list(part.periods),
+        "callbacks": [[callback.name, callback.limit_us] for callback in part.callbacks],
     }
 
 
@@ -322,7 +357,8 @@ def limits(application: Application) -> tuple[LimitRule, ...]:
     values = max(_MOST_VALUES, _OTHER_VALUES + len(timers))
     key = max([_LONGEST_KEY, *(len(f"{name}_us") for name, _ in timers)])
     nodes = max((len(node_prefix(node)) for node in application.nodes), default=0)
-    name = nodes + max(_LONGEST_GROUP, longest)
+    groups = (len(f"{CALLBACK}{callback.name}") for callback in declared.callbacks)
+    name = nodes + max(_LONGEST_GROUP, longest, *groups)
     bounds: tuple[tuple[tuple[str, ...], int | None, int | None], ...] = (
         (("header", "frame_id"), 1, None),
         (("status",), None, 1),

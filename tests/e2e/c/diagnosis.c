@@ -2,7 +2,8 @@
 /*
  * A node with modes, a timer and checks under an executor, in the hands of a test: "set NUMBER" sets the battery, "busy
  * NUMBER" lets the next callback of the timer take so many milliseconds, "fail" makes an error, "refuse" and "accept"
- * say what the callback of modes does, "activate" changes the state, "show" prints mode and level.
+ * say what the callback of modes does, "activate" changes the state, "show" prints mode and level, "times" the numbers of
+ * the timer's callback: runs, last and longest microseconds, overruns.
  */
 #define _POSIX_C_SOURCE 200809L
 #include <stdbool.h>
@@ -62,6 +63,7 @@ static void begin(void)
   check(rclc_timer_init_default2(&timer, &support, RCL_MS_TO_NS(PERIOD_MS), on_timer, true), "timer");
   check(rclc_executor_init(&executor, &support.context, HANDLES, &allocator), "executor");
   check(rclc_executor_add_timer(&executor, &timer), "timer of the executor");
+  check(rclc_diagnosis_watch((uint8_t)RCLC_CALLBACK_TICK, &timer), "callback of the timer");
   check(rclc_parameter_server_init_default(&parameters, &node), "parameters");
   check(arm_device_parameters_declare(&parameters), "declarations");
   check(rclc_executor_add_parameter_server(&executor, &parameters, NULL), "parameter server");
@@ -83,7 +85,20 @@ static rcl_ret_t activate(void)
                               : result;
 }
 
-/* set NUMBER | busy MS | refuse | accept | activate | fail | show */
+static rcl_ret_t print_times(void)
+{
+  rclc_diagnosis_callback_t times;
+  const rcl_ret_t result = rclc_diagnosis_get_callback((uint8_t)RCLC_CALLBACK_TICK, &times);
+
+  if (result == RCL_RET_OK) {
+    (void)printf(
+      "%lu %lu %lu %lu\n", (unsigned long)times.runs, (unsigned long)times.last_us,
+      (unsigned long)times.longest_us, (unsigned long)times.overruns);
+  }
+  return result;
+}
+
+/* set NUMBER | busy MS | refuse | accept | activate | fail | show | times */
 static rcl_ret_t run(char ** words)
 {
   const char * what = words[0];
@@ -93,6 +108,9 @@ static rcl_ret_t run(char ** words)
   }
   if (strcmp(what, "activate") == 0) {
     return activate();
+  }
+  if (strcmp(what, "times") == 0) {
+    return print_times();
   }
   if (strcmp(what, "fail") == 0) {
     return rclc_diagnosis_set(99u, 0);

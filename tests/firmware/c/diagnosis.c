@@ -59,6 +59,9 @@ static rcl_ret_t begin(void)
   if (result == RCL_RET_OK) {
     result = rclc_executor_add_timer(&executor, &timer);
   }
+  if (result == RCL_RET_OK) {
+    result = rclc_diagnosis_watch((uint8_t)RCLC_CALLBACK_TICK, &timer);
+  }
   return result;
 }
 

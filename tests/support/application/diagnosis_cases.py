@@ -192,4 +192,28 @@ DIAGNOSIS_CASES: dict[str, KeyCase] = {
         "4:23",
         "'diagnosis.checks[0].mode' must be a text; it is 1",
     ),
+    "diagnosis.callbacks": KeyCase(
+        "diagnosis: {callbacks: [{name: tick}, {name: other}]}",
+        _diagnosis(lambda d: len(d.callbacks)),
+        2,
+        "diagnosis: {callbacks: [tick]}",
+        "1:25",
+        "'diagnosis.callbacks[0]' must be a mapping such as {name: tick, limit: 2 ms}",
+    ),
+    "diagnosis.callbacks[].name": KeyCase(
+        "diagnosis: {callbacks: [{name: tick}]}",
+        _diagnosis(lambda d: d.callbacks[0].name),
+        "tick",
+        "diagnosis: {callbacks: [{name: 3}]}",
+        "1:32",
+        "'diagnosis.callbacks[0].name' must be a name of lower-case letters",
+    ),
+    "diagnosis.callbacks[].limit": KeyCase(
+        "diagnosis: {callbacks: [{name: tick, limit: 2 ms}]}",
+        _diagnosis(lambda d: d.callbacks[0].limit_us),
+        2000,
+        "diagnosis: {callbacks: [{name: tick, limit: 2}]}",
+        "1:45",
+        "'diagnosis.callbacks[0].limit' must be a time with its unit such as 20 ms",
+    ),
 }

@@ -294,7 +294,8 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "diagnosis": _NODES.replace("    publishers:\n", "")
         + _MODES
         + "    timers: [{name: tick, period: 50 ms}]\ncomponents: [+timers, +executor, +diagnosis]\n"
-        + "diagnosis: {deadline: 5 ms, timers: true, checks: [{name: battery, below: {error: 11000}, mode: SLOW}]}\n",
+        + "diagnosis: {deadline: 5 ms, timers: true, checks: [{name: battery, below: {error: 11000}, mode: SLOW}],\n"
+        + "  callbacks: [{name: tick, limit: 2 ms}, {name: other}]}\n",
         "on_silence": _READER
         + _ALONE.replace("queue: 1", "queue: 1, on_silence: {after: 1 s, call: stop_motors}")
         + "components: [+multithread]\n",
