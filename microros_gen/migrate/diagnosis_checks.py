@@ -32,7 +32,7 @@ def find_diagnosis(calls: Iterable[Call]) -> tuple[Mapping[str, DraftValue], lis
         text = f"how long the callback '{name}' may take is not in these sources: add `limit`"
         more.append(Remark(text, call.span))
     return {
-        **_values("checks", {name: f", {_NEVER}" for name in checks}, checks),
+        **_values("checks", dict.fromkeys(checks, f", {_NEVER}"), checks),
         **_values("callbacks", dict.fromkeys(callbacks, ""), callbacks),
     }, remarks + more
 

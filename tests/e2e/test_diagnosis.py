@@ -151,7 +151,7 @@ def test_overruns_and_missed_deadlines(board: Board) -> None:
 
 
 def test_times_of_a_callback(board: Board) -> None:
-    """One of 150 ms is the longest and an overrun, which is a warning; those after it are short. C has the same numbers."""
+    """One of 150 ms is the longest and an overrun, a warning; those after it are short. C has the same numbers."""
     before = values(board.next("callback tick"))
     assert list(before) == ["runs", "last_us", "longest_us", "overruns"]
     board.call("busy 150")

@@ -20,7 +20,7 @@ def constant_of(callback: CallbackDecl) -> str:
 
 
 def callback_rows(callbacks: Sequence[CallbackDecl]) -> Iterator[CounterRow]:
-    """Yield the counters of each callback, which has a status of its own; overruns only where it has a limit."""
+    """Yield the counters of each callback, each in a separate status; overruns only where it has a limit."""
     for index, callback in enumerate(callbacks):
         group = f"{CALLBACK}{callback.name}"
         for key in ("runs", "last_us", "longest_us", *(("overruns",) if callback.limit_us else ())):
