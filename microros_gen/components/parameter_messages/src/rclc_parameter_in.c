@@ -40,6 +40,13 @@ parameter_text_t rclc_parameter_in_text(cdr_in_t * in)
   return text;
 }
 
+void rclc_parameter_in_pass_text(cdr_in_t * in)
+{
+  const uint32_t length = rclc_parameter_in_length(in); /* so many bytes are left */
+
+  in->position += length;
+}
+
 uint32_t rclc_parameter_in_pass(cdr_in_t * in, uint32_t width)
 {
   const uint32_t count = cdr_in_length(in, width, "message");

@@ -9,16 +9,17 @@
 uint8_t * rclc_parameter_out_take(parameter_out_t * out, uint32_t width, uint32_t bytes)
 {
   const uint32_t start = cdr_aligned(out->position, width);
+  uint8_t * body = out->body;
 
   if (start > out->room || bytes > out->room - start) {
     out->full = true;
     return NULL;
   }
   for (uint32_t i = out->position; i < start; ++i) {
-    out->body[i] = 0; /* mostly none: a call of memset for each member would take longer than the member */
+    body[i] = 0; /* mostly none: a call of memset for each member would take longer than the member */
   }
   out->position = start + bytes;
-  return &out->body[start];
+  return &body[start];
 }
 
 void rclc_parameter_out_1(parameter_out_t * out, uint8_t value)

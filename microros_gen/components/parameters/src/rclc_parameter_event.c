@@ -12,21 +12,25 @@ static void event_out_stamp(parameter_out_t * out)
 {
   const uint64_t ns_per_s = 1000000000;
   uint64_t nanoseconds;
-  const uint64_t seconds = rclc_parameter_divide((uint64_t)microros_epoch_known_ns(), ns_per_s, &nanoseconds);
+  const uint32_t seconds =
+    (uint32_t)rclc_parameter_divide((uint64_t)microros_epoch_known_ns(), ns_per_s, &nanoseconds);
+  const uint32_t rest = (uint32_t)nanoseconds;
+  uint8_t * to = rclc_parameter_out_take(out, 4u, 8u);
 
-  rclc_parameter_out_4(out, (uint32_t)seconds);
-  rclc_parameter_out_4(out, (uint32_t)nanoseconds);
+  if (to != NULL) {
+    cdr_put_4(&to[0], &seconds);
+    cdr_put_4(&to[4], &rest);
+  }
 }
 
 /* Writes the parameters that the event lists as `what`; as in ROS 2, deleted ones have no value. */
 static void event_out_list(parameter_out_t * out, const rclc_parameter_server_t * server, uint8_t what)
 {
+  const rclc_parameter_place_t * end = &server->places[server->count];
   const uint32_t at = rclc_parameter_out_begin(out);
   uint32_t count = 0;
 
-  for (size_t i = 0; i < server->count; ++i) {
-    const rclc_parameter_place_t * place = &server->places[i];
-
+  for (const rclc_parameter_place_t * place = server->places; place != end; ++place) {
     if (place->event == what) {
       rclc_parameter_out_text(out, place->about->name);
       rclc_parameter_out_value(
@@ -63,8 +67,10 @@ const rosidl_message_type_support_t rclc_parameter_event_type = {
 
 static bool event_is_due(const rclc_parameter_server_t * server)
 {
-  for (size_t i = 0; i < server->count; ++i) {
-    if (server->places[i].event != (uint8_t)PARAMETER_EVENT_NONE) {
+  const rclc_parameter_place_t * end = &server->places[server->count];
+
+  for (const rclc_parameter_place_t * place = server->places; place != end; ++place) {
+    if (place->event != (uint8_t)PARAMETER_EVENT_NONE) {
       return true;
     }
   }

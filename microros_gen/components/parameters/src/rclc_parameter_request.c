@@ -16,7 +16,7 @@ static void request_rest(cdr_in_t * in, parameter_requested_t * requested)
 #if MICROROS_PARAMETER_STRING_SIZE > 0u
   requested->string = rclc_parameter_in_text(in);
 #else
-  (void)rclc_parameter_in_pass(in, 1u);
+  rclc_parameter_in_pass_text(in);
 #endif
   rclc_parameter_array_request(in, requested);
 }
@@ -109,7 +109,7 @@ void rclc_parameter_decode_parameters(cdr_in_t * in, void * server)
   }
   count = rclc_parameter_in_length(in);
   for (uint32_t i = 0; i < count && !in->failed; ++i) {
-    (void)rclc_parameter_in_pass(in, 1u);     /* the name */
+    rclc_parameter_in_pass_text(in);          /* the name */
     (void)rclc_parameter_in_take(in, 2u, 1u); /* the type, and a bool */
     (void)rclc_parameter_in_take(in, 2u, 8u); /* an integer, and a double */
     request_rest(in, &passed);

@@ -19,12 +19,16 @@ parameter_text_t rclc_parameter_text(const char * text)
 
 bool rclc_parameter_begins(const char * name, const parameter_text_t * text)
 {
-  uint32_t i = 0;
+  const char * end = &text->data[text->size];
+  const char * of_name = name;
 
-  while (i < text->size && name[i] == text->data[i]) {
-    ++i;
+  for (const char * at = text->data; at != end; ++at) {
+    if (*of_name != *at) {
+      return false;
+    }
+    ++of_name;
   }
-  return i == text->size;
+  return true;
 }
 
 const rclc_parameter_place_t * rclc_parameter_find(

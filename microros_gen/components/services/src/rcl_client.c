@@ -76,7 +76,10 @@ rcl_ret_t rcl_client_fini(rcl_client_t * client, rcl_node_t * node)
 
 bool rcl_client_is_valid(const rcl_client_t * client)
 {
-  return client != NULL && rmw_requester_is_open(client->impl);
+  if (client == NULL) {
+    return false;
+  }
+  return rmw_requester_is_open(client->impl);
 }
 
 rcl_ret_t rcl_take_response_with_info(

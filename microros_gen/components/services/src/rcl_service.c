@@ -76,7 +76,10 @@ rcl_ret_t rcl_service_fini(rcl_service_t * service, rcl_node_t * node)
 
 bool rcl_service_is_valid(const rcl_service_t * service)
 {
-  return service != NULL && rmw_replier_is_open(service->impl);
+  if (service == NULL) {
+    return false;
+  }
+  return rmw_replier_is_open(service->impl);
 }
 
 rcl_ret_t rcl_take_request_with_info(

@@ -88,7 +88,10 @@ void rmw_replier_close(rmw_service_t * service)
 
 bool rmw_replier_is_open(const rmw_service_t * service)
 {
-  return service != NULL && service->data != NULL && rmw_receiver_is_open(service->data);
+  if (service == NULL || service->data == NULL) {
+    return false;
+  }
+  return rmw_receiver_is_open(service->data);
 }
 
 static bool replier_is_ready(const rmw_service_t * service)

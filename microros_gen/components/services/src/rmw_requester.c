@@ -63,7 +63,10 @@ void rmw_requester_close(rmw_client_t * client)
 
 bool rmw_requester_is_open(const rmw_client_t * client)
 {
-  return client != NULL && client->data != NULL && rmw_receiver_is_open(client->data);
+  if (client == NULL || client->data == NULL) {
+    return false;
+  }
+  return rmw_receiver_is_open(client->data);
 }
 
 static bool requester_is_ready(const rmw_client_t * client)

@@ -90,7 +90,10 @@ rcl_ret_t rcl_subscription_fini(rcl_subscription_t * subscription, rcl_node_t * 
 
 bool rcl_subscription_is_valid(const rcl_subscription_t * subscription)
 {
-  return subscription != NULL && rmw_subscription_is_open(subscription->impl);
+  if (subscription == NULL) {
+    return false;
+  }
+  return rmw_subscription_is_open(subscription->impl);
 }
 
 const char * rcl_subscription_get_topic_name(const rcl_subscription_t * subscription)

@@ -25,6 +25,9 @@ parameter_text_t rclc_parameter_in_text(cdr_in_t * in);
 /* Returns a pointer to `count` elements of `width` bytes and skips them; NULL if the body is too short. */
 const uint8_t * rclc_parameter_in_take(cdr_in_t * in, uint32_t count, uint32_t width);
 
+/* Skips a string. */
+void rclc_parameter_in_pass_text(cdr_in_t * in);
+
 /* Skip a sequence of numbers or of strings; return the number of its elements. */
 uint32_t rclc_parameter_in_pass(cdr_in_t * in, uint32_t width);
 uint32_t rclc_parameter_in_pass_texts(cdr_in_t * in);
