@@ -21,10 +21,10 @@ class SystemRef:
 
 @dataclass(frozen=True)
 class PeerEnd:
-    """A publisher or subscription of another board. `topic` is fully qualified.
+    """An endpoint of another board. `topic` is fully qualified; of a service or client it is the service's name.
 
     `type_hash` is what its own interface files give; None: they are looked for where those of this board are. `limits`
-    are its own.
+    are its own. `queue`: requests or replies that wait; None: as many as without the key.
     """
 
     kind: str
@@ -36,6 +36,7 @@ class PeerEnd:
     span: Span | None = None
     type_hash: str | None = None
     limits: tuple[LimitRule, ...] = ()
+    queue: int | None = None
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from microros_gen.application.find import APPLICATION_FILE
-from microros_gen.application.kinds import KIND
+from microros_gen.application.kinds import KIND, NAMES, TOPIC_KINDS
 from microros_gen.application.model import Application, ChipImage, EndpointDecl, NodeDecl
 from microros_gen.application.names import expand_topic_name
 from microros_gen.application.parser import parse_application
@@ -21,8 +21,7 @@ from microros_gen.documents.named import Named
 from microros_gen.interfaces.closure import resolve_interfaces, split_type_name
 from microros_gen.interfaces.derived import SERVICE_PARTS, derived_name
 from microros_gen.interfaces.find import InterfaceFinder
-
-PEER_KINDS = ("publisher", "subscription")
+from microros_gen.interfaces.types import TypeName
 
 
 def with_system(
@@ -69,12 +68,17 @@ def system_paths(application: Application, near: Path) -> Iterator[Path]:
 
 
 def peer_ends(application: Application) -> Iterator[tuple[int, EndpointDecl, PeerEnd]]:
-    """Yield the publishers and subscriptions of an application that have `peer:`, and the index of each in its kind."""
-    for kind in PEER_KINDS:
+    """Yield the endpoints of an application that have `peer:`, and the index of each in its kind."""
+    for kind in NAMES:
         declared = [(node, e) for node in application.nodes for e in node.endpoints if e.kind == kind]
         for index, (node, endpoint) in enumerate(declared):
             if endpoint.peer != "never":
                 yield index, endpoint, _end(node, endpoint)
+
+
+def exchanged(name: TypeName) -> tuple[TypeName, ...]:
+    """Return the messages of a type: itself, or the request and the response of a service."""
+    return tuple(derived_name(name, part) for part in SERVICE_PARTS) if name.kind == "srv" else (name,)
 
 
 def _end(node: NodeDecl, endpoint: EndpointDecl) -> PeerEnd:
@@ -88,6 +92,7 @@ def _end(node: NodeDecl, endpoint: EndpointDecl) -> PeerEnd:
         peer=endpoint.peer,
         span=endpoint.span,
         limits=endpoint.limits,
+        queue=endpoint.queue,
     )
 
 
@@ -197,7 +202,10 @@ def _check_names_system(
 def _hashes(
     other: Application, ends: tuple[PeerEnd, ...], near: Path, diagnostics: Diagnostics
 ) -> tuple[Mapping[str, str], tuple[Path, ...]]:
-    """Return the hashes of types that interface files of the other application define, and these files."""
+    """Return the hashes of types that interface files of the other application define, and these files.
+
+    The hash of a service is those of its request and its response.
+    """
     paths = {near / path.name: path.span for path in other.interface_paths}
     if not paths or not ends:
         return {}, ()
@@ -210,10 +218,11 @@ def _hashes(
     interfaces = resolve_interfaces(wanted, finder, diagnostics)
     if diagnostics.has_errors():
         return {}, ()
-    parts = (
-        derived_name(name, part) for name in interfaces.roots if name.kind == "srv" for part in SERVICE_PARTS
-    )
-    hashes = {str(name): interfaces.type_hash(name) for name in (*interfaces.roots, *parts)}
+    hashes = {
+        str(name): " ".join(interfaces.type_hash(message) for message in exchanged(name))
+        for name in interfaces.roots
+    }
+    hashes |= {str(part): interfaces.type_hash(part) for name in interfaces.roots for part in exchanged(name)}
     return hashes, tuple(Path(entry.source.name) for entry in interfaces)
 
 

@@ -1,26 +1,43 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rules of `peer:`: the ends of a topic on two boards have to agree, and what a link does not carry."""
+"""The rules of `peer:`: the ends of a topic or service on two boards have to agree, and what a link does not carry."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
+from microros_gen.application.kinds import KIND
 from microros_gen.application.model import EndpointDecl
 from microros_gen.application.system_decl import Link, PeerEnd
 from microros_gen.application.system_file import UART
-from microros_gen.application.system_find import peer_ends
+from microros_gen.application.system_find import exchanged, peer_ends
 from microros_gen.client.plan.declared import type_name
 from microros_gen.client.plan.features import PlanContext
+from microros_gen.client.plan.serving import IDENTITY_SIZE
 from microros_gen.components.agentless.plan import is_alone
-from microros_gen.components.peer.check_limits import check_client_keys, check_limits
+from microros_gen.components.peer.check_limits import LimitedEnds, check_client_keys, check_limits
 from microros_gen.diagnostics import Diagnostics, Span
+from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
 
 MESSAGE_OVERHEAD = 12
 """Bytes before the body of WRITE_DATA: headers of message and submessage, request and object."""
 
 Key = tuple[int, str]
-"""Domain and name of a topic."""
+"""Domain and name of a topic or service."""
+
+_OTHER_END = {
+    "publisher": "subscription",
+    "subscription": "publisher",
+    "service": "client",
+    "client": "service",
+}
+_MISSING = {
+    "publisher": "subscribes to",
+    "subscription": "publishes",
+    "service": "calls",
+    "client": "serves",
+}
+"""What no other board does, by the kind of this board's end."""
 
 
 @dataclass(frozen=True)
@@ -37,9 +54,36 @@ class OwnEnd:
         return self.end.kind == "publisher"
 
     @property
+    def is_service(self) -> bool:
+        """Return whether it is a service or a client of one."""
+        return KIND[self.end.kind].service_type
+
+    @property
     def key(self) -> Key:
-        """Return domain and name of its topic."""
+        """Return domain and name of its topic or service."""
         return self.end.domain_id, self.end.topic
+
+    @property
+    def type(self) -> TypeName:
+        """Return the type of its messages, or that of the service."""
+        return type_name(self.end.type, KIND[self.end.kind].type_kind)
+
+    @property
+    def parts(self) -> tuple[tuple[TypeName, bool], ...]:
+        """Return its messages, and whether it sends each."""
+        sends = (sent for _, sent in KIND[self.end.kind].parts)
+        return tuple(zip(exchanged(self.type), sends, strict=True))
+
+    def sent_size(self, context: PlanContext) -> int:
+        """Return the bytes of the largest message that it sends on a link; 0: it sends none.
+
+        A reply has the identity of its request in front.
+        """
+        head = MESSAGE_OVERHEAD + (IDENTITY_SIZE if self.end.kind == "service" else 0)
+        sizes = (
+            context.types[part].largest(self.end.kind, self.index) for part, sends in self.parts if sends
+        )
+        return max((size + head for size in sizes), default=0)
 
 
 def own_ends(context: PlanContext) -> tuple[OwnEnd, ...]:
@@ -49,9 +93,8 @@ def own_ends(context: PlanContext) -> tuple[OwnEnd, ...]:
 
 def matches(own: OwnEnd, link: Link) -> Iterator[PeerEnd]:
     """Yield the ends of the other board that the messages of an endpoint go to, or come from."""
-    wanted = "subscription" if own.publishes else "publisher"
     for end in link.ends:
-        if end.kind == wanted and (end.domain_id, end.topic) == own.key:
+        if end.kind == _OTHER_END[own.end.kind] and (end.domain_id, end.topic) == own.key:
             yield end
 
 
@@ -62,7 +105,7 @@ def check_peers(context: PlanContext, ends: tuple[OwnEnd, ...], diagnostics: Dia
         diagnostics.error(
             "the component 'peer' is for endpoints with `peer:`",
             application.spans.get("components") or application.spans.get("system"),
-            "Write `peer: only` at a publisher or a subscription, or remove the component",
+            "Write `peer: only` at an endpoint, or remove the component",
             id="MG-7190",
         )
     elif application.system is None:
@@ -121,9 +164,8 @@ def _check_line(context: PlanContext, link: Link, diagnostics: Diagnostics) -> N
 def _check_end(own: OwnEnd, context: PlanContext, diagnostics: Diagnostics) -> None:
     found = [(link, end) for link in context.application.links for end in matches(own, link)]
     if not found:
-        missing = "subscribes to" if own.publishes else "publishes"
         diagnostics.error(
-            f"no board that is linked with this one {missing} '{own.end.topic}'",
+            f"no board that is linked with this one {_MISSING[own.end.kind]} '{own.end.topic}'",
             own.endpoint.span,
             "Remove `peer`, or write it at the other end, too",
             id="MG-7198",
@@ -131,7 +173,7 @@ def _check_end(own: OwnEnd, context: PlanContext, diagnostics: Diagnostics) -> N
     _check_qos(own, diagnostics)
     for link, end in found:
         _check_pair(own, end, link, context, diagnostics)
-    if own.publishes:
+    if any(sends for _, sends in own.parts):
         _check_output(own, [link for link, _ in found], context, diagnostics)
 
 
@@ -159,18 +201,20 @@ def _check_pair(
     if end.type != own.end.type:
         message = f"'{topic}' has the type {own.end.type} here, and {other} has {end.type}"
         diagnostics.error(message, span, "Give both the same type", id="MG-7200")
-    elif end.type_hash not in (None, context.types[type_name(own.end.type)].type_hash):
+    elif end.type_hash not in (None, " ".join(context.types[part].type_hash for part, _ in own.parts)):
         message = f"{own.end.type} is defined otherwise than for {other}: their type hashes differ"
         diagnostics.error(message, span, "Use the same interface files for both boards", id="MG-7201")
     else:
-        check_limits(own.endpoint, own.index, end, link, context, diagnostics)
+        for part, sends in own.parts:
+            ends = LimitedEnds(own.endpoint, own.index, end, link, part, sends)
+            check_limits(ends, context, diagnostics)
     writer, reader = (own.end, end) if own.publishes else (end, own.end)
     if reader.reliability == "reliable" and writer.reliability != "reliable":
         needs = "is best effort" if own.publishes else "is reliable"
         message = f"'{topic}' {needs} here and never matches {other}"
         hint = "Write `qos: {reliability: best_effort}` at the subscription"
         diagnostics.error(message, own.endpoint.qos.span or own.endpoint.span, hint, id="MG-7202")
-    if own.end.peer == end.peer == "also":
+    if own.end.peer == end.peer == "also" and not own.is_service:
         message = (
             f"the messages of '{topic}' would arrive twice, over the link and over ROS: {other} has `also`"
         )
@@ -179,7 +223,7 @@ def _check_pair(
 
 def _check_output(own: OwnEnd, links: list[Link], context: PlanContext, diagnostics: Diagnostics) -> None:
     """Report messages that are too large for a link, and what happens to reliable ones that have no room."""
-    size = context.types[type_name(own.end.type)].largest("publisher", own.index) + MESSAGE_OVERHEAD
+    size = own.sent_size(context)
     for link in links:
         if size > link.mtu:
             message = f"a message of '{own.end.topic}' takes {size} bytes on the link, which has an MTU of {link.mtu}"

@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Compares the limits of a publisher with those of the subscriptions on other boards: what is longer would be lost."""
+"""Compares the limits of what is sent with those of the ends on other boards: what is longer would be lost."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
+from microros_gen.application.kinds import KIND
 from microros_gen.application.model import Application, EndpointDecl
 from microros_gen.application.system_decl import Link, PeerEnd
 from microros_gen.application.system_find import client_key
 from microros_gen.client.plan.declared import type_name
 from microros_gen.client.plan.features import PlanContext
+from microros_gen.client.plan.service_limits import part_rules
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import Message, NamedType, TypeName, element_of
 from microros_gen.records import dataclass
@@ -30,34 +32,37 @@ class Longer:
     taken: int
 
 
-def check_limits(
-    endpoint: EndpointDecl,
-    index: int,
-    end: PeerEnd,
-    link: Link,
-    context: PlanContext,
-    diagnostics: Diagnostics,
-) -> None:
-    """Report the fields that the publisher of a pair fills further than the subscription has room for.
+@dataclass(frozen=True)
+class LimitedEnds:
+    """Both ends of one direction: the `index`-th endpoint of its kind, and `end` of the board of `link`.
 
-    The endpoint is the `index`-th of its kind; `end` is that of the other board.
+    `message`: what is exchanged; `sends`: this board sends it.
     """
-    name = type_name(end.type)
+
+    endpoint: EndpointDecl
+    index: int
+    end: PeerEnd
+    link: Link
+    message: TypeName
+    sends: bool
+
+
+def check_limits(ends: LimitedEnds, context: PlanContext, diagnostics: Diagnostics) -> None:
+    """Report the fields that the sender of a message fills further than the other end has room for."""
+    end, kind = ends.end, ends.endpoint.kind
     messages = {known: plan.message for known, plan in context.types.items()}
-    own, other = context.types[name].limits_of(endpoint.kind, index), _limits_of(end, link, messages)
-    publishes = endpoint.kind == "publisher"
-    sent, taken = (own, other) if publishes else (other, own)
-    for longer in _longer(name, sent, taken, messages, ""):
+    own, other = context.types[ends.message].limits_of(kind, ends.index), _limits_of(ends, messages)
+    sent, taken = (own, other) if ends.sends else (other, own)
+    for longer in _longer(ends.message, sent, taken, messages, ""):
         place = f" ({end.span.source.name}:{end.span.line})" if end.span else ""
-        writer, reader = "the publisher", f"the subscription of the board '{link.board}'{place}"
-        if not publishes:
-            writer, reader = f"the publisher of the board '{link.board}'{place}", "the subscription"
+        theirs = f"the {end.kind} of the board '{ends.link.board}'{place}"
+        writer, reader = (f"the {kind}", theirs) if ends.sends else (theirs, f"the {kind}")
         message = (
             f"'{longer.path}' of '{end.topic}': up to {longer.sent} {longer.unit} from {writer}, and "
             f"{longer.taken} fit {reader}"
         )
         hint = "Write the same `limits:` in both applications"
-        diagnostics.error(message, endpoint.span, hint, id="MG-7206")
+        diagnostics.error(message, ends.endpoint.span, hint, id="MG-7206")
 
 
 def check_client_keys(application: Application, diagnostics: Diagnostics) -> None:
@@ -74,11 +79,14 @@ def check_client_keys(application: Application, diagnostics: Diagnostics) -> Non
             )
 
 
-def _limits_of(end: PeerEnd, link: Link, messages: dict[TypeName, Message]) -> TypeLimits | None:
+def _limits_of(ends: LimitedEnds, messages: dict[TypeName, Message]) -> TypeLimits | None:
     """Return the limits of the other board's endpoint; faults of its application are reported where it is built."""
-    name = type_name(end.type)
-    defaults = _NONE if end.kind == "publisher" else _ANY
-    found = plan_capacities(messages, (Root(name, end.limits),), link.limits, defaults, Diagnostics())
+    end, name = ends.end, ends.message
+    rules = end.limits
+    if KIND[end.kind].service_type:
+        rules = part_rules(rules, type_name(end.type, "srv"), name.name.rpartition("_")[2], messages)
+    defaults = _ANY if ends.sends else _NONE
+    found = plan_capacities(messages, (Root(name, rules),), ends.link.limits, defaults, Diagnostics())
     return found.limits[name]
 
 

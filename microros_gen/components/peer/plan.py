@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The links of this board with others, the topics on them, and the storage of their messages."""
+"""The links of this board with others, the topics and services on them, and the storage of their messages."""
 
 from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Iterable
 
 from microros_gen.application.system_decl import Link
 from microros_gen.application.system_file import UART, address_of
-from microros_gen.client.plan.declared import type_name
+from microros_gen.application.system_find import exchanged
 from microros_gen.client.plan.features import PlanContext
+from microros_gen.client.plan.serving import IDENTITY_SIZE
 from microros_gen.components.agentless.plan import is_alone
 from microros_gen.components.peer.check import (
     MESSAGE_OVERHEAD,
@@ -19,7 +21,9 @@ from microros_gen.components.peer.check import (
     matches,
     own_ends,
 )
+from microros_gen.components.peer.check_services import check_services
 from microros_gen.diagnostics import Diagnostics
+from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
 
 _NUMBER_BITS = 8
@@ -28,7 +32,7 @@ _NUMBER_BITS = 8
 
 @dataclass(frozen=True)
 class PeerTopic:
-    """A topic of a link, at its position in the table."""
+    """A topic or service of a link, at its position in the table."""
 
     domain_id: int
     name: str
@@ -37,7 +41,10 @@ class PeerTopic:
 
 @dataclass(frozen=True, kw_only=True)
 class PeerLinkPlan:
-    """A link with `board`; `writers` and `readers`: index of a publisher or subscription, and of its topic."""
+    """A link with `board`; `writers` and `readers`: index of a publisher or subscription, and of its topic.
+
+    `repliers` and `requesters`: the same for services and clients.
+    """
 
     index: int
     board: str
@@ -50,6 +57,9 @@ class PeerLinkPlan:
     topics: tuple[PeerTopic, ...]
     writers: tuple[tuple[int, int], ...]
     readers: tuple[tuple[int, int], ...]
+    services: tuple[PeerTopic, ...] = ()
+    repliers: tuple[tuple[int, int], ...] = ()
+    requesters: tuple[tuple[int, int], ...] = ()
 
     @property
     def tables(self) -> tuple[str, ...]:
@@ -90,9 +100,57 @@ class PeerPlan:
         return len(self.links)
 
     @property
+    def replier_count(self) -> int:
+        """Return the number of services on all links."""
+        return sum(len(link.repliers) for link in self.links)
+
+    @property
+    def requester_count(self) -> int:
+        """Return the number of clients on all links."""
+        return sum(len(link.requesters) for link in self.links)
+
+    @property
+    def serves(self) -> bool:
+        """Return whether other boards call services of this one."""
+        return self.replier_count > 0
+
+    @property
+    def calls(self) -> bool:
+        """Return whether clients of this board call others."""
+        return self.requester_count > 0
+
+    @property
+    def services(self) -> bool:
+        """Return whether a link has services."""
+        return self.serves or self.calls
+
+    @property
+    def head(self) -> int:
+        """Return the bytes in front of a received message, for the identity of a request before its body."""
+        return IDENTITY_SIZE - MESSAGE_OVERHEAD if self.serves else 0
+
+    @property
+    def service_tables(self) -> tuple[str, ...]:
+        """The services and clients of all links as lines of C."""
+        lines: list[str] = []
+        for name in ("repliers", "requesters"):
+            rows = [
+                f"  {{{end}, {service}, {link.index}}}, /* {link.services[service].name}: {link.board} */"
+                for link in self.links
+                for end, service in getattr(link, name)
+            ]
+            if rows:
+                size = f"MICROROS_PEER_{name.upper()}"
+                lines += [f"const xrce_peer_service_t xrce_peer_{name}[{size}] = {{", *rows, "};"]
+        return tuple(lines)
+
+    @property
     def shown(self) -> str:
-        """Return what a report says: the boards, and the topics on the link with each."""
-        words = [f"{link.board} ({', '.join(topic.name for topic in link.topics)})" for link in self.links]
+        """Return what a report says: the boards, and the topics and services on the link with each."""
+        words = [
+            f"{link.board} ({', '.join(each.name for each in (*link.topics, *link.services))})"
+            for link in self.links
+        ]
         return ", ".join(words) + ("; no agent is needed" if self.alone else "")
 
 
@@ -100,17 +158,15 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> PeerPlan:
     """Return the links; ends of a topic that do not agree are reported."""
     ends = own_ends(context)
     check_peers(context, ends, diagnostics)
+    check_services(ends, context, diagnostics)
     links = tuple(_link(index, link, ends, context) for index, link in enumerate(context.application.links))
-    reliable = [
-        context.types[type_name(own.end.type)].largest("publisher", own.index)
-        for own in ends
-        if own.publishes and own.end.reliability == "reliable"
-    ]
+    reliable = [own.sent_size(context) for own in ends if own.end.reliability == "reliable"]
+    largest = max(reliable, default=0)
     return PeerPlan(
         links=links,
         mtu=max((link.mtu for link in links), default=0),
-        slots=max((link.history for link in context.application.links), default=1) if reliable else 1,
-        slot_size=(max(reliable, default=0) + MESSAGE_OVERHEAD + 3) & ~3,
+        slots=max((link.history for link in context.application.links), default=1) if largest else 1,
+        slot_size=(max(largest, MESSAGE_OVERHEAD) + 3) & ~3,
         alone=is_alone(context.application),
     )
 
@@ -125,15 +181,17 @@ def record(part: PeerPlan) -> object:
             ]
             for link in part.links
         ],
+        "services": [
+            [list(map(list, link.repliers)), list(map(list, link.requesters))] for link in part.links
+        ],
         "storage": [part.mtu, part.slots, part.slot_size],
     }
 
 
 def _link(index: int, link: Link, ends: tuple[OwnEnd, ...], context: PlanContext) -> PeerLinkPlan:
-    shared = {own.key: own for own in ends if any(matches(own, link))}
-    topics = tuple(PeerTopic(*key, shared[key].end.type) for key in sorted(shared))
-    number: dict[Key, int] = {(topic.domain_id, topic.name): i for i, topic in enumerate(topics)}
-    routes = [(own, number[own.key]) for own in ends if own.key in number and any(matches(own, link))]
+    shared = [own for own in ends if any(matches(own, link))]
+    topics = _table(own for own in shared if not own.is_service)
+    services = _table(own for own in shared if own.is_service)
     host, port = (address_of(link.other.name) or ("", 0)) if link.kind == "udp" else (link.own.name, 0)
     local = (address_of(link.own.name) or ("", 0))[1] if link.kind == "udp" else 0
     return PeerLinkPlan(
@@ -143,18 +201,45 @@ def _link(index: int, link: Link, ends: tuple[OwnEnd, ...], context: PlanContext
         remote_port=port,
         local_port=local,
         position=link.position,
-        key=_key(topics, link, context),
+        key=_key(topics, services, link, context),
         mtu=link.mtu,
         topics=topics,
-        writers=tuple((own.index, topic) for own, topic in routes if own.publishes),
-        readers=tuple((own.index, topic) for own, topic in routes if not own.publishes),
+        writers=_routes(shared, "publisher", topics),
+        readers=_routes(shared, "subscription", topics),
+        services=services,
+        repliers=_routes(shared, "service", services),
+        requesters=_routes(shared, "client", services),
     )
 
 
-def _key(topics: tuple[PeerTopic, ...], link: Link, context: PlanContext) -> int:
+def _table(ends: Iterable[OwnEnd]) -> tuple[PeerTopic, ...]:
+    """Return the topics or services of ends in the order of both boards."""
+    types: dict[Key, str] = {own.key: own.end.type for own in ends}
+    return tuple(PeerTopic(*key, types[key]) for key in sorted(types))
+
+
+def _routes(ends: list[OwnEnd], kind: str, table: tuple[PeerTopic, ...]) -> tuple[tuple[int, int], ...]:
+    number: dict[Key, int] = {(topic.domain_id, topic.name): i for i, topic in enumerate(table)}
+    return tuple((own.index, number[own.key]) for own in ends if own.end.kind == kind)
+
+
+def _key(
+    topics: tuple[PeerTopic, ...], services: tuple[PeerTopic, ...], link: Link, context: PlanContext
+) -> int:
     """Return the key of the first session: the hash of what both images must have alike, then 0."""
     table = [
-        [t.domain_id, t.name, t.type, context.types[type_name(t.type)].type_hash, link.mtu] for t in topics
+        [
+            t.domain_id,
+            t.name,
+            t.type,
+            *(context.types[part].type_hash for part in exchanged(_type(t))),
+            link.mtu,
+        ]
+        for t in (*topics, *services)
     ]
     digest = hashlib.sha256(json.dumps(table).encode()).digest()
     return (int.from_bytes(digest[:3], "big") or 1) << _NUMBER_BITS
+
+
+def _type(topic: PeerTopic) -> TypeName:
+    return TypeName(*topic.type.split("/"))

@@ -116,7 +116,7 @@ def _endpoint_cases(
             f"'nodes[0].{key}[0].limits' must be a mapping such as {{string: 32, sequence: 8}}",
         ),
     }
-    for word in ("local", "peer") if kind in ("publisher", "subscription") else ("local",):
+    for word in ("local", "peer"):
         cases[f"{path}.{word}"] = KeyCase(
             one(f"{entry}, {word}: also"),
             partial(_member, word),

@@ -105,6 +105,12 @@ _CHIP_CALLS = (
     "    services: [{name: sum, type: std_srvs/srv/Trigger, local: chip, queue: 3}]\n"
     "    clients: [{name: ask, type: std_srvs/srv/Trigger, local: chip}]\n"
 )
+_PEER_SERVICES = (
+    _PEER
+    + "    services:\n      - {name: /count, type: std_srvs/srv/Trigger, peer: also, queue: 5}\n"
+    + "    clients: [{name: /reset, type: std_srvs/srv/Trigger, peer: only}]\n"
+    + "components: [+services, +executor]\nlimits: {'*': {string: 12}}\n"
+)
 _CHIP = (
     "version: 1\nprofiles: [pure_sender, pure_reader]\nsystem: {file: system.yaml, board: own}\n"
     "limits: {'*': {string: 12, sequence: 3}}\nnodes:\n  - name: probe\n    publishers:\n"
@@ -126,6 +132,7 @@ def _other(text: str) -> str:
         .replace("services:", "clients_:")
         .replace("clients:", "services:")
         .replace("clients_:", "clients:")
+        .replace("peer: also, queue: 5", "peer: only, queue: 4")
         .replace(", queue: 1", "")
         .replace(", queue: 2", "")
     )
@@ -137,6 +144,8 @@ SYSTEMS: Mapping[str, str] = MappingProxyType(
         "peer_also": SYSTEM + '  - {type: udp, ends: {other: "10.0.0.1:7500", own: "10.0.0.2:7500"}}\n',
         "peer_serial": SYSTEM + "  - {type: serial, ends: {own: /dev/ttyS1, other: uart}}\n",
         "peer_board": SYSTEM + "  - {type: serial, ends: {own: uart, other: uart}}\n",
+        "peer_services": SYSTEM + '  - {type: udp, ends: {own: "10.0.0.1:7500", other: "10.0.0.2:7500"}}\n',
+        "peer_serving": SYSTEM + "  - {type: serial, ends: {own: uart, other: uart}}\n",
         "local_chip": SYSTEM.replace("links:", "chips: [[own, other]]"),
         "local_chip_tasks": SYSTEM.replace("links:", "chips: [[other, own]]"),
     }
@@ -145,7 +154,11 @@ SYSTEMS: Mapping[str, str] = MappingProxyType(
 
 OTHERS: Mapping[str, str] = MappingProxyType(
     {
-        **{name: _other(_PEER) for name in SYSTEMS if name.startswith("peer")},
+        **{
+            name: _other(_PEER_SERVICES if "serv" in name else _PEER)
+            for name in SYSTEMS
+            if name.startswith("peer")
+        },
         "local_chip": _other(_CHIP),
         "local_chip_tasks": _other(_CHIP + _CHIP_CALLS),
     }
@@ -342,6 +355,11 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "components: [+multithread]\nerrors: code\n",
         "peer_serial": _PEER + _SERIAL,
         "peer_board": _PEER + "transport: {type: serial}\ntarget: qemu-mps2-an386\n",
+        "peer_services": _PEER_SERVICES,
+        "peer_serving": _PEER_SERVICES.replace("peer: also", "peer: only").replace(
+            "    clients: [{name: /reset, type: std_srvs/srv/Trigger, peer: only}]\n", ""
+        )
+        + "transport: {type: serial}\ntarget: qemu-mps2-an386\n",
         "lifecycle_managed": _NODES
         + "      - {topic: sure, type: std_msgs/msg/UInt8, managed: true}\n"
         + "    timers: [{name: control, period: 20 ms, managed: true}]\n"

@@ -2,6 +2,7 @@
 #include "microros/error.h"
 #include "microros/rcl_graph.h"
 #include "microros/rmw_local_service.h"
+#include "microros/rmw_peer_client.h"
 #include "microros/rmw_publisher.h"
 #include "microros/rmw_service.h"
 #include "microros/rmw_subscription.h"
@@ -78,7 +79,8 @@ rcl_ret_t rcl_service_server_is_available(
   if (!rcl_client_is_valid(client) || is_available == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "client or is_available");
   }
-  if (rmw_local_server(client->impl->data, is_available)) {
+  if (
+    rmw_local_server(client->impl->data, is_available) || rmw_peer_server(client->impl->data, is_available)) {
     return RCL_RET_OK;
   }
   result = rcl_count_services(node, client->impl->service_name, &servers);

@@ -10,6 +10,7 @@
 #include "microros/xrce_drops.h"
 #include "microros/xrce_gate.h"
 #include "microros/xrce_peer.h"
+#include "microros/xrce_peer_serving.h"
 #include "microros/xrce_session.h"
 #include "microros/xrce_wire.h"
 #include "rmw/types.h"
@@ -87,9 +88,10 @@ static rmw_ret_t peer_write(
     microros_error_set(microros_error_peer_absent, writer->name, xrce_peer_lines[link].board, 0, 0);
     return RMW_RET_ERROR;
   }
-  if (room == NULL) {
+  if (room == NULL || (reliable && xrce_peer_serving_keeps_all(client, link))) {
     microros_error_set(
-      microros_error_peer_full, writer->name, xrce_peer_lines[link].board, MICROROS_PEER_SLOTS, 0);
+      microros_error_peer_full, writer->name, xrce_peer_lines[link].board,
+      xrce_peer_serving_unacknowledged(client, link), 0);
     return RMW_RET_ERROR;
   }
   size = peer_put_body(

@@ -4,12 +4,17 @@
 #include "microros/lock.h"
 #include "microros/port.h"
 #include "microros/xrce_client.h"
+#include "microros/xrce_peer_calling.h"
+#include "microros/xrce_peer_serving.h"
 #include "microros/xrce_peer_settle.h"
 #include "microros/xrce_wire.h"
 
 #include <string.h>
 
 xrce_peer_port_t xrce_peer_ports[MICROROS_PEERS];
+
+/* A line keeps a partial message in it. */
+static uint8_t peer_input[MICROROS_PEERS][MICROROS_PEER_HEAD + MICROROS_PEER_MTU];
 
 /* Positions in CREATE_CLIENT and STATUS_AGENT (OMG DDS-XRCE 1.0, 8.3.5.1 and 8.3.5.5). */
 enum {
@@ -29,6 +34,11 @@ enum {
 enum { MESSAGES_PER_PUMP = 16 };
 
 static const uint8_t peer_cookie_and_version[] = {'X', 'R', 'C', 'E', 1, 0, 1, 15};
+
+uint8_t * xrce_peer_input(uint8_t index)
+{
+  return peer_input[index];
+}
 
 static uint32_t peer_next_key(uint32_t key)
 {
@@ -111,6 +121,7 @@ static void peer_take_answer(xrce_client_t * client, uint8_t index, const uint8_
     xrce_peer_acknowledged(peer, xrce_payload_of(submessage), size, xrce_flags_of(submessage), now);
   } else if (submessage[0] == XRCE_RESET && peer->ready) {
     peer_reconnect(peer, now);
+    xrce_peer_calling_renew(client, index);
   } else {
     ++client->session.statistics.malformed;
   }
@@ -167,6 +178,7 @@ static void peer_take_client(xrce_client_t * client, uint8_t index, const uint8_
   if (key != peer->other_key) {
     peer->former_key = peer->other_key;
     peer->other_key = key;
+    xrce_peer_serving_begin(index);
     if (peer->ready) {
       xrce_peer_heartbeat(client, index); /* has it restarted, and forgotten the own session? */
     }
@@ -208,13 +220,13 @@ static void peer_take(
 
 static void peer_receive(xrce_client_t * client, uint8_t index, uint32_t now)
 {
-  static uint8_t peer_input[MICROROS_PEERS][MICROROS_PEER_MTU]; /* a line keeps a partial message in it */
+  uint8_t * message = &peer_input[index][MICROROS_PEER_HEAD];
   xrce_peer_t * peer = &client->peers[index];
   xrce_peer_port_t * port = &xrce_peer_ports[index];
 
   peer->more = port->is_open;
   for (uint8_t i = 0; i < MESSAGES_PER_PUMP && port->is_open; ++i) {
-    const int32_t size = xrce_transport_receive(&port->transport, peer_input[index], MICROROS_PEER_MTU);
+    const int32_t size = xrce_transport_receive(&port->transport, message, MICROROS_PEER_MTU);
 
     if (size == 0) {
       peer->more = false;
@@ -224,7 +236,7 @@ static void peer_receive(xrce_client_t * client, uint8_t index, uint32_t now)
     if (size < 0) {
       ++client->session.statistics.malformed;
     } else {
-      peer_take(client, index, peer_input[index], (size_t)size, now);
+      peer_take(client, index, message, (size_t)size, now);
       xrce_peer_settle(client);
     }
   }
@@ -288,6 +300,9 @@ uint32_t xrce_peer_left(const xrce_client_t * client, uint32_t left, uint32_t no
 void xrce_peer_wake(xrce_client_t * client)
 {
   (void)memset(client->peers, 0, sizeof(client->peers));
+  for (uint8_t i = 0; i < MICROROS_PEERS; ++i) {
+    xrce_peer_calling_renew(client, i);
+  }
 }
 
 /* Returns whether a link has sent everything, and all of it was acknowledged. */

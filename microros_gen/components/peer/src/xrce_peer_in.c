@@ -2,6 +2,8 @@
 /* What arrives in the session of the other board, of which this one is the agent. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_peer.h"
+#include "microros/xrce_peer_calling.h"
+#include "microros/xrce_peer_serving.h"
 #include "microros/xrce_read.h"
 #include "microros/xrce_wire.h"
 
@@ -119,7 +121,10 @@ static void in_deliver(
     const size_t length = xrce_get_le16(&submessage[2]);
 
     if (submessage[0] == XRCE_WRITE_DATA) {
-      in_write_data(client, index, submessage, length, now);
+      if (
+        !xrce_peer_serving_take(client, index, at, now) && !xrce_peer_calling_take(client, index, at, now)) {
+        in_write_data(client, index, submessage, length, now);
+      }
     } else if (submessage[0] == XRCE_HEARTBEAT) {
       in_heartbeat(client, index, submessage, length);
     } else {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
 #include "microros/executor_handles.h"
+#include "microros/rmw_peer_service.h"
 #include "microros/rmw_service.h"
 
 #include <stddef.h>
@@ -46,7 +47,9 @@ static rcl_ret_t service_begin(const rclc_executor_handle_t * handle, service_ca
 static rcl_ret_t service_end(const service_call_t * call)
 {
   if (!rcl_service_is_valid(call->service)) {
-    rmw_replier_abandon();
+    if (!rmw_peer_abandon(&call->request_id)) {
+      rmw_replier_abandon();
+    }
     return service_refuse(); /* the callback has finalized it */
   }
   return rmw_replier_end(call->service->impl, &call->request_id, call->response);

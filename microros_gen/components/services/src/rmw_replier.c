@@ -6,6 +6,7 @@
 #include "microros/rmw_client.h"
 #include "microros/rmw_local_service.h"
 #include "microros/rmw_node.h"
+#include "microros/rmw_peer_service.h"
 #include "microros/rmw_service.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_wire.h"
@@ -94,10 +95,18 @@ bool rmw_replier_is_open(const rmw_service_t * service)
   return rmw_receiver_is_open(service->data);
 }
 
+/* Returns whether the reply to the oldest request has room now. */
+static bool replier_has_room(const xrce_endpoint_t * endpoint)
+{
+  bool has_room;
+
+  return rmw_peer_has_room(endpoint, &has_room) ? has_room : xrce_write_reserve(endpoint) != NULL;
+}
+
 static bool replier_is_ready(const rmw_service_t * service)
 {
   return rmw_local_waits(service->data) ||
-         (xrce_read_is_ready(service->data) && xrce_write_reserve(service->data) != NULL);
+         (xrce_read_is_ready(service->data) && replier_has_room(service->data));
 }
 
 bool rmw_replier_is_ready(const rmw_service_t * service)
@@ -135,7 +144,7 @@ static rmw_ret_t replier_take(
   if (rmw_receiver_report(endpoint)) {
     return RMW_RET_ERROR;
   }
-  if (xrce_write_reserve(endpoint) == NULL || !xrce_read_peek(endpoint, sample)) {
+  if (!replier_has_room(endpoint) || !xrce_read_peek(endpoint, sample)) {
     return RMW_RET_OK; /* a request that cannot be answered yet waits */
   }
   if (sample->size < XRCE_IDENTITY_SIZE) {
@@ -174,7 +183,7 @@ rmw_ret_t rmw_replier_begin(
 
   microros_lock();
   result = replier_take(service, request, &sample, ros_request, taken);
-  if (*taken) {
+  if (*taken && !rmw_peer_keep_room(request)) {
     ++endpoint->client->replies_due;
   }
   microros_unlock();
@@ -196,6 +205,9 @@ static rmw_ret_t replier_respond(
   (void)memcpy(identity, request->writer_guid, RMW_GID_STORAGE_SIZE);
   replier_put_u32(&identity[HIGH_AT], (uint32_t)(sequence >> 32));
   replier_put_u32(&identity[LOW_AT], (uint32_t)(sequence & UINT32_MAX));
+  if (rmw_peer_is_request(request)) {
+    return rmw_peer_respond(endpoint, identity, ros_response);
+  }
   outcome = xrce_service_write(endpoint, XRCE_REQUEST_NONE, identity, ros_response, &fault);
   return rmw_service_report(endpoint, outcome, &fault);
 }
@@ -226,7 +238,9 @@ rmw_ret_t rmw_replier_end(
   rmw_ret_t result;
 
   microros_lock();
-  replier_release(endpoint->client);
+  if (!rmw_peer_free_room(request)) {
+    replier_release(endpoint->client);
+  }
   result = replier_respond(service, request, ros_response);
   microros_unlock();
   return result;

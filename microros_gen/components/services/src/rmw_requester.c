@@ -4,6 +4,7 @@
 #include "microros/rmw_client.h"
 #include "microros/rmw_local_service.h"
 #include "microros/rmw_node.h"
+#include "microros/rmw_peer_client.h"
 #include "microros/rmw_service.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_place.h"
@@ -188,6 +189,18 @@ static rmw_ret_t requester_send_local(
   return result;
 }
 
+static rmw_ret_t requester_send_peer(
+  const xrce_endpoint_t * endpoint, const void * ros_request, int64_t * sequence_number)
+{
+  uint16_t number;
+  const rmw_ret_t result = rmw_peer_send_request(endpoint, ros_request, &number);
+
+  if (result == RMW_RET_OK) {
+    *sequence_number = xrce_requests_add(endpoint, number);
+  }
+  return result;
+}
+
 static rmw_ret_t requester_send(
   const rmw_client_t * client, const void * ros_request, int64_t * sequence_number)
 {
@@ -199,6 +212,9 @@ static rmw_ret_t requester_send(
 
   if (rmw_local_server(endpoint, &is_open)) {
     return requester_send_local(endpoint, ros_request, sequence_number);
+  }
+  if (rmw_peer_server(endpoint, &is_open)) {
+    return requester_send_peer(endpoint, ros_request, sequence_number);
   }
   request = xrce_session_next_request(&endpoint->client->session);
   outcome = xrce_service_write(endpoint, request, NULL, ros_request, &fault);

@@ -2,8 +2,8 @@
 /*
  * Links with other boards (OMG DDS-XRCE 1.0 without an agent). On a link each board is the client of one session,
  * which it opens with CREATE_CLIENT, and the agent of the other board's. Entities are preconfigured: the index of a
- * data writer is that of its topic in the table of the link, which both images have. A client writes with WRITE_DATA;
- * an agent answers with STATUS_AGENT, ACKNACK, and RESET to messages of a session that it does not know, or cannot
+ * data writer is that of its topic in the table of the link, which both images have; that of a requester and a replier is
+ * that of their service. A client writes with WRITE_DATA; an agent answers with STATUS_AGENT, ACKNACK, and RESET to messages of a session that it does not know, or cannot
  * follow.
  *
  * A client key is the hash of the table (24 bits) and a number, which follows in the session id: messages of an earlier
@@ -32,6 +32,13 @@ typedef struct xrce_peer_route_t {
   uint16_t endpoint;
   uint16_t topic;
 } xrce_peer_route_t;
+
+/* A service or client on a link: its index among those of the image, and the service in the table of the link. */
+typedef struct xrce_peer_service_t {
+  uint16_t endpoint;
+  uint16_t service;
+  uint8_t link;
+} xrce_peer_service_t;
 
 /* A link, from the plan. */
 typedef struct xrce_peer_line_t {
@@ -161,6 +168,9 @@ void xrce_peer_in_reset(xrce_peer_t * peer);
 /* Takes a message of the other board's session, which is complete. */
 void xrce_peer_in_take(
   xrce_client_t * client, uint8_t index, const uint8_t * message, size_t size, uint32_t now);
+
+/* Returns the buffer into which a link receives; a message begins at MICROROS_PEER_HEAD. */
+uint8_t * xrce_peer_input(uint8_t index);
 
 /* Opens the transport of a link. Returns false without a network, or if the line does not exist. */
 bool xrce_peer_open(xrce_transport_t * transport, const xrce_peer_line_t * line);
