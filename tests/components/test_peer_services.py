@@ -58,16 +58,16 @@ def test_both_boards_have_the_same_table(tmp_path: Path) -> None:
     assert [service.name for service in of_sensor.services] == ["/again", "/go", "/set"]
     assert of_sensor.services == of_motor.services
     assert of_sensor.key == of_motor.key
-    assert (of_sensor.repliers, of_sensor.requesters) == (((0, 2),), ((0, 1), (1, 0)))
-    assert (of_motor.repliers, of_motor.requesters) == (((0, 0), (1, 1)), ((1, 2),))
+    assert (of_sensor.repliers, of_sensor.requesters) == (((0, 2, 4),), ((0, 1, 0), (1, 0, 0)))
+    assert (of_motor.repliers, of_motor.requesters) == (((0, 0, 4), (1, 1, 4)), ((1, 2, 0),))
     assert peers(tmp_path, "motor").shown == "sensor (/again, /go, /set)"
     assert peers(tmp_path, "sensor").service_tables == (
         "const xrce_peer_service_t xrce_peer_repliers[MICROROS_PEER_REPLIERS] = {",
-        "  {0, 2, 0}, /* /set: motor */",
+        "  {0, 2, 0, 4}, /* /set: motor */",
         "};",
         "const xrce_peer_service_t xrce_peer_requesters[MICROROS_PEER_REQUESTERS] = {",
-        "  {0, 1, 0}, /* /go: motor */",
-        "  {1, 0, 0}, /* /again: motor */",
+        "  {0, 1, 0, 0}, /* /go: motor */",
+        "  {1, 0, 0, 0}, /* /again: motor */",
         "};",
     )
 
@@ -128,6 +128,12 @@ def test_another_service_gives_another_key(tmp_path: Path) -> None:
             "peer: also",
             "peer: only",
             "at a time, and one of the agent, and 4 fit its queue. Write `queue: 5`",
+        ),
+        (
+            "sensor",
+            "peer: only, queue_bytes: 400",
+            "peer: only",
+            "has bytes, and room for no certain number of requests of other boards. Write `queue: 4`",
         ),
         (
             "sensor",
@@ -208,5 +214,8 @@ def test_one_server_of_two_boards(tmp_path: Path) -> None:
     (folder / "arm" / "microros.yaml").write_text(board("arm", client))
     plan = peers(folder, "sensor")
     assert plan.replier_count == 2
-    assert plan.service_tables[1:3] == ("  {0, 0, 0}, /* /set: motor */", "  {0, 0, 1}, /* /set: arm */")
+    assert plan.service_tables[1:3] == (
+        "  {0, 0, 0, 2}, /* /set: motor */",
+        "  {0, 0, 1, 2}, /* /set: arm */",
+    )
     assert not plan.alone

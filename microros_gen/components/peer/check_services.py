@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from microros_gen.application.system_decl import Link
 from microros_gen.client.plan.features import PlanContext
 from microros_gen.client.plan.receiving import LARGEST_DEFAULT_QUEUE
 from microros_gen.components.peer.check import OwnEnd, matches
@@ -46,13 +47,25 @@ def _check_client(own: OwnEnd, context: PlanContext, diagnostics: Diagnostics) -
         )
 
 
+def requests_of(own: OwnEnd, link: Link) -> int:
+    """Return how many requests the clients of a link may have under way at a service; 0: it is no service."""
+    ends = matches(own, link) if own.end.kind == "service" else ()
+    return sum(end.queue or LARGEST_DEFAULT_QUEUE for end in ends)
+
+
 def _check_queue(own: OwnEnd, context: PlanContext, diagnostics: Diagnostics) -> None:
     """Report a queue without room for the requests that may be under way at a time."""
     room = own.endpoint.queue or LARGEST_DEFAULT_QUEUE
-    clients = [end for link in context.application.links for end in matches(own, link)]
-    waiting = sum(end.queue or LARGEST_DEFAULT_QUEUE for end in clients)
+    waiting = sum(requests_of(own, link) for link in context.application.links)
     besides = 1 if own.end.peer == "also" else 0
-    if room < waiting + besides:
+    if own.endpoint.queue_bytes is not None:
+        diagnostics.error(
+            f"the queue of '{own.end.topic}' has bytes, and room for no certain number of requests of other boards",
+            own.endpoint.queue_bytes_span or own.endpoint.span,
+            f"Write `queue: {waiting + besides}` instead of `queue_bytes`",
+            id="MG-7215",
+        )
+    elif room < waiting + besides:
         others = ", and one of the agent" if besides else ""
         diagnostics.error(
             f"{waiting} requests of '{own.end.topic}' may come from other boards at a time{others}, and {room} fit its "

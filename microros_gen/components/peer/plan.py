@@ -21,7 +21,7 @@ from microros_gen.components.peer.check import (
     matches,
     own_ends,
 )
-from microros_gen.components.peer.check_services import check_services
+from microros_gen.components.peer.check_services import check_services, requests_of
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
@@ -43,7 +43,7 @@ class PeerTopic:
 class PeerLinkPlan:
     """A link with `board`; `writers` and `readers`: index of a publisher or subscription, and of its topic.
 
-    `repliers` and `requesters`: the same for services and clients.
+    `repliers` and `requesters`: the same for services and clients, and how many requests a service may get at a time.
     """
 
     index: int
@@ -58,8 +58,8 @@ class PeerLinkPlan:
     writers: tuple[tuple[int, int], ...]
     readers: tuple[tuple[int, int], ...]
     services: tuple[PeerTopic, ...] = ()
-    repliers: tuple[tuple[int, int], ...] = ()
-    requesters: tuple[tuple[int, int], ...] = ()
+    repliers: tuple[tuple[int, int, int], ...] = ()
+    requesters: tuple[tuple[int, int, int], ...] = ()
 
     @property
     def tables(self) -> tuple[str, ...]:
@@ -135,9 +135,9 @@ class PeerPlan:
         lines: list[str] = []
         for name in ("repliers", "requesters"):
             rows = [
-                f"  {{{end}, {service}, {link.index}}}, /* {link.services[service].name}: {link.board} */"
+                f"  {{{end}, {service}, {link.index}, {requests}}}, /* {link.services[service].name}: {link.board} */"
                 for link in self.links
-                for end, service in getattr(link, name)
+                for end, service, requests in getattr(link, name)
             ]
             if rows:
                 size = f"MICROROS_PEER_{name.upper()}"
@@ -207,8 +207,8 @@ def _link(index: int, link: Link, ends: tuple[OwnEnd, ...], context: PlanContext
         writers=_routes(shared, "publisher", topics),
         readers=_routes(shared, "subscription", topics),
         services=services,
-        repliers=_routes(shared, "service", services),
-        requesters=_routes(shared, "client", services),
+        repliers=_calls(shared, "service", services, link),
+        requesters=_calls(shared, "client", services, link),
     )
 
 
@@ -221,6 +221,13 @@ def _table(ends: Iterable[OwnEnd]) -> tuple[PeerTopic, ...]:
 def _routes(ends: list[OwnEnd], kind: str, table: tuple[PeerTopic, ...]) -> tuple[tuple[int, int], ...]:
     number: dict[Key, int] = {(topic.domain_id, topic.name): i for i, topic in enumerate(table)}
     return tuple((own.index, number[own.key]) for own in ends if own.end.kind == kind)
+
+
+def _calls(
+    ends: list[OwnEnd], kind: str, table: tuple[PeerTopic, ...], link: Link
+) -> tuple[tuple[int, int, int], ...]:
+    requests = [requests_of(own, link) for own in ends if own.end.kind == kind]
+    return tuple((*route, most) for route, most in zip(_routes(ends, kind, table), requests, strict=True))
 
 
 def _key(

@@ -1,23 +1,28 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A board of tests/runtime/test_peer_services.py: serves /OWN/add in its executor, and /OWN/later when told to; calls both
- * of the other board. Publishes /OWN/sure and subscribes to /OTHER/sure. Takes commands by lines, and answers each with
+ * A board of tests/runtime/test_peer_services.py and tests/e2e/test_peer_services.py: serves /OWN/add in its executor, and /OWN/later when told to; calls both
+ * of the other board. Publishes /OWN/sure and /OWN/best, and subscribes to those of the other board. Takes commands by lines, and answers each with
  * lines and `ret CODE ERROR`:
  *   spin MS              prints `served A B`, `reply SEQUENCE SUM` and `got VALUE`
  *   ask A B              calls /OTHER/add, prints `asked SEQUENCE`
  *   ask_later A B        the same with /OTHER/later; its reply is printed as `later SEQUENCE SUM`
  *   take                 takes a request of /OWN/later if there is one, prints `taken A B`
  *   answer I             answers the i-th one that was taken
+ *   signal VALUE         publishes it on /OWN/best
  *   greedy 1             callbacks of /OWN/add publish until they may not any more, and print `published COUNT ERROR`
  *   hasty 1              callbacks of /OWN/add finalize their service and open it again
  *   close, open          finalize /OWN/add, and open it again
  *   numbers SENT TAKEN   sets the numbers of the link's next reliable messages, while nothing is under way, and that of the
  *                        next request
- *   counts               prints `counts DROPPED INTERRUPTED`
+ *   counts               prints `counts DROPPED INTERRUPTED WAITING`, the last of reliable messages of the link
+ *   available            (with HAS_GRAPH) prints `available 1` if the server of /OTHER/add is, else `available 0`
  * The first argument is what port_time_ms starts with. */
 #define _POSIX_C_SOURCE 200809L
 #include <example_interfaces/srv/add_two_ints.h>
 #include <rcl/error_handling.h>
+#ifdef HAS_GRAPH
+#include <rcl/graph.h>
+#endif
 #include <rcl/rcl.h>
 #include <rclc/executor.h>
 #include <rclc/rclc.h>
@@ -34,7 +39,7 @@
 #include "microros/rmw_client.h"
 #include "microros/xrce_client.h"
 
-enum { LINE = 80, HELD = 8, HANDLES = 4 };
+enum { LINE = 80, HELD = 8, HANDLES = 5 };
 
 typedef example_interfaces__srv__AddTwoInts_Request request_t;
 typedef example_interfaces__srv__AddTwoInts_Response response_t;
@@ -42,6 +47,7 @@ typedef example_interfaces__srv__AddTwoInts_Response response_t;
 static rclc_support_t support;
 static rcl_node_t node;
 static rcl_publisher_t publisher;
+static rcl_publisher_t best;
 static rcl_service_t add;
 static rcl_service_t later;
 static rcl_client_t add_client;
@@ -182,6 +188,17 @@ static void set_numbers(unsigned sent, unsigned taken)
   client->session.request = (uint16_t)sent;
 }
 
+#ifdef HAS_GRAPH
+static rcl_ret_t print_available(void)
+{
+  bool is_available = false;
+  const rcl_ret_t code = rcl_service_server_is_available(&node, &add_client, &is_available);
+
+  (void)printf("available %d\n", is_available ? 1 : 0);
+  return code;
+}
+#endif
+
 static bool start(rclc_executor_t * executor)
 {
   static request_t request;
@@ -189,21 +206,28 @@ static bool start(rclc_executor_t * executor)
   static response_t reply;
   static response_t later_reply;
   static std_msgs__msg__Int32 heard;
+  static std_msgs__msg__Int32 best_heard;
   static char context[] = "served";
   rcl_allocator_t allocator = rcl_get_default_allocator();
-  rcl_subscription_t * subscription = malloc(sizeof(*subscription));
+  static rcl_subscription_t subscription;
+  static rcl_subscription_t best_subscription;
   const rosidl_message_type_support_t * int32 = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
 
-  return subscription != NULL && rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK &&
+  return rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK &&
          rclc_node_init_default(&node, "board", "", &support) == RCL_RET_OK &&
          rclc_executor_init(executor, &support.context, HANDLES, &allocator) == RCL_RET_OK &&
          rclc_publisher_init_default(&publisher, &node, int32, "/" OWN "/sure") == RCL_RET_OK &&
-         rclc_subscription_init_default(subscription, &node, int32, "/" OTHER "/sure") == RCL_RET_OK &&
+         rclc_subscription_init_default(&subscription, &node, int32, "/" OTHER "/sure") == RCL_RET_OK &&
+         rclc_publisher_init_best_effort(&best, &node, int32, "/" OWN "/best") == RCL_RET_OK &&
+         rclc_subscription_init_best_effort(&best_subscription, &node, int32, "/" OTHER "/best") ==
+           RCL_RET_OK &&
+         rclc_executor_add_subscription(executor, &best_subscription, &best_heard, hear, ON_NEW_DATA) ==
+           RCL_RET_OK &&
          rclc_service_init_default(&add, &node, type(), "/" OWN "/add") == RCL_RET_OK &&
          rclc_service_init_default(&later, &node, type(), "/" OWN "/later") == RCL_RET_OK &&
          rclc_client_init_default(&add_client, &node, type(), "/" OTHER "/add") == RCL_RET_OK &&
          rclc_client_init_default(&later_client, &node, type(), "/" OTHER "/later") == RCL_RET_OK &&
-         rclc_executor_add_subscription(executor, subscription, &heard, hear, ON_NEW_DATA) == RCL_RET_OK &&
+         rclc_executor_add_subscription(executor, &subscription, &heard, hear, ON_NEW_DATA) == RCL_RET_OK &&
          rclc_executor_add_service_with_context(executor, &add, &request, &response, serve, context) ==
            RCL_RET_OK &&
          rclc_executor_add_client_with_request_id(executor, &add_client, &reply, hear_reply) == RCL_RET_OK &&
@@ -222,8 +246,9 @@ static rcl_ret_t print_counts(void)
   const rcl_ret_t code = rmw_uros_get_statistics(rcl_context_get_rmw_context(&support.context), &statistics);
 
   (void)printf(
-    "counts %u %u\n", (unsigned)statistics.dropped,
-    (unsigned)rmw_client_instance()->requesters[1].interrupted);
+    "counts %u %u %u\n", (unsigned)statistics.dropped,
+    (unsigned)rmw_client_instance()->requesters[1].interrupted,
+    (unsigned)rmw_client_instance()->peers[0].count);
   return code;
 }
 
@@ -256,6 +281,10 @@ int main(int argc, char ** argv)
       code = take();
     } else if (sscanf(line, "answer %u", &first) == 1 && first < HELD) {
       code = answer_later(first);
+    } else if (sscanf(line, "signal %d", &a) == 1) {
+      const std_msgs__msg__Int32 message = {.data = a};
+
+      code = rcl_publish(&best, &message, NULL);
     } else if (sscanf(line, "greedy %d", &a) == 1) {
       greedy = a != 0;
     } else if (sscanf(line, "hasty %d", &a) == 1) {
@@ -268,6 +297,10 @@ int main(int argc, char ** argv)
       set_numbers(first, second);
     } else if (strcmp(line, "counts\n") == 0) {
       code = print_counts();
+#ifdef HAS_GRAPH
+    } else if (strcmp(line, "available\n") == 0) {
+      code = print_available();
+#endif
     } else {
       return 4;
     }

@@ -3,6 +3,7 @@
 
 #include "microros/xrce_client.h"
 #include "microros/xrce_peer_services.h"
+#include "microros/xrce_read_grant.h"
 #include "microros/xrce_wire.h"
 
 #include <string.h>
@@ -60,6 +61,18 @@ uint16_t xrce_peer_serving_object(uint8_t index, uint16_t service)
     }
   }
   return XRCE_PEER_NO_OBJECT;
+}
+
+uint16_t xrce_read_grant(uint16_t index, uint16_t room)
+{
+  uint16_t kept = 0;
+
+  for (uint16_t i = 0; i < (uint16_t)MICROROS_PEER_REPLIERS; ++i) {
+    if (index == (uint16_t)(XRCE_REPLIERS_AT - XRCE_READERS_AT + xrce_peer_repliers[i].endpoint)) {
+      kept = (uint16_t)(kept + xrce_peer_repliers[i].requests);
+    }
+  }
+  return room > kept ? (uint16_t)(room - kept) : 0u;
 }
 
 /* Puts the identity of a request in front of its body. */

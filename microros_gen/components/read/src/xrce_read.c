@@ -2,6 +2,7 @@
 #include "microros/xrce_read.h"
 
 #include "microros/xrce_client.h"
+#include "microros/xrce_read_grant.h"
 #include "microros/xrce_sinks.h"
 #include "microros/xrce_wire.h"
 
@@ -104,7 +105,7 @@ static uint16_t read_samples(const xrce_client_t * client, uint16_t index)
   if (!read_is_reliable(client, index)) {
     return receiver->request == XRCE_REQUEST_NONE ? samples_unlimited : 0u;
   }
-  return receiver->granted == 0u ? xrce_read_room(client, receiver) : 0u;
+  return receiver->granted == 0u ? xrce_read_grant(index, xrce_read_room(client, receiver)) : 0u;
 }
 
 /*

@@ -38,6 +38,7 @@ typedef struct xrce_peer_service_t {
   uint16_t endpoint;
   uint16_t service;
   uint8_t link;
+  uint8_t requests; /* of a service: how many its clients there have under way at most */
 } xrce_peer_service_t;
 
 /* A link, from the plan. */
