@@ -59,13 +59,13 @@ def test_a_service_for_ros_and_for_another_board(observer: Observer, domain: int
             until(lambda: is_available(a), a, b)
             until(lambda: not b.tell("ask 0 1"), a, b)
             observer.ask(do="ask_sums", service="/a/add", pairs=[[100 + i, 1] for i in range(CALLS)])
-            asked = 1
+            requested = 1
 
             def both() -> bool:
-                nonlocal asked
-                if len(b.replies) == asked and asked < CALLS:
-                    assert not b.tell(f"ask {asked} 1")
-                    asked += 1
+                nonlocal requested
+                if len(b.replies) == requested and requested < CALLS:
+                    assert not b.tell(f"ask {requested} 1")
+                    requested += 1
                 sums = observer.ask(do="sums")
                 return len(b.replies) == CALLS and len(sums) == CALLS and None not in sums
 

@@ -70,7 +70,7 @@ def settle(first: ServiceBoard, second: ServiceBoard) -> None:
     until(lambda: first.counts()[2] == second.counts()[2] == 0, first, second)
     for value, sender, receiver in ((1001, first, second), (1002, second, first), (1003, first, second)):
         assert not sender.tell(f"signal {value}")
-        until(lambda: value in receiver.got, receiver)  # noqa: B023
+        until(lambda: value in receiver.received, receiver)  # noqa: B023
 
 
 @contextmanager
@@ -198,7 +198,7 @@ def test_a_callback_that_publishes_leaves_room_for_its_reply(
         assert not second.tell("greedy 1")
         call(first, second, range(3))
         assert first.replies == answered(range(3))
-        assert 0 in first.got
+        assert 0 in first.received
         published = [line for line in second.words if line.startswith("published")]
         assert all(f"has not acknowledged {SLOTS - 1} messages" in line for line in published), published
         assert published

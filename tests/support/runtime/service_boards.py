@@ -38,7 +38,7 @@ nodes:
 
 
 class ServiceBoard(CommandedProgram):
-    """A process that is a board; what it printed is in `served`, `replies`, `later`, `got` and `words`."""
+    """A process that is a board; what it printed is in `served`, `replies`, `later`, `received` and `words`."""
 
     def __init__(self, program: Path, clock: int = 0) -> None:
         self.process = subprocess.Popen(
@@ -48,7 +48,7 @@ class ServiceBoard(CommandedProgram):
         self.served: list[tuple[int, int]] = []
         self.replies: list[tuple[int, int]] = []
         self.later: list[tuple[int, int]] = []
-        self.got: list[int] = []
+        self.received: list[int] = []
         self.words: list[str] = []
 
     def tell(self, command: str) -> str:
@@ -61,7 +61,7 @@ class ServiceBoard(CommandedProgram):
             if kept is not None:
                 kept.append((int(rest[0]), int(rest[1])))
             elif word == "got":
-                self.got.append(int(rest[0]))
+                self.received.append(int(rest[0]))
             else:
                 self.words.append(line)
         return error

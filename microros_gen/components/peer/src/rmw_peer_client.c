@@ -8,7 +8,6 @@
 #include "microros/xrce_peer.h"
 #include "microros/xrce_peer_calling.h"
 #include "microros/xrce_peer_serving.h"
-#include "microros/xrce_services.h"
 #include "microros/xrce_session.h"
 #include "microros/xrce_wire.h"
 
@@ -30,7 +29,7 @@ bool rmw_peer_server(const xrce_endpoint_t * client, bool * is_connected)
   return true;
 }
 
-/* Returns room on a link that is connected; NULL, with a text, if there is none now. */
+/* Returns room on a link that is connected; otherwise NULL, with a text. */
 static uint8_t * peer_room(const xrce_endpoint_t * client, uint8_t link)
 {
   const xrce_peer_t * peer = &client->client->peers[link];
@@ -47,9 +46,10 @@ static uint8_t * peer_room(const xrce_endpoint_t * client, uint8_t link)
   return room;
 }
 
-rmw_ret_t rmw_peer_send_request(const xrce_endpoint_t * endpoint, const void * ros_request, uint16_t * number)
+rmw_ret_t rmw_peer_send_request(
+  const xrce_endpoint_t * endpoint, const microros_message_type_t * sent, const void * ros_request,
+  uint16_t * number)
 {
-  const microros_message_type_t * sent = xrce_service_of(endpoint)->sent;
   const xrce_peer_service_t * route = peer_route(endpoint);
   xrce_client_t * client = endpoint->client;
   cdr_fault_t fault; /* set if the message is refused */

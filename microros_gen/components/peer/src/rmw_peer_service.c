@@ -10,7 +10,6 @@
 #include "microros/xrce_peer_services.h"
 #include "microros/xrce_peer_serving.h"
 #include "microros/xrce_read.h"
-#include "microros/xrce_services.h"
 #include "microros/xrce_session.h"
 #include "microros/xrce_wire.h"
 
@@ -73,10 +72,10 @@ bool rmw_peer_abandon(const rmw_request_id_t * request)
 
 /* Writes the reply on a link that has room for it. */
 static rmw_ret_t peer_reply(
-  const xrce_endpoint_t * service, uint8_t link, uint16_t object, const uint8_t * identity,
-  const void * ros_response)
+  const xrce_endpoint_t * service, const microros_message_type_t * sent, uint16_t object,
+  const uint8_t * identity, const void * ros_response)
 {
-  const microros_message_type_t * sent = xrce_service_of(service)->sent;
+  const uint8_t link = xrce_peer_serving_link(identity);
   uint8_t * room = xrce_peer_reserve(service->client, link, true);
   size_t end = XRCE_WRITE_PREFIX + XRCE_IDENTITY_SIZE;
   xrce_client_t * client = service->client;
@@ -103,7 +102,8 @@ static rmw_ret_t peer_reply(
 }
 
 rmw_ret_t rmw_peer_respond(
-  const xrce_endpoint_t * service, const uint8_t * identity, const void * ros_response)
+  const xrce_endpoint_t * service, const microros_message_type_t * sent, const uint8_t * identity,
+  const void * ros_response)
 {
   const uint8_t link = xrce_peer_serving_link(identity);
   const uint16_t object =
@@ -119,5 +119,5 @@ rmw_ret_t rmw_peer_respond(
     microros_error_set(microros_error_peer_silent, service->name, xrce_peer_lines[link].board, 0, 0);
     return RMW_RET_ERROR;
   }
-  return peer_reply(service, link, object, identity, ros_response);
+  return peer_reply(service, sent, object, identity, ros_response);
 }

@@ -3,7 +3,6 @@
 
 #include "microros/xrce_client.h"
 #include "microros/xrce_peer_services.h"
-#include "microros/xrce_services.h"
 #include "microros/xrce_wire.h"
 
 #include <stddef.h>

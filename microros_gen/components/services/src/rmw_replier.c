@@ -206,7 +206,7 @@ static rmw_ret_t replier_respond(
   replier_put_u32(&identity[HIGH_AT], (uint32_t)(sequence >> 32));
   replier_put_u32(&identity[LOW_AT], (uint32_t)(sequence & UINT32_MAX));
   if (rmw_peer_is_request(request)) {
-    return rmw_peer_respond(endpoint, identity, ros_response);
+    return rmw_peer_respond(endpoint, xrce_service_of(endpoint)->sent, identity, ros_response);
   }
   outcome = xrce_service_write(endpoint, XRCE_REQUEST_NONE, identity, ros_response, &fault);
   return rmw_service_report(endpoint, outcome, &fault);

@@ -193,7 +193,8 @@ static rmw_ret_t requester_send_peer(
   const xrce_endpoint_t * endpoint, const void * ros_request, int64_t * sequence_number)
 {
   uint16_t number;
-  const rmw_ret_t result = rmw_peer_send_request(endpoint, ros_request, &number);
+  const rmw_ret_t result =
+    rmw_peer_send_request(endpoint, xrce_service_of(endpoint)->sent, ros_request, &number);
 
   if (result == RMW_RET_OK) {
     *sequence_number = xrce_requests_add(endpoint, number);

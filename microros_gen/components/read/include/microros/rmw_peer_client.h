@@ -20,9 +20,11 @@ static inline bool rmw_peer_server(const xrce_endpoint_t * client, bool * is_con
 }
 
 static inline rmw_ret_t rmw_peer_send_request(
-  const xrce_endpoint_t * client, const void * ros_request, uint16_t * number)
+  const xrce_endpoint_t * endpoint, const microros_message_type_t * sent, const void * ros_request,
+  uint16_t * number)
 {
-  (void)client;
+  (void)endpoint;
+  (void)sent;
   (void)ros_request;
   (void)number;
   return RMW_RET_ERROR;

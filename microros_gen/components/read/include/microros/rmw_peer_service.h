@@ -49,9 +49,11 @@ static inline bool rmw_peer_abandon(const rmw_request_id_t * request)
 }
 
 static inline rmw_ret_t rmw_peer_respond(
-  const xrce_endpoint_t * service, const uint8_t * identity, const void * ros_response)
+  const xrce_endpoint_t * service, const microros_message_type_t * sent, const uint8_t * identity,
+  const void * ros_response)
 {
   (void)service;
+  (void)sent;
   (void)identity;
   (void)ros_response;
   return RMW_RET_ERROR;
