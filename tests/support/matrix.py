@@ -91,7 +91,10 @@ busy:
 
 def _of_numbers(application: str) -> str:
     """Return a board of the corpus with the messages that other variants here have, too."""
-    return application.replace("UInt8", "Int32").replace("quality_msgs/msg/Tree", "std_msgs/msg/String")
+    application = application.replace("UInt8", "Int32").replace(
+        "std_srvs/srv/Trigger", "example_interfaces/srv/AddTwoInts"
+    )
+    return application.replace("quality_msgs/msg/Tree", "std_msgs/msg/String")
 
 
 VARIANTS: Mapping[str, str] = MappingProxyType(
@@ -190,7 +193,7 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "    publishers: [{topic: far, type: std_msgs/msg/Int32}]\n"
         + "profiles: [pure_sender]\ncomponents: [+sleep_cycles]\ncreation: reliable\ntransport: {type: canfd, id: 7}\n"
         + "errors: code\n",
-        **{name: _of_numbers(APPLICATIONS[name]) for name in ("peer", "peer_serial", "local_chip")},
+        **{name: _of_numbers(APPLICATIONS[name]) for name in ("peer_services", "peer_serial", "local_chip")},
         "diagnosis": _BUSY
         + "    parameters: [{name: speed, type: double}]\n    modes: {SLOW: {speed: 0.5}}\n"
         + "    timers: [{name: tick, period: 50 ms}]\nprofiles: [managed_service]\n"
