@@ -57,6 +57,7 @@ HOOK_POINTS: Mapping[str, HookPoint] = MappingProxyType(
         "step": HookPoint(("client", "now"), STEP_PHASES),
         "gate": HookPoint(("client", "now"), STEP_PHASES, value=True),
         "connected": HookPoint(("client", "now"), CONNECTED_PHASES),
+        "leaving": HookPoint(("client",)),
         "leave": HookPoint(("client",)),
         "closed": HookPoint(("client",)),
         "settled": HookPoint(("client",), value=True),

@@ -10,7 +10,8 @@
  *   serialized TOPIC SIZE  publishes so many bytes of CDR
  *   meanwhile TOPIC VALUE  publishes as another task would during the wait of an executor, and prints `wakes COUNT`:
  *                          how often that woke it (with WAITS_HERE: without port_posix_wait.c)
- *   end                    prints `sessions COUNT`: how many others could be opened while this one was closed
+ *   end                    prints `sessions COUNT`: how many others could be opened while this one was closed, and how
+ *                          often it was no longer closed
  * The first argument is what port_time_ms starts with. */
 #define _POSIX_C_SOURCE 200809L
 #include <rcl/error_handling.h>
@@ -30,6 +31,8 @@
 #include <time.h>
 
 #include "microros/port.h"
+#include "microros/rmw_client.h"
+#include "microros/xrce_client.h"
 
 enum { TOPICS = 2, LINE = 80, BYTES = 1024 };
 
@@ -41,12 +44,25 @@ static bool closes;
 static unsigned sessions;
 static unsigned times; /* that the time was read */
 
+/* Counts a session that is no longer closed while it is being closed. */
+static void watch_state(void)
+{
+  static uint8_t last;
+  const uint8_t state = rmw_client_instance()->session.state;
+
+  if (closes && last == (uint8_t)XRCE_CLOSED && state != (uint8_t)XRCE_CLOSED) {
+    ++sessions;
+  }
+  last = state;
+}
+
 /* Instead of port_posix_time.c. */
 uint32_t port_time_ms(void)
 {
   struct timespec now = {0, 0};
 
   ++times;
+  watch_state();
   (void)clock_gettime(CLOCK_MONOTONIC, &now);
   return offset_ms + (uint32_t)((uint64_t)now.tv_sec * 1000u + (uint64_t)now.tv_nsec / 1000000u);
 }

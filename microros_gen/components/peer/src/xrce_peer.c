@@ -314,12 +314,10 @@ static bool peer_is_done(const xrce_peer_t * peer, xrce_peer_port_t * port)
 void xrce_peer_leave(xrce_client_t * client)
 {
   const uint32_t start = port_time_ms();
-  bool done = false;
+  bool done = client->session.state == (uint8_t)XRCE_CLOSED; /* before a sleep */
 
-  /* A task that opens the next session waits for the end of this one. */
-  client->session.state = (uint8_t)XRCE_CLOSING;
   while (!done && port_time_ms() - start < client->close_timeout_ms) {
-    peer_step(client, port_time_ms()); /* the session with an agent has ended already */
+    peer_step(client, port_time_ms());
     done = true;
     for (uint8_t i = 0; i < MICROROS_PEERS; ++i) {
       done = done && peer_is_done(&client->peers[i], &xrce_peer_ports[i]);

@@ -118,7 +118,8 @@ void xrce_peer_wake(xrce_client_t * client);
 /* Receives, and sends what is due. Never blocks. */
 void xrce_peer_step(xrce_client_t * client, uint32_t now);
 
-/* Waits until all messages are acknowledged and sent, at most client->close_timeout_ms. */
+/* Waits until all messages are acknowledged and sent, at most client->close_timeout_ms. The session with the agent ends
+ * afterwards: a task that opens the next one waits for that. */
 void xrce_peer_leave(xrce_client_t * client);
 
 void xrce_peer_close(void);
