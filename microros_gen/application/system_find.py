@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from microros_gen.application.find import APPLICATION_FILE
-from microros_gen.application.kinds import KIND, NAMES, TOPIC_KINDS
+from microros_gen.application.kinds import KIND, NAMES
 from microros_gen.application.model import Application, ChipImage, EndpointDecl, NodeDecl
 from microros_gen.application.names import expand_topic_name
 from microros_gen.application.parser import parse_application

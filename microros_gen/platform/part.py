@@ -109,9 +109,9 @@ class Os:
     its own start-up code and linker script (a file of the component). `tick` is called each millisecond.
     `task_stack`: bytes of a task's stack where nothing is said, `task_stack_least`: at least, `task_stack_context`: of
     it for the system and the port, around what the task calls. `task_stack_macro`, of the header `task_stack_header`,
-    defines one from its name and bytes; empty: an array. `parts`: kind and name of built-in parts that provide what this
-    one does not. `device` names the serial line if the application file does not; empty: the only line of a board has no
-    name.
+    defines one from its name and bytes; empty: an array. `parts`: kind and name of built-in parts that provide what
+    this one does not. `device` names the serial line if the application file does not; empty: the only line of a board
+    has no name.
     """
 
     hosted: bool = False
