@@ -12,9 +12,9 @@ import click
 from microros_gen.cli.options import check_map, file_option, image_option, map_option, write_result
 from microros_gen.cli.tables import format_table
 from microros_gen.diagnostics import Diagnostic, UserError
-from microros_gen.image.folder import read_folder
+from microros_gen.image.folder import Folder, read_folder
 from microros_gen.image.report import measure_folder
-from microros_gen.image.task_stacks import TaskStack, task_stacks
+from microros_gen.image.task_stacks import TaskStack, has_automatic, task_stacks
 
 _HEAD = ("TASK", "CHAIN", "CONTEXT", "NEEDS", "HAS", "THROUGH")
 _UNKNOWN = "-"
@@ -46,35 +46,60 @@ def command(
     microros-gen stacks build --image firmware.elf -o microros.stacks.yaml
     """
     check_map(image, linker_map)
-    report = measure_folder(read_folder(out, image, linker_map))
-    if report.graph is None or not report.graph.compiled:
-        raise UserError([Diagnostic(f"no stack is known: {report.stack.why}", id="MG-7147")])
-    stacks = task_stacks(report.folder.manifest, report.graph)
+    stacks = _measured(read_folder(out, image, linker_map))
     if not stacks:
         hint = "Declare them in the application file: `tasks: [{name: control, executor: NAME}]`"
         raise UserError([Diagnostic(f"{out} has no tasks", hint=hint, id="MG-7148")])
     kind = kind or ("table" if output is None else "yaml")
-    unbounded = [_unbounded(stack) for stack in stacks if stack.automatic and stack.needs is None]
-    if unbounded and kind == "yaml":
-        raise UserError(unbounded, status=1)
+    if kind == "yaml":
+        _refuse(_unbounded(stacks))
     write_result({"table": _table, "json": _json, "yaml": _yaml}[kind](stacks), output)
-    small = [_small(stack) for stack in stacks if stack.needs is not None and not stack.fits]
-    if kind != "yaml" and (unbounded or small):
-        raise UserError([*unbounded, *small], status=1)
+    if kind != "yaml":
+        _refuse([*_unbounded(stacks), *_small(stacks)])
 
 
-def _unbounded(stack: TaskStack) -> Diagnostic:
-    message = f"the stack of the task '{stack.name}' has no bound: {'; '.join(stack.open[:_SHOWN])}"
-    return Diagnostic(message, hint="Write its size instead of auto: `stack: 4 KiB`", id="MG-7149")
+def check_stacks(folder: Folder) -> None:
+    """Compare the tasks with `stack: auto` with their image, where there is one. Raises UserError with status 1."""
+    if folder.image is not None and has_automatic(folder.manifest):
+        stacks = [stack for stack in _measured(folder) if stack.automatic]
+        _refuse([*_unbounded(stacks), *_small(stacks)])
 
 
-def _small(stack: TaskStack) -> Diagnostic:
-    message = (
-        f"the task '{stack.name}' may need {stack.needs} bytes of stack with the margin, and has {stack.size}"
-    )
-    again = "Write the sizes again (-o microros.stacks.yaml), and build"
-    hint = again if stack.automatic else f"Write stack: {stack.needs}"
-    return Diagnostic(message, hint=hint, id="MG-7134")
+def _measured(folder: Folder) -> tuple[TaskStack, ...]:
+    report = measure_folder(folder)
+    if report.graph is None or not report.graph.compiled:
+        raise UserError([Diagnostic(f"no stack is known: {report.stack.why}", id="MG-7147")], status=1)
+    return task_stacks(folder.manifest, report.graph)
+
+
+def _refuse(found: Sequence[Diagnostic]) -> None:
+    if found:
+        raise UserError(found, status=1)
+
+
+def _unbounded(stacks: Sequence[TaskStack]) -> list[Diagnostic]:
+    return [
+        Diagnostic(
+            f"the stack of the task '{stack.name}' has no bound: {'; '.join(stack.open[:_SHOWN])}",
+            hint="Write its size instead of auto: `stack: 4 KiB`",
+            id="MG-7149",
+        )
+        for stack in stacks
+        if stack.automatic and stack.needs is None
+    ]
+
+
+def _small(stacks: Sequence[TaskStack]) -> list[Diagnostic]:
+    again = "Write the sizes again (`microros-gen stacks … -o microros.stacks.yaml`), and build"
+    return [
+        Diagnostic(
+            f"the task '{stack.name}' may need {stack.needs} bytes of stack with the margin, and has {stack.size}",
+            hint=again if stack.automatic else f"Write stack: {stack.needs}",
+            id="MG-7134",
+        )
+        for stack in stacks
+        if stack.needs is not None and not stack.fits
+    ]
 
 
 def _table(stacks: Sequence[TaskStack]) -> str:

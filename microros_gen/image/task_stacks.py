@@ -49,12 +49,22 @@ class TaskStack:
         return self.bound is not None and not self.bound.open and self.bound.bytes + self.context <= self.size
 
 
+def has_automatic(manifest: Mapping[str, Any]) -> bool:
+    """Return whether the size of a task's stack is to follow from the image."""
+    return any(task["stack_auto"] for task in _values(manifest).get("tasks", ()))
+
+
+def _values(manifest: Mapping[str, Any]) -> Mapping[str, Any]:
+    found: Mapping[str, Any] = manifest.get("features", {}).get("tasks", {}).get("values", {})
+    return found
+
+
 def task_stacks(manifest: Mapping[str, Any], graph: CallGraph) -> tuple[TaskStack, ...]:
     """Return the stacks of the tasks that `manifest` has, in its order; none without tasks.
 
     Callbacks of every executor count for each task: what a handle calls is found by the type of the function alone.
     """
-    values = manifest.get("features", {}).get("tasks", {}).get("values", {})
+    values = _values(manifest)
     context = int(values.get("stack_context", 0))
     return tuple(
         TaskStack(

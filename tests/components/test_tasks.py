@@ -250,6 +250,8 @@ def test_a_stack_that_an_image_decides_is_said_to_be_unknown_before(tmp_path: Pa
     assert isinstance(part, TasksPlan)
     assert part.stacks == "a 300016, b 262144, session 262144 bytes"
     assert tmp_path / "microros.stacks.yaml" in compiler.read_paths(done)
+    cmake = (rendered(tmp_path, HEAD + NODES + OTHER + text) / "CMakeLists.txt").read_text(encoding="utf-8")
+    assert 'MICROROS_BUDGETS "stack of a 300016"' in cmake, "CMake compares them after each link"
 
 
 def test_deadlines_that_are_met_are_in_the_report_and_the_manifest(tmp_path: Path) -> None:

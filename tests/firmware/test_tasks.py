@@ -107,6 +107,12 @@ def stacks_of(built: Built, image: Path, *options: str) -> subprocess.CompletedP
     return subprocess.run(call, cwd=built.out.parent, text=True, capture_output=True, check=False)
 
 
+def budgets_of(built: Built, image: Path) -> subprocess.CompletedProcess[str]:
+    """Do what CMake does after each link of an image of a library that has something to compare with."""
+    call = [sys.executable, "-m", "microros_gen", "size", "out", "--image", str(image), "--budgets"]
+    return subprocess.run(call, cwd=built.out.parent, text=True, capture_output=True, check=False)
+
+
 def rows_of(built: Built, image: Path) -> Mapping[str, Mapping[str, Any]]:
     found = json.loads(stacks_of(built, image, "--format", "json").stdout)["tasks"]
     return {row["task"]: row for row in found}
@@ -146,6 +152,8 @@ def test_a_large_variable_of_a_callback_is_in_the_stack_of_its_task(tasked: Buil
     done = stacks_of(tasked, large)
     assert (done.returncode == 1) == (after["control"]["chain"] + 256 > 1600), done.stderr
     assert ("the task 'control' may need" in done.stderr) == (done.returncode == 1)
+    linked = budgets_of(tasked, large)
+    assert (linked.returncode, linked.stdout, linked.stderr) == (done.returncode, "", done.stderr)
 
 
 @pytest.mark.system

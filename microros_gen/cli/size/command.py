@@ -10,6 +10,7 @@ import click
 from microros_gen.cli.budgets import check_recorded
 from microros_gen.cli.options import check_map, file_option, image_option, map_option, write_result
 from microros_gen.cli.size.format import size_json, size_table
+from microros_gen.cli.stacks import check_stacks
 from microros_gen.image.folder import read_folder
 from microros_gen.image.report import check_budgets, measure_folder
 
@@ -64,6 +65,7 @@ def command(
     folder = read_folder(out, image, linker_map)
     if check:
         check_recorded(folder)
+        check_stacks(folder)
         return
     report = measure_folder(folder)
     if kind == "html":

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 from jinja2 import Environment
 
 from microros_gen.application.kinds import KINDS
-from microros_gen.application.model import Memory
+from microros_gen.application.model import Application
 from microros_gen.client.plan.project import Project
 from microros_gen.client.plan.runtime_entities import PublisherPlan, SubscriptionPlan
 from microros_gen.client.plan.services import ServicePlan
@@ -111,10 +111,13 @@ def _free(taken: frozenset[str], files: dict[str, bytes]) -> dict[str, bytes]:
     return files
 
 
-def _budgets(memory: Memory) -> str:
-    """Return the budgets as one text: an image is linked again, and checked, when it changes."""
+def _budgets(application: Application) -> str:
+    """Return what an image is compared with as one text: it is linked again, and checked, when that changes."""
+    memory = application.memory
     budgets = (("ram", memory.ram_budget), ("flash", memory.flash_budget), ("stack", memory.stack))
-    return ", ".join(f"{name} {size}" for name, size in budgets if size is not None)
+    texts = [f"{name} {size}" for name, size in budgets if size is not None]
+    automatic = [f"stack of {task.name} {task.stack or 0}" for task in application.tasks if task.stack_auto]
+    return ", ".join([*texts, *automatic])
 
 
 def library_sources(files: Iterable[str]) -> tuple[str, ...]:
@@ -203,7 +206,7 @@ def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectVi
         functions=(*project.provisions.functions(), *project.board.hooks),
         declarations=_declarations(project),
         has_image=not project.lacks_image,
-        budgets=_budgets(project.application.memory),
+        budgets=_budgets(project.application),
         agent=project.selection.entities,
         declared=runtime.entities.declared,
         agent_file=next((path for path in rendered if path.startswith("agent/")), ""),
