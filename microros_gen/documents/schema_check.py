@@ -128,7 +128,7 @@ _FAULTS: Mapping[str, Callable[[Any, Any], bool]] = MappingProxyType(
         "type": lambda data, wanted: not _has_type(data, wanted),
         "enum": lambda data, wanted: not any(_equal(data, value) for value in wanted),
         "const": lambda data, wanted: not _equal(data, wanted),
-        "minimum": lambda data, wanted: _is_number(data) and data < wanted,
+        "minimum": lambda data, wanted: _is_number(data) and not data >= wanted,  # .nan is in no range
         "maximum": lambda data, wanted: _is_number(data) and data > wanted,
         "multipleOf": lambda data, wanted: _is_number(data) and data % wanted != 0,
         "minLength": lambda data, wanted: isinstance(data, str) and len(data) < wanted,

@@ -127,6 +127,13 @@ def test_extends_is_relative_to_the_file_that_says_it(tmp_path: Path) -> None:
             BOARD + "transport: seriel\n",
             "mine.yaml:6:12: error: 'transport' must be udp, tcp, serial, canfd or custom",
         ),
+        *(
+            (
+                f"{BOARD}cycles_per_instruction: {cycles}\n",
+                "mine.yaml:6:25: error: 'cycles_per_instruction' must be a number of cycles, 0.01 to 10000",
+            )
+            for cycles in ("0", "-1", "10001", ".nan", ".inf")
+        ),
         (BOARD.replace("256 KiB", "256 KB"), "mine.yaml:4:35: error: 'flash.size' must be a number of bytes"),
         (
             BOARD.replace("clock_hz: 48000000\n", ""),
