@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 from microros_gen.diagnostics import Diagnostics, Span
-from microros_gen.schedule.remedies import DEADLINE, PERIOD, TIME, Remedy, remedies
+from microros_gen.schedule.remedies import DEADLINE, LOCK, PERIOD, TIME, Remedy, remedies
 from microros_gen.schedule.report import blocked_by
 from microros_gen.schedule.response import Response, analyze, utilization
 from microros_gen.schedule.task import INSTRUCTIONS, Task
@@ -79,5 +79,8 @@ def _written(remedy: Remedy, task: Task) -> str:
     """Return a number as the application file has it: a time is one of instructions where the task has those."""
     if remedy.what == TIME and task.instructions_per_us is not None:
         return f"{INSTRUCTIONS}: {math.floor(remedy.value_us * task.instructions_per_us)}"
+    rate = next((s.instructions_per_us for s in task.sections if s.instructions_per_us is not None), None)
+    if remedy.what == LOCK and rate is not None:
+        return f"lock_instructions: {math.floor(remedy.value_us * rate)}"
     what = INTERVAL if remedy.what == PERIOD and (task.sporadic or task.session) else remedy.what
     return f"{what}: {remedy.value_us} us"

@@ -28,10 +28,14 @@ def time_of_instructions(count: int, instructions_per_us: Fraction) -> int:
 
 @dataclass(frozen=True)
 class Section:
-    """`lock` is held for `time_us` at most, with priority inheritance; sections of a task are not nested."""
+    """`lock` is held for `time_us` at most, with priority inheritance; sections of a task are not nested.
+
+    `instructions_per_us`: as that of a task.
+    """
 
     lock: str
     time_us: int
+    instructions_per_us: Fraction | None = None
 
 
 @dataclass(frozen=True)

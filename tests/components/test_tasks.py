@@ -313,6 +313,8 @@ def test_times_follow_from_instructions_and_the_target(tmp_path: Path) -> None:
     }
     part = counted(tmp_path, text.replace("lock: 40 us", "lock_instructions: 301"))
     assert [row["b"] for row in part.schedule] == [60, 31, 30, 0]
+    with pytest.raises(UserError, match="or `lock_instructions: 6000` of 'worker' or less"):
+        counted(tmp_path, text.replace("lock: 40 us", "lock_instructions: 6001"))
     slower = COUNTED.replace("2.5", "25")
     with pytest.raises(UserError, match="1991 instructions of the task 'control' take 1991 us"):
         counted(tmp_path, text, slower)

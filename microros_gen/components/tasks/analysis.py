@@ -104,7 +104,11 @@ def task_of(task: TaskDecl, instructions_per_us: Fraction | None = None) -> Task
         task.time_us,
         task.criticality or MIDDLE,
         deadline_us=task.deadline_us or None,
-        sections=(Section(LOCK, task.lock_us or task.time_us),),
+        sections=(
+            Section(
+                LOCK, task.lock_us or task.time_us, instructions_per_us if task.lock_instructions else None
+            ),
+        ),
         priority=task.priority or None,
         sporadic=not task.period_us,
         session=is_placed_by_rule(task),
