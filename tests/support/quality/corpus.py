@@ -101,10 +101,6 @@ _PEER = (
     "    subscriptions:\n"
     "      - {topic: /answer, type: std_msgs/msg/UInt8, peer: only, qos: {reliability: best_effort}, queue: 1}\n"
 )
-_CHIP_CALLS = (
-    "    services: [{name: sum, type: std_srvs/srv/Trigger, local: chip, queue: 3}]\n"
-    "    clients: [{name: ask, type: std_srvs/srv/Trigger, local: chip}]\n"
-)
 _PEER_SERVICES = (
     _PEER
     + "    services:\n      - {name: /count, type: std_srvs/srv/Trigger, peer: also, queue: 5}\n"
@@ -118,6 +114,11 @@ _CHIP = (
     "      - {topic: best, type: std_msgs/msg/UInt8, local: chip, qos: {reliability: best_effort}}\n"
     "    subscriptions:\n"
     "      - {topic: fro, type: quality_msgs/msg/Tree, local: chip, queue: 2}\n"
+)
+_CHIP_CALLS = (
+    "".join(line for line in _CHIP.splitlines(keepends=True) if "best" not in line)
+    + "    services: [{name: sum, type: std_srvs/srv/Trigger, local: chip, queue: 3}]\n"
+    "    clients: [{name: ask, type: std_srvs/srv/Trigger, local: chip}]\n"
 )
 SYSTEM = "version: 1\nboards: {own: {application: microros.yaml}, other: {application: other.yaml}}\nlinks:\n"
 
@@ -160,7 +161,7 @@ OTHERS: Mapping[str, str] = MappingProxyType(
             if name.startswith("peer")
         },
         "local_chip": _other(_CHIP),
-        "local_chip_tasks": _other(_CHIP + _CHIP_CALLS),
+        "local_chip_tasks": _other(_CHIP_CALLS),
     }
 )
 """The applications of their other boards."""
@@ -345,9 +346,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "local": _LOCAL,
         "local_services": _LOCAL_SERVICES,
         "local_chip": _CHIP,
-        "local_chip_tasks": _CHIP
-        + _CHIP_CALLS
-        + "components: [+services, +multithread, +executor]\nerrors: code\n",
+        "local_chip_tasks": _CHIP_CALLS + "components: [+services, +multithread, +executor]\nerrors: code\n",
         "local_also": _LOCAL.replace("local: only", "local: also", 1)
         + "components: [+multithread]\nerrors: code\n",
         "peer": _PEER,
