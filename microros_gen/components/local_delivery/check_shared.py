@@ -6,7 +6,7 @@ They agree about its messages and its rings.
 
 from __future__ import annotations
 
-from microros_gen.application.kinds import KIND, NAMES
+from microros_gen.application.kinds import KIND, NAMES, SERVICE_KINDS, TOPIC_KINDS
 from microros_gen.application.model import Application, ChipImage, EndpointDecl
 from microros_gen.client.plan.declared import declarations, full_name, type_name
 from microros_gen.client.plan.features import PlanContext
@@ -23,13 +23,8 @@ from microros_gen.typesupport.plan.size import TypeLimits
 Key = tuple[int, str, bool]
 """Domain and name, and whether that is the name of a service."""
 
-_OTHER_ENDS = {
-    "publisher": "subscription",
-    "subscription": "publisher",
-    "service": "client",
-    "client": "service",
-}
-_VERBS = {"publisher": "publish", "subscription": "subscribe to", "service": "serve", "client": "call"}
+_VERBS = dict(zip(NAMES, ("publish", "subscribe to", "serve", "call"), strict=True))
+"""What a node does with the name of an endpoint of each kind."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +37,8 @@ class _End:
     @property
     def missing(self) -> str:
         """Return what the other image has to do with its name."""
-        return _VERBS[_OTHER_ENDS[self.endpoint.kind]]
+        kinds = SERVICE_KINDS if KIND[self.endpoint.kind].service_type else TOPIC_KINDS
+        return next(_VERBS[kind] for kind in kinds if kind != self.endpoint.kind)
 
     @property
     def types(self) -> tuple[TypeName, ...]:
