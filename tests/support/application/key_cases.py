@@ -792,6 +792,14 @@ _NODES = {
         "3:52",
         "'nodes[0].actions[0].waiting' must be",
     ),
+    "nodes[].actions[].limits": KeyCase(
+        _in_node("actions: [{name: f, type: p/action/F, limits: {string: 5, sequence: 6}}]"),
+        lambda a: _rules(_node(a).actions[0].limits),
+        [(("*",), 5, 6, False)],
+        _in_node("actions: [{name: f, type: p/action/F, limits: 7}]"),
+        "3:51",
+        "'nodes[0].actions[0].limits' must be a mapping with string and sequence",
+    ),
     "nodes[].action_clients": KeyCase(
         _in_node("action_clients: [{name: f, type: p/action/F}]"),
         lambda a: [action.name for action in _node(a).action_clients],
@@ -839,6 +847,14 @@ _NODES = {
         _in_node("action_clients: [{name: f, type: p/action/F, response_timeout: 2}]"),
         "3:68",
         "'nodes[0].action_clients[0].response_timeout' must be",
+    ),
+    "nodes[].action_clients[].limits": KeyCase(
+        _in_node("action_clients: [{name: f, type: p/action/F, limits: {string: 5, sequence: 6}}]"),
+        lambda a: _rules(_node(a).action_clients[0].limits),
+        [(("*",), 5, 6, False)],
+        _in_node("action_clients: [{name: f, type: p/action/F, limits: 7}]"),
+        "3:58",
+        "'nodes[0].action_clients[0].limits' must be a mapping with string and sequence",
     ),
     "nodes[].parameter_clients": KeyCase(
         _in_node("parameter_clients: [/motor]"),
