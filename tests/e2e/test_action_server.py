@@ -300,7 +300,7 @@ def test_the_example_of_the_profile(images: Images, image_port: Relay, agent: ob
             assert answer["accepted"]
             assert peer.result(answer["goal"]) == [SUCCEEDED, numbers]
         assert peer.send(17)["accepted"] is False
-        heard = [numbers for goal, numbers in peer.ask(do="feedback") if goal == 0]
-        assert heard
-        assert all(numbers == FIBONACCI[: len(numbers)] for numbers in heard)
+        received = [numbers for goal, numbers in peer.ask(do="feedback") if goal == 0]
+        assert received
+        assert all(numbers == FIBONACCI[: len(numbers)] for numbers in received)
         kill(process)
