@@ -34,7 +34,9 @@ void xrce_peer_serving_keep(uint8_t index)
 
 void xrce_peer_serving_free(uint8_t index)
 {
-  --serving_kept[index];
+  if (serving_kept[index] != 0u) { /* a callback may have changed the identity */
+    --serving_kept[index];
+  }
 }
 
 uint8_t xrce_peer_serving_link(const uint8_t * guid)
