@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.components.test_peer import application, peers, planned, refused, written
+from tests.support.components.boards import application, peers, planned, refused, written
 
 SYSTEM = """\
 version: 1
