@@ -71,14 +71,16 @@ bool rclc_parameter_in_pass_empty(cdr_in_t * in, uint32_t count)
 {
   const uint32_t bytes = count * (uint32_t)IN_LENGTH;
   const uint32_t start = cdr_aligned(in->position, (uint32_t)IN_LENGTH);
+  const uint8_t * end;
 
   if (start > in->size || bytes > in->size - start) {
     return false;
   }
-  for (uint32_t i = 0; i < count; ++i) {
+  end = &in->body[start + bytes];
+  for (const uint8_t * at = &in->body[start]; at != end; at = &at[IN_LENGTH]) {
     uint32_t length;
 
-    (void)memcpy(&length, &in->body[start + i * (uint32_t)IN_LENGTH], sizeof(length));
+    (void)memcpy(&length, at, sizeof(length));
     if (length != 0u) { /* 0 in both byte orders */
       return false;
     }

@@ -33,12 +33,8 @@ static void value_out_rest(const parameter_out_t * out, const rclc_parameter_pla
   (void)out;
   (void)place;
   if (to != NULL) {
-    uint32_t length = 1;
-
-    for (uint32_t at = (uint32_t)VALUE_NUMBERS; at < (uint32_t)VALUE_NUMBERS + (uint32_t)VALUE_REST; at += 4u) {
-      cdr_put_4(&to[at], &length);
-      length = 0;
-    }
+    (void)memset(&to[VALUE_NUMBERS], 0, VALUE_REST);
+    to[VALUE_NUMBERS] = 1;
   }
 }
 #endif

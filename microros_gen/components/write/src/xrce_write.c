@@ -24,7 +24,7 @@ static bool write_is_reliable(const xrce_endpoint_t * writer)
 /* Returns the number of objects of a complete writer, replier or requester. */
 static uint8_t write_complete(const xrce_endpoint_t * writer)
 {
-  return xrce_place_is_service((uint16_t)(MICROROS_NODES_MAX + writer->index))
+  return xrce_place_is_service((uint32_t)MICROROS_NODES_MAX + writer->index)
            ? (uint8_t)XRCE_SERVICE_COMPLETE
            : (uint8_t)XRCE_ENDPOINT_COMPLETE;
 }
