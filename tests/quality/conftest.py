@@ -32,3 +32,10 @@ def all_units(trees: list[Tree], is_every_unit: bool, tmp_path_factory: pytest.T
     if is_every_unit:
         return units(every)
     return shared_by_processes(tmp_path_factory, "lines", lambda _: covering_units(every))
+
+
+@pytest.fixture(scope="session")
+def tree_units(trees: list[Tree], all_units: list[Unit]) -> list[Unit]:
+    """C files of the trees alone."""
+    names = {tree.name for tree in trees}
+    return [unit for unit in all_units if unit.tree.name in names]

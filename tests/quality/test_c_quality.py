@@ -173,7 +173,7 @@ def test_each_condition_is_read_in_every_configuration_once(tmp_path: Path) -> N
 
 @pytest.mark.lint
 @pytest.mark.skipif(not shutil.which("cppcheck"), reason="no cppcheck")
-def test_cppcheck(trees: list[Tree], is_every_unit: bool) -> None:
+def test_cppcheck(trees: list[Tree], tree_units: list[Unit], is_every_unit: bool) -> None:
     """What is suppressed, and why, stands in cppcheck-suppressions.txt. The long run checks each tree as a whole."""
     checks = ("--enable=warning,style,performance,portability", "--inline-suppr", "--error-exitcode=1")
     options = ("-q", "--std=c99", *checks, f"--suppressions-list={SUPPRESSIONS}", "-Iinclude")
@@ -185,7 +185,7 @@ def test_cppcheck(trees: list[Tree], is_every_unit: bool) -> None:
 
     version = run(["cppcheck", "--version"], ROOT).stdout
     name = f"cppcheck of files {version} {options} {SUPPRESSIONS.read_text(encoding='utf-8')}"
-    every = [Unit(tree, "", tree_key(tree)) for tree in trees] if is_every_unit else covering_units(trees)
+    every = [Unit(tree, "", tree_key(tree)) for tree in trees] if is_every_unit else tree_units
     assert complaints(analyze(name, every, check)) == ""
 
 
@@ -216,12 +216,10 @@ def test_clang_everything(all_units: list[Unit]) -> None:
 
 
 @pytest.fixture(scope="module")
-def places(trees: list[Tree], is_every_unit: bool) -> misra.Places:
+def places(trees: list[Tree], tree_units: list[Unit], is_every_unit: bool) -> misra.Places:
     if misra.find_addon() is None:
         pytest.skip("no cppcheck with its addons")
-    return misra.check(
-        trees, units(trees) if is_every_unit else covering_units(trees), is_whole=is_every_unit
-    )
+    return misra.check(trees, tree_units, is_whole=is_every_unit)
 
 
 @pytest.mark.lint
