@@ -229,3 +229,24 @@ def test_too_few_priorities_of_freertos_stop_the_compiler(folder: Path, run: Run
         messages = complaints("gcc", folder / "out", ("freertos", "lwip"), f"-I{folder / 'changed'}")
         assert words in messages
         assert bool(words) == bool(messages)
+
+
+@pytest.mark.builds
+@pytest.mark.parametrize("flags", [(), ("-DKERNEL_CORES=2",)], ids=["own fill", "fill of the kernel"])
+def test_the_stack_of_a_task_of_nuttx_is_marked_above_what_the_kernel_keeps(
+    flags: tuple[str, ...], tmp_path: Path
+) -> None:
+    parts = parts_folder() / "os"
+    include = parts / "posix" / "include"
+    sources = [parts / "nuttx" / "src" / "port_nuttx_task.c", UNITS / "nuttx_mark.c"]
+    call: list[str | Path] = [
+        "gcc",
+        "-std=c99",
+        *flags,
+        f"-I{KERNELS / 'nuttx'}",
+        f"-I{include}",
+        f"-I{UNITS}",
+    ]
+    subprocess.run([*call, *sources, "-o", tmp_path / "mark"], check=True)
+    done = subprocess.run([tmp_path / "mark"], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
