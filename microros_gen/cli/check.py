@@ -10,11 +10,12 @@ import click
 
 from microros_gen import compiler
 from microros_gen.cli.generate import warnings_text
-from microros_gen.cli.options import selection_options
+from microros_gen.cli.options import selection_options, selftest_option
 
 
 @click.command()
 @selection_options
+@selftest_option
 @click.option(
     "--golden",
     required=True,

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from microros_gen import compiler
-from microros_gen.cli.options import output_option, selection_options
+from microros_gen.cli.options import output_option, selection_options, selftest_option
 from microros_gen.output.runs import Run, compiled_templates, find_run, record_run
 
 if TYPE_CHECKING:
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 @click.command()
 @selection_options
+@selftest_option
 @output_option
 @click.option(
     "--depfile",

@@ -70,6 +70,13 @@ def selection_options(function: F) -> F:
     return function
 
 
+selftest_option = click.option(
+    "--selftest",
+    is_flag=True,
+    help="With OUT/selftest: a program that checks the port and each message type on the board itself.",
+)
+
+
 def output_option(function: F) -> F:
     """Add `-o OUT`."""
     return click.option(

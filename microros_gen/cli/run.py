@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import shlex
 import signal
 import subprocess
@@ -26,11 +27,18 @@ from microros_gen.records import dataclass
 from microros_gen.toolchain.emulator import Emulator, Machine
 
 AGENT_READY = "agent ready"
+_LAST_LINE = re.compile(r"(PASS|FAIL) \d+ of \d+")
+"""Of the self-test."""
 
 
 @click.command()
 @click.argument("out", type=click.Path(path_type=Path))
 @image_option("Your own image to start, linked with the library of OUT. Default: the image that was built.")
+@click.option(
+    "--selftest",
+    is_flag=True,
+    help="Start the self-test that `build --selftest` made, without an agent; the exit status is 1 if a check fails.",
+)
 @click.option(
     "--no-agent",
     is_flag=True,
@@ -41,7 +49,7 @@ AGENT_READY = "agent ready"
     type=click.IntRange(0, 232),
     help="ROS domain that the agent puts the image into. Default: the one that the image requests.",
 )
-def command(out: Path, image: Path | None, no_agent: bool, domain: int | None) -> int:
+def command(out: Path, image: Path | None, selftest: bool, no_agent: bool, domain: int | None) -> int:
     """Start the image of OUT and an agent for it; Ctrl-C or SIGTERM ends both.
 
     OUT is a folder that `build` wrote, or a CMake build folder with its own image. An image for a board runs in the
@@ -54,9 +62,16 @@ def command(out: Path, image: Path | None, no_agent: bool, domain: int | None) -
     microros-gen run build/pure_sender
     microros-gen run build/pure_sender --no-agent
     microros-gen run my_robot/build
+    microros-gen run build/pure_sender --selftest
     """
+    if selftest:
+        if image is not None:
+            raise click.UsageError("--selftest names the image: leave out --image.")
+        image, no_agent = _selftest_of(out), True
     found = _image_of(locate(out, image), domain)
     with _Parts() as parts:
+        if selftest and found.machine is not None:
+            return 0 if _test_emulated(parts, found) or parts.stopped else 1
         start = _run_here if found.machine is None else _run_emulated
         try:
             status = start(parts, found, no_agent)
@@ -120,6 +135,28 @@ def _run_emulated(parts: _Parts, image: _Image, no_agent: bool) -> int:
     return parts.wait_for(process)
 
 
+def _test_emulated(parts: _Parts, image: _Image) -> bool:
+    """Print the lines of the self-test until the last one, and return whether all checks passed.
+
+    Raises UserError if the emulator ends before it.
+    """
+    assert image.machine is not None
+    command = image.machine.command(image.path, restarts=False)
+    process = parts.start(command, subprocess.PIPE, subprocess.PIPE, subprocess.PIPE)
+    emulator = Emulator(process)
+    emulator.device()
+    emulator.go_on()
+    assert process.stderr is not None
+    for line in process.stderr:
+        click.echo(line, nl=False)
+        last = _LAST_LINE.fullmatch(line.rstrip())
+        if last is not None:
+            return last[1] == "PASS"
+    message = "the self-test ended before its last line"
+    hint = "The check after the last one that is shown has stopped it: docs/howto/selftest.md"
+    raise UserError([Diagnostic(message, hint=hint, id="MG-7163")], status=1)
+
+
 @contextlib.contextmanager
 def _held_open(device: str) -> Iterator[None]:
     """Hold a pseudo-terminal open: QEMU asks once a second whether anybody has it, and drops bytes until then."""
@@ -151,10 +188,14 @@ class _Parts:
             signal.signal(number, handler)
 
     def start(
-        self, command: list[str], output: int | None = None, standard_input: int | None = None
+        self,
+        command: list[str],
+        output: int | None = None,
+        standard_input: int | None = None,
+        errors: int | None = None,
     ) -> subprocess.Popen[str]:
-        """Start a process; a signal that came meanwhile ends it too. `output`, `standard_input`: as for subprocess."""
-        process = subprocess.Popen(command, stdin=standard_input, stdout=output, text=True)
+        """Start a process; a signal that came meanwhile ends it too. What follows `command` is as for subprocess."""
+        process = subprocess.Popen(command, stdin=standard_input, stdout=output, stderr=errors, text=True)
         self._processes.append(process)
         if self.stopped:
             process.terminate()
@@ -181,7 +222,7 @@ class _Parts:
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()
-        for pipe in (process.stdin, process.stdout):
+        for pipe in (process.stdin, process.stdout, process.stderr):
             if pipe is not None:
                 with contextlib.suppress(OSError):
                     pipe.close()
@@ -209,6 +250,15 @@ def _image_of(located: Located, domain: int | None) -> _Image:
             ]
         )
     return _Image(out, path.resolve(), machine, transport, domain)
+
+
+def _selftest_of(out: Path) -> Path:
+    """Return the image of the self-test below an output folder. UserError if none exists."""
+    found = next((p for p in (out / "bin" / "selftest", out / "bin" / "selftest.elf") if p.is_file()), None)
+    if found is None:
+        hint = "Make it with `microros-gen build --selftest`, which says why if there is no image"
+        raise UserError([Diagnostic(f"{out} contains no self-test", hint=hint, id="MG-7162")])
+    return found
 
 
 def _example_of(located: Located, name: str | None, target: str) -> Path:

@@ -13,9 +13,11 @@ from microros_gen.client.plan.runtime_entities import PublisherPlan, Subscriptio
 from microros_gen.client.plan.services import ServicePlan
 from microros_gen.client.views.presence import report_rows
 from microros_gen.compiler import Planned
+from microros_gen.selftest.render import FOLDER, lacks_image
 from microros_gen.typesupport.plan.message_pools import open_members
 
 if TYPE_CHECKING:
+    from microros_gen.client.plan.project import Project
     from microros_gen.toolchain.compile import BuildReport
     from microros_gen.toolchain.measure import Usage
 
@@ -87,6 +89,15 @@ def built_summary(out: Path, report: BuildReport, usage: Usage | None, lacks_ima
             ("image", f"{out / report.image}" if report.image else f"none: {lacks_image}"),
         ]
     )
+
+
+def selftest_summary(out: Path, report: BuildReport, project: Project) -> str:
+    """Return the line about the self-test: how to run it, or why there is no image of it."""
+    if report.selftest:
+        text = f"{out / report.selftest}: `microros-gen run {out} --selftest` starts it"
+    else:
+        text = f"sources in {out / FOLDER}, no image: {lacks_image(project)}"
+    return _table([("self-test", text)])
 
 
 def _agent(planned: Planned) -> str:

@@ -148,13 +148,15 @@ def compile(planned: Planned, out: Path, tools: Toolchain | None = None) -> Buil
     compiled before are copied from the user's cache folder (`MICROROS_GEN_OBJECTS=off` prevents that).
     Raises UserError with status 1 if a source does not compile or the image exceeds the target's memory.
     """
+    from microros_gen.selftest.render import selftest_image
     from microros_gen.toolchain.compile import compile_project
     from microros_gen.toolchain.measure import measure_library
     from microros_gen.toolchain.object_store import ObjectStore
 
     tools = tools or toolchain(planned)
     check_build_folders(out)
-    report = compile_project(out, planned.project, tools, ObjectStore.of_user(os.environ))
+    selftest = selftest_image(planned.project) if planned.resolved.request.selftest else None
+    report = compile_project(out, planned.project, tools, ObjectStore.of_user(os.environ), selftest)
     return Built(report, measure_library(out, tools))
 
 

@@ -16,7 +16,7 @@ class Options:
     `target` replace those of the file; `components` (`timers`, `-ping`) and `interfaces` (`pkg`, `pkg/msg/Type`) add
     to it. `interface_paths` are searched before the ament index, pip and the shipped interfaces.
     `agent` is `HOST:PORT` or a device path. `default_target` applies if neither the file nor `target` names a target
-    and a built-in target has this name.
+    and a built-in target has this name. `selftest`: the output has the sources of the self-test, too.
     """
 
     config: Path | None = None
@@ -27,3 +27,4 @@ class Options:
     agent: str | None = None
     components: tuple[str, ...] = ()
     default_target: str | None = None
+    selftest: bool = False

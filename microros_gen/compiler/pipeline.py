@@ -126,7 +126,7 @@ def resolve_request(request: Request, diagnostics: Diagnostics) -> Resolved:
     application = with_creation(application, selection.transport, selection.entities)
     application = with_endpoints(with_implied(application, selection, catalogue, diagnostics), selection)
     application = with_limits(application, selection)
-    found = replace(request.found_target, target=with_emulated_console(target, selection))
+    found = replace(request.found_target, target=with_emulated_console(target, selection, request.selftest))
     application = with_clock(application, selection, diagnostics)
     request = replace(request, application=application, found_target=found)
     diagnostics.check()
@@ -205,12 +205,15 @@ def render_request(planned: Planned, fork: bool = False) -> dict[str, bytes]:
     from microros_gen.output.manifest import manifest
     from microros_gen.output.runs import compiled_templates
     from microros_gen.output.tree import MANIFEST
+    from microros_gen.selftest.render import render_selftest
 
     chosen = {c.component.name for c in planned.project.selection.components}
     unselected = [c for c in planned.resolved.catalogue.values() if c.name not in chosen]
     with compiled_before(compiled_templates(os.environ)) as environment:
         own = _component_files(planned.project)
         files = render_project(planned.project, own, unselected, environment, fork)
+        if planned.resolved.request.selftest:
+            files |= render_selftest(planned.project, environment)
     inputs = dict(planned.resolved.request.inputs)
     profiles = planned.resolved.own_profiles
     inputs |= {f"profile {p.name}": p.span.source.text.encode() for p in profiles if p.span}

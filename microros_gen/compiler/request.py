@@ -35,6 +35,7 @@ class Request:
     Names of files in the application file are relative to `near`, its folder; names of profiles on the command
     line to the current folder, `profiles_near`. `interface_paths` are those of the options. `extensions` are folders
     that `components` names, in their order; the application has the names of their components instead.
+    `selftest`: with the self-test.
     """
 
     application: Application
@@ -47,6 +48,7 @@ class Request:
     interface_paths: tuple[Path, ...] = ()
     extensions: Extensions = INSTALLED
     warnings: tuple[Diagnostic, ...] = ()
+    selftest: bool = False
 
     @property
     def target(self) -> Target:
@@ -97,6 +99,7 @@ def request_of(source: Source | None, near: Path, options: Options, diagnostics:
         inputs,
         options.interface_paths,
         extensions,
+        selftest=options.selftest,
     )
 
 

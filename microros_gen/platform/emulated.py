@@ -14,10 +14,13 @@ _OTHERS = frozenset({"console", "console_send", "stdio_put"})
 """What an application may provide for the console instead."""
 
 
-def with_emulated_console(target: Target, selection: Selection) -> Target:
-    """Return a target whose emulator prints the lines of the console, where one is asked for and nothing else does."""
+def with_emulated_console(target: Target, selection: Selection, prints: bool = False) -> Target:
+    """Return a target whose emulator prints the lines of the console, where one is asked for and nothing else does.
+
+    `prints`: something else than the selected components prints to standard output.
+    """
     requested = (ask.capability for chosen in selection.components for ask in chosen.component.asks)
-    if "console" not in requested:
+    if "console" not in requested and not prints:
         return target
     if target.emulator is None or target.stdio is not None or _OTHERS & set(target.provides):
         return target

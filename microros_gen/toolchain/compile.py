@@ -23,9 +23,11 @@ from microros_gen.toolchain.toolchain import WARNINGS, Toolchain, run
 OBJECTS = ".build"
 LIBRARY = "lib/libmicroros.a"
 MAP = f"{OBJECTS}/image.map"
+SELFTEST_MAP = "bin/selftest.map"
 TOOLS = f"{OBJECTS}/tools.json"
 SCRIPT_STAMP = f"{OBJECTS}/linker_script.sha256"
 # What programs that write flash take, next to the ELF file: endings and objcopy's names.
+SELFTEST_SOURCES = "selftest/sources.txt"
 _FLASH_FORMATS = {".hex": "ihex", ".bin": "binary"}
 _OVERFLOW = re.compile(r"region `?(\w+)'? overflowed by (\d+) bytes")
 
@@ -34,7 +36,8 @@ _OVERFLOW = re.compile(r"region `?(\w+)'? overflowed by (\d+) bytes")
 class BuildReport:
     """What was built (paths relative to the output folder), and where the objects come from.
 
-    They were compiled, copied from the object store, or kept from the last build.
+    They were compiled, copied from the object store, or kept from the last build. `selftest` is the image of the
+    self-test.
     """
 
     library: str
@@ -42,18 +45,24 @@ class BuildReport:
     compiled: int
     kept: int
     copied: int = 0
+    selftest: str | None = None
 
 
 def compile_project(
-    out: Path, project: Project, tools: Toolchain, store: ObjectStore | None = None
+    out: Path,
+    project: Project,
+    tools: Toolchain,
+    store: ObjectStore | None = None,
+    selftest: str | None = None,
 ) -> BuildReport:
-    """Compile the sources of `project` in `out`, and link its example if possible.
+    """Compile the sources of `project` in `out`, and link its example if possible, and the self-test to bin/`selftest`.
 
     Objects in `store` are copied. Raises UserError with status 1 and the compiler's output when a step fails.
     """
     sources = (out / "sources.txt").read_text(encoding="utf-8").split("\n")[:-1]
     image = None if project.lacks_image else project.image
-    return compile_tree(out, sources, project.example, image, tools, project.linker_script, store)
+    script = project.linker_script
+    return compile_tree(out, sources, project.example, image, tools, script, store, selftest)
 
 
 def compile_tree(
@@ -64,10 +73,12 @@ def compile_tree(
     tools: Toolchain,
     script: str | None = None,
     store: ObjectStore | None = None,
+    selftest: str | None = None,
 ) -> BuildReport:
     """Compile `sources` (relative paths) to lib/libmicroros.a, and `example` with it to bin/`image`.
 
-    `image` None: the example is compiled and not linked. `script` is the linker script of an image for a board, which
+    `image` None: the example is compiled and not linked. `selftest` is the image of the self-test below bin/; None: do
+    not link one. `script` is the linker script of an image for a board, which
     is also converted to .hex and .bin.
 
     Raises UserError with status 1 and the compiler's output when a step fails.
@@ -75,7 +86,8 @@ def compile_tree(
     identity = identify(tools.compiler, os.environ)
     library_units = [_unit(source, tools, identity) for source in sources]
     example_unit = _unit(example, tools, identity)
-    units = [*library_units, example_unit]
+    test_units = [_unit(source, tools, identity) for source in _selftest_sources(out)] if selftest else []
+    units = [*library_units, example_unit, *test_units]
     contents = Contents(out)
     stamps = Stamps(out, out / OBJECTS / "stamps.json", contents)
     stale = [unit for unit in units if not stamps.is_fresh(unit.object, unit.identity)]
@@ -88,12 +100,21 @@ def compile_tree(
         stamps.save(unit.object for unit in units)
     if stale or not (out / LIBRARY).is_file():
         _archive(out, [u.object for u in library_units], tools)
-    linked = _images(out, f"bin/{image}", example_unit.object, tools, script, bool(stale)) if image else ()
+    linker = _Linker(out, tools, script, bool(stale))
+    linked = linker.images(f"bin/{image}", [example_unit.object], MAP) if image else ()
+    tested = (
+        linker.images(f"bin/{selftest}", [u.object for u in test_units], SELFTEST_MAP) if selftest else ()
+    )
+    if linked or tested:
+        linker.record()
     _record(out, tools, identity)
-    _remove_others(out, {u.object for u in units}, {LIBRARY, *linked})
+    _remove_others(
+        out, {u.object for u in units}, {LIBRARY, *linked, *tested, *([SELFTEST_MAP] if tested else [])}
+    )
     image_path = linked[0] if linked else None
     kept, copied = len(units) - len(stale), len(stale) - len(missing)
-    return BuildReport(LIBRARY, image_path, len(missing), kept, copied)
+    test_path = tested[0] if tested else None
+    return BuildReport(LIBRARY, image_path, len(missing), kept, copied, test_path)
 
 
 def object_name(source: str) -> str:
@@ -129,34 +150,56 @@ def _archive(out: Path, objects: Sequence[str], tools: Toolchain) -> None:
     (out / fresh).replace(out / LIBRARY)
 
 
-def _images(
-    out: Path, image: str, main_object: str, tools: Toolchain, script: str | None, stale: bool
-) -> tuple[str, ...]:
-    """Link outdated images; return the files below bin/, the one with symbols first."""
-    products = [image]
-    if tools.objcopy is not None:
-        products += [str(PurePosixPath(image).with_suffix(suffix)) for suffix in _FLASH_FORMATS]
-    digest = _digest_of(out, script)
-    is_there = all((out / product).is_file() for product in (*products, MAP))
-    if stale or not is_there or _text(out / SCRIPT_STAMP) != digest:
-        _link(out, main_object, image, tools, script)
-        for product in products[1:]:
-            _convert(out, image, product, tools)
-        (out / SCRIPT_STAMP).write_text(digest, encoding="utf-8")
-    return tuple(products)
+def _selftest_sources(out: Path) -> list[str]:
+    return (out / SELFTEST_SOURCES).read_text(encoding="utf-8").split("\n")[:-1]
 
 
-def _link(out: Path, main_object: str, image: str, tools: Toolchain, script: str | None) -> None:
-    (out / image).parent.mkdir(parents=True, exist_ok=True)
-    fresh = f"{OBJECTS}/image"
-    objects = [main_object, LIBRARY, *tools.libraries]
-    flags = [*tools.c_flags, *tools.link_flags, f"-Wl,-Map={MAP}", *(("-T", script) if script else ())]
-    result = run([tools.compiler, *flags, *objects, "-o", fresh], out)
-    if result.returncode != 0:
-        hint = _too_large(result.stdout)
-        what = f"the example cannot be linked:\n{result.stdout.rstrip()}"
-        raise UserError([Diagnostic(what, hint=hint, id="MG-8202")], status=1)
-    (out / fresh).replace(out / image)
+@dataclass(frozen=True)
+class _Linker:
+    """Links images of one folder with its library; `stale`: something was compiled."""
+
+    out: Path
+    tools: Toolchain
+    script: str | None
+    stale: bool
+
+    def images(self, image: str, objects: Sequence[str], linker_map: str) -> tuple[str, ...]:
+        """Link an outdated image; return its files below bin/, the one with symbols first."""
+        products = [image]
+        if self.tools.objcopy is not None:
+            products += [str(PurePosixPath(image).with_suffix(suffix)) for suffix in _FLASH_FORMATS]
+        is_there = all((self.out / product).is_file() for product in (*products, linker_map))
+        if self.stale or not is_there or _text(self.out / SCRIPT_STAMP) != self._digest():
+            self._link(image, objects, linker_map)
+            for product in products[1:]:
+                _convert(self.out, image, product, self.tools)
+        return tuple(products)
+
+    def record(self) -> None:
+        """Write which linker script the images have; after all of them."""
+        (self.out / SCRIPT_STAMP).write_text(self._digest(), encoding="utf-8")
+
+    def _link(self, image: str, objects: Sequence[str], linker_map: str) -> None:
+        (self.out / image).parent.mkdir(parents=True, exist_ok=True)
+        fresh = f"{OBJECTS}/image"
+        tools, script = self.tools, self.script
+        flags = [
+            *tools.c_flags,
+            *tools.link_flags,
+            f"-Wl,-Map={linker_map}",
+            *(("-T", script) if script else ()),
+        ]
+        command = [tools.compiler, *flags, *objects, LIBRARY, *tools.libraries, "-o", fresh]
+        result = run(command, self.out)
+        if result.returncode != 0:
+            hint = _too_large(result.stdout)
+            name = "self-test" if linker_map == SELFTEST_MAP else "example"
+            what = f"the {name} cannot be linked:\n{result.stdout.rstrip()}"
+            raise UserError([Diagnostic(what, hint=hint, id="MG-8202")], status=1)
+        (self.out / fresh).replace(self.out / image)
+
+    def _digest(self) -> str:
+        return _digest_of(self.out, self.script)
 
 
 def _too_large(message: str) -> str | None:

@@ -22,6 +22,7 @@ ORDER = (
     "schedule",
     "client",
     "components",
+    "selftest",
     "output",
     "toolchain",
     "image",
