@@ -120,8 +120,9 @@ def application(names: tuple[str, str], variant: dict[str, str]) -> str:
 
 
 def complaints(compiler: str, out: Path, names: tuple[str, str], *flags: str) -> str:
-    """Return what the compiler says of the sources of an OS and a network."""
+    """Return what the compiler says of the sources of an OS and a network, and of a self-test."""
     files = [str(path) for name in names for path in sources(out, name)]
+    files += [str(path) for path in sorted((out / "selftest").glob("*.c"))]
     folders = [f"-I{path}" for path in (out / "include", *(KERNELS / name for name in names))]
     call = [compiler, "-std=c99", "-fsyntax-only", *WARNINGS, *flags, *folders, *files]
     return subprocess.run(call, capture_output=True, text=True, check=False).stderr
@@ -133,7 +134,7 @@ def test_a_port_calls_what_its_kernel_declares(names: tuple[str, str], folder: P
     compiled = set()
     for variant in OF_PAIRS[names[1]]:
         (folder / "microros.yaml").write_text(application(names, variant))
-        done = run("generate", "-o", "out")
+        done = run("generate", "-o", "out", "--selftest")
         assert (done.status, "warning" in done.err) == (0, False), done.err
         out = folder / "out"
         compiled |= {path.name for name in names for path in sources(out, name)}
