@@ -38,8 +38,8 @@ static bool local_has_message(const xrce_endpoint_t * endpoint)
 /* A client is told by its send call that nothing can arrive. */
 bool rmw_local_waits(const xrce_endpoint_t * endpoint)
 {
-  return local_has_message(endpoint) || (MICROROS_NODES_MAX + endpoint->index < XRCE_REQUESTERS_AT &&
-                                         rmw_shared_is_wrong(endpoint));
+  return local_has_message(endpoint) ||
+         (MICROROS_NODES_MAX + endpoint->index < XRCE_REQUESTERS_AT && rmw_shared_is_wrong(endpoint));
 }
 
 /* Returns RMW_RET_ERROR, with a text, for a message above the limits of its type. */

@@ -146,9 +146,8 @@ static bool shared_read(xrce_client_t * client, const rmw_shared_ring_t * ring, 
     return false;
   }
   state->follows = true;
-  while (
-    own.count != writer.count &&
-    (rmw_shared_call_words(ring) == 0u || rmw_local_states[index].count < queue->slots)) {
+  while (own.count != writer.count &&
+         (rmw_shared_call_words(ring) == 0u || rmw_local_states[index].count < queue->slots)) {
     shared_deliver(client, ring, own.count);
     rmw_shared_free(ring, &own.count);
     moves = true;

@@ -19,9 +19,9 @@ extern "C" {
 
 /* A ring, from the plan, in words of 4 bytes. */
 typedef struct rmw_shared_ring_t {
-  uint32_t ends;     /* three words of its writer, three of its reader */
-  uint32_t at;       /* the first slot */
-  uint32_t words;    /* of a slot: the size of the message in bytes, of a call its identity, then the CDR body */
+  uint32_t ends;  /* three words of its writer, three of its reader */
+  uint32_t at;    /* the first slot */
+  uint32_t words; /* of a slot: the size of the message in bytes, of a call its identity, then the CDR body */
   uint16_t endpoint; /* among the endpoints */
   uint8_t slots;
   bool sends;

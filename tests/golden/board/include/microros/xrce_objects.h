@@ -67,7 +67,7 @@ static inline bool xrce_place_is_reader(uint16_t place)
   return MICROROS_SUBSCRIPTIONS_MAX != 0u && place >= XRCE_READERS_AT && place < XRCE_REPLIERS_AT;
 }
 
-static inline bool xrce_place_is_service(uint16_t place)
+static inline bool xrce_place_is_service(uint32_t place)
 {
   return XRCE_SERVICES != 0 && place >= XRCE_REPLIERS_AT;
 }

@@ -37,7 +37,7 @@ static bool socket_begin(int handle, const address_t * address, socklen_t size)
 {
   const int flags = fcntl(handle, F_GETFL);
 
-  return flags >= 0 && fcntl(handle, F_SETFL, flags | O_NONBLOCK) >= 0 &&
+  return flags >= 0 && fcntl(handle, F_SETFL, (int)((unsigned int)flags | (unsigned int)O_NONBLOCK)) >= 0 &&
          (connect(handle, &address->any, size) == 0 || errno == EINPROGRESS);
 }
 

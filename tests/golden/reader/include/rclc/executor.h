@@ -111,6 +111,14 @@ rcl_ret_t rclc_executor_prepare(rclc_executor_t * executor);
  */
 rcl_ret_t rclc_executor_spin_some(rclc_executor_t * executor, const uint64_t timeout_ns);
 
+/*
+ * Writes the time in nanoseconds until a timer of the executor or the session has something to do; 0: a handle is ready;
+ * INT64_MAX: not before a message arrives, or something else makes a handle ready. For an application that sleeps itself: call
+ * it after rclc_executor_spin_some, in the same task, and sleep at most so long. What arrives on the line, and who triggers a
+ * guard condition, has to end the sleep. Errors are those of a handle, as in a round.
+ */
+rcl_ret_t rclc_executor_time_until_due(const rclc_executor_t * executor, int64_t * duration_ns);
+
 /* Runs rounds until the context ends, or an entity was finalized and not removed; returns that error.
  * Continues after messages that could not be taken, which the entity counts. */
 rcl_ret_t rclc_executor_spin(rclc_executor_t * executor);

@@ -3,12 +3,13 @@
 #include "microros/executor_handles.h"
 #include "microros/port.h"
 #include "microros/rcl_waiting.h"
+#include "microros/rclc_handle_call.h"
 #include "microros/rmw_turn.h"
 #include "microros/time_math.h"
 #include "microros_config.h"
 
 /* Pause between rounds that end with an error at once. */
-enum { PAUSE_AFTER_ERROR_NS = 1000000 };
+static const int64_t pause_after_error_ns = 1000000;
 
 /* Looks at all handles; *changed: a handle has become ready. */
 static rcl_ret_t executor_look(const rclc_executor_t * executor, bool * changed, int64_t * look_again_ns)
@@ -69,7 +70,7 @@ static bool handle_is_due(const rclc_executor_handle_t * handle)
 
 static rcl_ret_t handle_call(rclc_executor_handle_t * handle)
 {
-  return handle_is_due(handle) ? handle->kind->call(handle) : RCL_RET_OK;
+  return handle_is_due(handle) ? rclc_handle_call(handle) : RCL_RET_OK;
 }
 
 static void executor_note(rcl_ret_t * first, rcl_ret_t result)
@@ -186,7 +187,7 @@ rcl_ret_t rclc_executor_spin(rclc_executor_t * executor)
       return result;
     }
     if (result != RCL_RET_OK) {
-      executor_rest(PAUSE_AFTER_ERROR_NS);
+      executor_rest(pause_after_error_ns);
     }
   }
 }

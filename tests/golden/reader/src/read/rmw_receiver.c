@@ -50,7 +50,10 @@ void rmw_receiver_close(const xrce_endpoint_t * endpoint)
 /* After rcl_shutdown the client has no endpoints. */
 bool rmw_receiver_is_open(const xrce_endpoint_t * endpoint)
 {
-  return endpoint->client != NULL && endpoint->client->states[receiver_place(endpoint)].wanted;
+  if (endpoint->client == NULL) {
+    return false;
+  }
+  return endpoint->client->states[(size_t)MICROROS_NODES_MAX + endpoint->index].wanted;
 }
 
 bool rmw_receiver_report(const xrce_endpoint_t * endpoint)

@@ -78,7 +78,10 @@ void rmw_subscription_close(rmw_subscription_t * subscription)
 
 bool rmw_subscription_is_open(const rmw_subscription_t * subscription)
 {
-  return subscription != NULL && subscription->data != NULL && rmw_receiver_is_open(subscription->data);
+  if (subscription == NULL || subscription->data == NULL) {
+    return false;
+  }
+  return rmw_receiver_is_open(subscription->data);
 }
 
 bool rmw_subscription_is_ready(const rmw_subscription_t * subscription)

@@ -15,7 +15,7 @@ bool port_multicast_open(port_multicast_t * multicast)
   int handle = socket(AF_INET, SOCK_DGRAM, 0);
   const int flags = handle >= 0 ? fcntl(handle, F_GETFL) : -1;
 
-  if (handle >= 0 && (flags < 0 || fcntl(handle, F_SETFL, flags | O_NONBLOCK) < 0)) {
+  if (handle >= 0 && (flags < 0 || fcntl(handle, F_SETFL, (int)((unsigned int)flags | (unsigned int)O_NONBLOCK)) < 0)) {
     (void)close(handle);
     handle = -1;
   }

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Time until the session has work to do, over all selected components with deadlines. For xrce_wait*.c
- * only. */
+/* Time until the session has work to do, over all selected components with deadlines. Only for
+ * xrce_wait*.c and rmw_uros_due.c: a copy each. */
 #ifndef MICROROS_XRCE_WAIT_LEFT_H
 #define MICROROS_XRCE_WAIT_LEFT_H
 
 #include "microros/port.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_entities_hooks.h"
-#include "microros/xrce_ping_hooks.h"
 #include "microros/xrce_stream_reliable_hooks.h"
 #include "microros/xrce_wire.h"
 
@@ -23,7 +22,6 @@ static inline uint32_t xrce_wait_left(const xrce_client_t * client, uint32_t mos
   }
   left = xrce_entities_left(client, left, now);
   left = xrce_stream_reliable_left(client, left, now);
-  left = xrce_ping_left(client, left, now);
   return left;
 }
 
