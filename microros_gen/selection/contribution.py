@@ -82,7 +82,7 @@ HOOK_POINTS: Mapping[str, HookPoint] = MappingProxyType(
         "rests": HookPoint(()),
         "rested": HookPoint(()),
         "contingency": HookPoint(("node", "mode"), value=True),
-        "clock_jump": HookPoint(("clock", "jump", "before_jump")),
+        "clock_jump": HookPoint(("time", "clock", "jump", "before_jump")),
         # after a sleep: xrce_sleep.c
         "woken": HookPoint(("client", "now")),
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Jump callbacks: one pool for all clocks. */
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/rcl_clock.h"
 #include "microros_config.h"
 
@@ -31,12 +32,14 @@ static jump_entry_t * jump_find(
 
 void rcl_clock_remove_callbacks(rcl_clock_t * clock)
 {
+  microros_lock();
   for (size_t i = 0; i < MICROROS_JUMP_CALLBACKS_MAX; ++i) {
     if (jump_entries[i].clock == clock) {
       jump_entries[i].clock = NULL;
     }
   }
   clock->num_jump_callbacks = 0;
+  microros_unlock();
 }
 
 static bool jump_reaches(const rcl_time_jump_t * jump, const rcl_jump_threshold_t * threshold)
@@ -55,23 +58,26 @@ void rcl_clock_call_callbacks(const rcl_clock_t * clock, const rcl_time_jump_t *
 {
   for (size_t i = 0; i < MICROROS_JUMP_CALLBACKS_MAX; ++i) {
     const jump_entry_t * entry = &jump_entries[i];
+    rcl_jump_callback_t callback = NULL;
+    void * user_data = NULL;
 
+    microros_lock();
     if (entry->clock == clock && jump_reaches(jump, &entry->info.threshold)) {
-      entry->info.callback(jump, before_jump, entry->info.user_data);
+      callback = entry->info.callback;
+      user_data = entry->info.user_data;
+    }
+    microros_unlock();
+    if (callback != NULL) {
+      callback(jump, before_jump, user_data);
     }
   }
 }
 
-rcl_ret_t rcl_clock_add_jump_callback(
-  rcl_clock_t * clock, rcl_jump_threshold_t threshold, rcl_jump_callback_t callback, void * user_data)
+static rcl_ret_t jump_add(
+  rcl_clock_t * clock, const rcl_jump_threshold_t * threshold, rcl_jump_callback_t callback, void * user_data)
 {
   jump_entry_t * entry;
 
-  if (
-    clock == NULL || callback == NULL || threshold.min_forward.nanoseconds < 0 ||
-    threshold.min_backward.nanoseconds > 0) {
-    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "clock, callback or threshold");
-  }
   if (jump_find(clock, callback, user_data) != NULL) {
     return rcl_clock_refuse(RCL_RET_ERROR, "it has this jump callback");
   }
@@ -84,10 +90,26 @@ rcl_ret_t rcl_clock_add_jump_callback(
   }
   entry->clock = clock;
   entry->info.callback = callback;
-  entry->info.threshold = threshold;
+  entry->info.threshold = *threshold;
   entry->info.user_data = user_data;
   ++clock->num_jump_callbacks;
   return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_clock_add_jump_callback(
+  rcl_clock_t * clock, rcl_jump_threshold_t threshold, rcl_jump_callback_t callback, void * user_data)
+{
+  rcl_ret_t result;
+
+  if (
+    clock == NULL || callback == NULL || threshold.min_forward.nanoseconds < 0 ||
+    threshold.min_backward.nanoseconds > 0) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "clock, callback or threshold");
+  }
+  microros_lock();
+  result = jump_add(clock, &threshold, callback, user_data);
+  microros_unlock();
+  return result;
 }
 
 rcl_ret_t rcl_clock_remove_jump_callback(rcl_clock_t * clock, rcl_jump_callback_t callback, void * user_data)
@@ -97,11 +119,12 @@ rcl_ret_t rcl_clock_remove_jump_callback(rcl_clock_t * clock, rcl_jump_callback_
   if (clock == NULL || callback == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "clock or callback");
   }
+  microros_lock();
   entry = jump_find(clock, callback, user_data);
-  if (entry == NULL) {
-    return rcl_clock_refuse(RCL_RET_ERROR, "it has no such jump callback");
+  if (entry != NULL) {
+    entry->clock = NULL;
+    --clock->num_jump_callbacks;
   }
-  entry->clock = NULL;
-  --clock->num_jump_callbacks;
-  return RCL_RET_OK;
+  microros_unlock();
+  return entry != NULL ? RCL_RET_OK : rcl_clock_refuse(RCL_RET_ERROR, "it has no such jump callback");
 }

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/lock.h"
 
+bool microros_lock_silent;
+
 void microros_lock_rest(void)
 {
   port_unlock();

@@ -227,11 +227,13 @@ static void session_release_task(uint8_t task)
  * wait, each looks by itself before it does. */
 static void session_release_tasks(void)
 {
+  microros_lock_silence(true);
   for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS - 1u; ++task) {
     if (rmw_tasks_waits(task)) {
       session_release_task(task);
     }
   }
+  microros_lock_silence(false);
 }
 
 void rclc_tasks_run_session(uint8_t task)

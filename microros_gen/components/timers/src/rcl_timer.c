@@ -80,8 +80,10 @@ rcl_ret_t rcl_timer_init2(
     return microros_error_refuse(RCL_RET_NOT_INIT, "context");
   }
   microros_lock(); /* tasks may initialize timers at the same time */
+  microros_lock_silence(true);
   place = rcl_timer_source_take(period);
   result = place != NULL ? timer_begin(place, clock, period, callback, autostart) : timer_refuse();
+  microros_lock_silence(false);
   microros_unlock();
   if (result == RCL_RET_OK) {
     timer->impl = place;
@@ -101,8 +103,10 @@ rcl_ret_t rcl_timer_cancel(rcl_timer_t * timer)
   const rcl_ret_t result = rcl_timer_check(timer);
 
   if (result == RCL_RET_OK) {
+    microros_lock();
     timer->impl->canceled = true;
     rcl_timer_source_stop(timer->impl);
+    microros_unlock();
   }
   return result;
 }
@@ -110,11 +114,13 @@ rcl_ret_t rcl_timer_cancel(rcl_timer_t * timer)
 rcl_ret_t rcl_timer_fini(rcl_timer_t * timer)
 {
   if (timer != NULL && timer->impl != NULL) {
+    microros_lock();
     rcl_timer_source_stop(timer->impl);
     if (timer->impl->guard != NULL) {
       timer->impl->guard->taken = false;
     }
     timer->impl->clock = NULL;
+    microros_unlock();
     timer->impl = NULL;
   }
   return RCL_RET_OK;
@@ -129,11 +135,27 @@ void rcl_timer_wake(rcl_timer_impl_t * timer)
   microros_wake();
 }
 
+/* Returns whether the timer runs. */
+static bool timer_restart(rcl_timer_impl_t * timer, rcl_time_point_value_t now)
+{
+  rcl_timer_source_stop(timer);
+  timer->next_call_time = microros_time_after(now, timer->period);
+  timer->canceled = !rcl_timer_source_start(timer);
+  if (timer->canceled) {
+    return false;
+  }
+  rcl_timer_wake(timer); /* the waiting task must consider the new due time */
+  return true;
+}
+
 rcl_ret_t rcl_timer_reset(rcl_timer_t * timer)
 {
   rcl_ret_t result = rcl_timer_check(timer);
   rcl_time_point_value_t now = 0;
   rcl_timer_impl_t * impl;
+  rcl_event_callback_t on_reset;
+  const void * user_data;
+  bool runs;
 
   if (result == RCL_RET_OK) {
     result = rcl_clock_get_now(timer->impl->clock, &now);
@@ -142,17 +164,19 @@ rcl_ret_t rcl_timer_reset(rcl_timer_t * timer)
     return result;
   }
   impl = timer->impl;
-  rcl_timer_source_stop(impl);
-  impl->next_call_time = microros_time_after(now, impl->period);
-  impl->canceled = !rcl_timer_source_start(impl);
-  if (impl->canceled) {
+  microros_lock();
+  runs = timer_restart(impl, now);
+  on_reset = impl->on_reset;
+  user_data = impl->on_reset_data;
+  if (runs && on_reset == NULL) {
+    ++impl->resets;
+  }
+  microros_unlock();
+  if (!runs) {
     return microros_error_named(RCL_RET_ERROR, microros_error_timer, "the system starts none");
   }
-  rcl_timer_wake(impl); /* the waiting task must consider the new due time */
-  if (impl->on_reset != NULL) {
-    impl->on_reset(impl->on_reset_data, 1);
-  } else {
-    ++impl->resets;
+  if (on_reset != NULL) {
+    on_reset(user_data, 1);
   }
   return RCL_RET_OK;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/rcl_clock.h"
 #include "microros/rcl_timer.h"
 #include "microros/rcl_timer_gate.h"
@@ -29,9 +30,20 @@ static int64_t call_next(int64_t due, int64_t period, int64_t now)
   return next;
 }
 
+static bool call_is_canceled(const rcl_timer_impl_t * timer)
+{
+  bool is_canceled;
+
+  microros_lock();
+  is_canceled = timer->canceled;
+  microros_unlock();
+  return is_canceled;
+}
+
 static rcl_ret_t call_now(rcl_timer_t * timer, rcl_timer_call_info_t * call_info)
 {
   rcl_timer_impl_t * impl = timer->impl;
+  rcl_timer_callback_t callback;
   int64_t since_last_call;
   rcl_time_point_value_t now;
   const rcl_ret_t result = rcl_clock_get_now(impl->clock, &now);
@@ -42,6 +54,7 @@ static rcl_ret_t call_now(rcl_timer_t * timer, rcl_timer_call_info_t * call_info
   if (now < 0) {
     return microros_error_named(RCL_RET_ERROR, microros_error_timer, "the time of its clock is negative");
   }
+  microros_lock(); /* other tasks may reset the timer, or set its clock */
   since_last_call = microros_time_between(impl->last_call_time, now);
   call_info->expected_call_time = impl->next_call_time;
   call_info->actual_call_time = now;
@@ -49,8 +62,10 @@ static rcl_ret_t call_now(rcl_timer_t * timer, rcl_timer_call_info_t * call_info
   impl->last_call_time = now;
   impl->next_call_time = call_next(impl->next_call_time, impl->period, now);
   rcl_timer_source_called(impl);
-  if (impl->callback != NULL) {
-    impl->callback(timer, since_last_call);
+  callback = impl->callback;
+  microros_unlock();
+  if (callback != NULL) {
+    callback(timer, since_last_call);
   }
   return RCL_RET_OK;
 }
@@ -65,7 +80,7 @@ rcl_ret_t rcl_timer_call_with_info(rcl_timer_t * timer, rcl_timer_call_info_t * 
   if (call_info == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "call_info");
   }
-  if (timer->impl->canceled) {
+  if (call_is_canceled(timer->impl)) {
     return microros_error_named(RCL_RET_TIMER_CANCELED, microros_error_timer, "canceled");
   }
   return call_now(timer, call_info);
@@ -89,12 +104,14 @@ rcl_ret_t rcl_timer_get_time_until_next_call(const rcl_timer_t * timer, int64_t 
   if (time_until_next_call == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "time_until_next_call");
   }
-  if (timer->impl->canceled) {
+  if (call_is_canceled(timer->impl)) {
     return RCL_RET_TIMER_CANCELED;
   }
   result = rcl_clock_get_now(timer->impl->clock, &now);
   if (result == RCL_RET_OK) {
+    microros_lock();
     *time_until_next_call = microros_time_between(now, timer->impl->next_call_time);
+    microros_unlock();
   }
   return result;
 }
@@ -115,16 +132,20 @@ rcl_ret_t rcl_timer_look(const rcl_timer_t * timer, bool * is_ready, int64_t * l
   *is_ready = false;
   *look_again_ns = INT64_MAX;
   result = rcl_timer_get_time_until_next_call(timer, &until);
-  if (result == RCL_RET_TIMER_CANCELED || (result == RCL_RET_OK && !rcl_timer_gate_is_open(timer->impl))) {
+  if (result == RCL_RET_TIMER_CANCELED) {
     return RCL_RET_OK;
   }
-  if (result != RCL_RET_OK || rcl_timer_source_ticks(timer->impl, is_ready)) {
+  if (result != RCL_RET_OK) {
     return result;
   }
-  *is_ready = until <= 0;
-  if (!*is_ready && !look_is_set_by_hand(timer->impl->clock)) {
-    *look_again_ns = until;
+  microros_lock();
+  if (rcl_timer_gate_is_open(timer->impl) && !rcl_timer_source_ticks(timer->impl, is_ready)) {
+    *is_ready = until <= 0;
+    if (!*is_ready && !look_is_set_by_hand(timer->impl->clock)) {
+      *look_again_ns = until;
+    }
   }
+  microros_unlock();
   return RCL_RET_OK;
 }
 

@@ -2,6 +2,7 @@
 /*
  * The guard condition of a timer, for waiting on it instead of on the timer; only linked if it is
  * requested. */
+#include "microros/lock.h"
 #include "microros/rcl_guard_condition.h"
 #include "microros/rcl_timer.h"
 
@@ -16,6 +17,7 @@ rcl_guard_condition_t * rcl_timer_get_guard_condition(const rcl_timer_t * timer)
     return NULL;
   }
   index = (size_t)(impl - rcl_timers);
+  microros_lock();
   if (impl->guard == NULL) {
     impl->guard = &states[index];
     impl->guard->taken = true;
@@ -23,5 +25,6 @@ rcl_guard_condition_t * rcl_timer_get_guard_condition(const rcl_timer_t * timer)
       impl->guard->triggered - (impl->woken ? 1u : 0u); /* triggered before it was requested */
     guards[index].impl = impl->guard;
   }
+  microros_unlock();
   return &guards[index];
 }

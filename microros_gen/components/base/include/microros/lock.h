@@ -3,6 +3,8 @@
 #ifndef MICROROS_LOCK_H
 #define MICROROS_LOCK_H
 
+#include <stdbool.h>
+
 #include "microros/port.h"
 
 #ifdef __cplusplus
@@ -15,6 +17,17 @@ static inline void microros_lock(void)
 
 static inline void microros_unlock(void)
 {
+}
+
+/* No task keeps the lock while a callback may be called. */
+static inline void microros_lock_silence(bool is_silent)
+{
+  (void)is_silent;
+}
+
+static inline bool microros_lock_is_silent(void)
+{
+  return false;
 }
 
 /* Sleeps one millisecond so that other tasks can take the lock. */

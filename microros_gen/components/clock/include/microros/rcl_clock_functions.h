@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Functions of clocks, for rcl/time.h, which includes this file. No function blocks; allocators are stored
- * and never called. Clocks and timers belong to one task. */
+ * and never called. Any task may call them for a clock that is initialized; jump callbacks run in the task that sets the
+ * time, or that receives it, without the lock. */
 #ifndef MICROROS_RCL_CLOCK_FUNCTIONS_H
 #define MICROROS_RCL_CLOCK_FUNCTIONS_H
 
@@ -78,7 +79,7 @@ rcl_ret_t rcl_set_ros_time_override(rcl_clock_t * clock, rcl_time_point_value_t 
 rcl_ret_t rcl_clock_add_jump_callback(
   rcl_clock_t * clock, rcl_jump_threshold_t threshold, rcl_jump_callback_t callback, void * user_data);
 
-/* RCL_RET_ERROR if no such pair is registered. */
+/* RCL_RET_ERROR if no such pair is registered. Another task that sets the time may just be calling it. */
 rcl_ret_t rcl_clock_remove_jump_callback(rcl_clock_t * clock, rcl_jump_callback_t callback, void * user_data);
 
 #ifdef __cplusplus

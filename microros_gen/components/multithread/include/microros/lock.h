@@ -7,6 +7,8 @@
 #ifndef MICROROS_LOCK_H
 #define MICROROS_LOCK_H
 
+#include <stdbool.h>
+
 #include "microros/port.h"
 
 #ifdef __cplusplus
@@ -21,6 +23,20 @@ static inline void microros_lock(void)
 static inline void microros_unlock(void)
 {
   port_unlock();
+}
+
+/* True while the task with the lock reads clocks: the time then does not follow a source, which would call jump callbacks. */
+extern bool microros_lock_silent;
+
+/* Both are called with the lock; the first again with false before the lock is released. */
+static inline void microros_lock_silence(bool is_silent)
+{
+  microros_lock_silent = is_silent;
+}
+
+static inline bool microros_lock_is_silent(void)
+{
+  return microros_lock_silent;
 }
 
 /* Releases the lock for a millisecond. */

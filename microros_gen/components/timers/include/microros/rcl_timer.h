@@ -33,7 +33,8 @@ extern rcl_timer_impl_t rcl_timers[MICROROS_TIMERS_MAX];
 /* Returns RCL_RET_OK, RCL_RET_INVALID_ARGUMENT or RCL_RET_TIMER_INVALID, with a text. */
 rcl_ret_t rcl_timer_check(const rcl_timer_t * timer);
 
-/* Wakes tasks that wait for the timer or for its guard condition. */
+/* Wakes tasks that wait for the timer or for its guard condition. Called with the lock, as rcl_timer_on_jump and the source
+ * of ticks. */
 void rcl_timer_wake(rcl_timer_impl_t * timer);
 
 /* Handles a jump of the timers' clock to `now`; called before and after it. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Timers. Times and periods are in nanoseconds. A timer uses one of MICROROS_TIMERS_MAX places and belongs
- * to the task of its executor; no function blocks, and allocators are never called. RCL_RET_TIMER_INVALID:
- * a timer that is not initialized.
+ * Timers. Times and periods are in nanoseconds. A timer uses one of MICROROS_TIMERS_MAX places. Its callback runs in the
+ * task of its executor; any task may call the other functions for a timer that is initialized. No function blocks, and
+ * allocators are never called. RCL_RET_TIMER_INVALID: a timer that is not initialized.
  *
  * A timer with a period that the application file declares with `kind: rtos` or `kind: hardware` is driven
  * by a system timer or by the application's hardware timer (microros/port.h): each tick makes it ready and
