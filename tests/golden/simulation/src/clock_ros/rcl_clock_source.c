@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rcl_clock_source.h"
 
+#include "microros/lock.h"
 #include "microros/rcl_clock.h"
 #include "microros/rmw_node.h"
 #include "microros/rmw_subscription.h"
@@ -14,6 +15,7 @@ static const int64_t source_ns_per_s = 1000000000;
 static rmw_subscription_t * source_subscription;
 static const rmw_node_t * source_node; /* the owner */
 static rcl_time_point_value_t source_time;
+static bool source_is_followed; /* a task sets the clocks: another one neither sets them nor changes source_time */
 
 static bool source_is_open(void)
 {
@@ -40,21 +42,36 @@ void rcl_clock_source_close(const rcl_node_t * node)
   }
 }
 
-void rcl_clock_source_follow(void)
+/* Returns whether a sample was taken. */
+static bool source_take(void)
 {
-  static bool following;
   rosgraph_msgs__msg__Clock message;
   bool taken = false;
 
-  if (following || !source_is_open()) {
-    return;
+  if (source_is_followed || microros_lock_is_silent() || !source_is_open()) {
+    return false;
   }
   /* A refused sample is counted for the subscription; the next sample carries the time again. */
-  if (rmw_subscription_take(source_subscription, &message, &taken) == RMW_RET_OK && taken) {
-    source_time = message.clock.sec * source_ns_per_s + (int64_t)message.clock.nanosec;
-    following = true;
-    rcl_ros_clocks_set(source_time);
-    following = false;
+  if (rmw_subscription_take(source_subscription, &message, &taken) != RMW_RET_OK || !taken) {
+    return false;
+  }
+  source_time = message.clock.sec * source_ns_per_s + (int64_t)message.clock.nanosec;
+  source_is_followed = true;
+  return true;
+}
+
+void rcl_clock_source_follow(void)
+{
+  bool is_taken;
+
+  microros_lock();
+  is_taken = source_take();
+  microros_unlock();
+  if (is_taken) {
+    rcl_ros_clocks_set(source_time); /* without the lock: it calls the jump callbacks */
+    microros_lock();
+    source_is_followed = false;
+    microros_unlock();
   }
 }
 

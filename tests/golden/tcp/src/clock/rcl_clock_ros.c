@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* ROS time: the system's, until it is overridden. */
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/rcl_clock.h"
 #include "microros/rcl_clock_follow.h"
 #include "microros/time_math.h"
@@ -23,7 +24,9 @@ static rcl_time_point_value_t ros_value(const rcl_ros_time_t * time)
 static rcl_ret_t ros_now(void * data, rcl_time_point_value_t * now)
 {
   rcl_clock_follow();
+  microros_lock();
   *now = ros_value(data);
+  microros_unlock();
   return RCL_RET_OK;
 }
 
@@ -64,7 +67,9 @@ rcl_ret_t rcl_ros_clock_init(rcl_clock_t * clock, rcl_allocator_t * allocator)
   if (result != RCL_RET_OK) {
     return result;
   }
+  microros_lock();
   clock->data = ros_take(clock);
+  microros_unlock();
   if (clock->data == NULL) {
     return RCL_RET_BAD_ALLOC;
   }
@@ -94,16 +99,33 @@ rcl_ret_t rcl_ros_clock_fini(rcl_clock_t * clock)
 
   if (time != NULL) {
     result = rcl_clock_end(clock, RCL_ROS_TIME);
+    microros_lock();
     time->clock = NULL;
+    time->active = false;
+    microros_unlock();
     clock->data = NULL;
     clock->type = RCL_CLOCK_UNINITIALIZED;
   }
   return result;
 }
 
-static void ros_notify(const rcl_clock_t * clock, const rcl_time_jump_t * jump, bool before_jump)
+/* `time` is that of the clock, which the hooks use with the lock; the callbacks are called without it. */
+static void ros_notify(
+  const rcl_ros_time_t * time, const rcl_clock_t * clock, const rcl_time_jump_t * jump, bool before_jump)
 {
+  microros_lock();
+  microros_unlock();
   rcl_clock_call_callbacks(clock, jump, before_jump);
+}
+
+static bool ros_is_active(const rcl_ros_time_t * time)
+{
+  bool is_active;
+
+  microros_lock();
+  is_active = time->active;
+  microros_unlock();
+  return is_active;
 }
 
 static rcl_ret_t ros_switch(const rcl_clock_t * clock, bool active)
@@ -112,10 +134,12 @@ static rcl_ret_t ros_switch(const rcl_clock_t * clock, bool active)
   rcl_ret_t result;
   rcl_ros_time_t * time = ros_of(clock, &result);
 
-  if (time != NULL && time->active != active) {
-    ros_notify(clock, &jump, true);
+  if (time != NULL && ros_is_active(time) != active) {
+    ros_notify(time, clock, &jump, true);
+    microros_lock();
     time->active = active;
-    ros_notify(clock, &jump, false);
+    microros_unlock();
+    ros_notify(time, clock, &jump, false);
   }
   return result;
 }
@@ -139,9 +163,34 @@ rcl_ret_t rcl_is_enabled_ros_time_override(rcl_clock_t * clock, bool * is_enable
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "is_enabled");
   }
   if (time != NULL) {
-    *is_enabled = time->active;
+    *is_enabled = ros_is_active(time);
   }
   return result;
+}
+
+/* A free place is not active. */
+static void ros_set(rcl_ros_time_t * time, rcl_time_point_value_t value)
+{
+  const rcl_clock_t * clock;
+  rcl_time_jump_t jump = {RCL_ROS_TIME_NO_CHANGE, {0}};
+  bool is_active;
+
+  microros_lock();
+  clock = time->clock;
+  is_active = time->active;
+  if (is_active) {
+    jump.delta.nanoseconds = microros_time_between(time->now, value);
+  } else {
+    time->now = value;
+  }
+  microros_unlock();
+  if (is_active) {
+    ros_notify(time, clock, &jump, true);
+    microros_lock();
+    time->now = value;
+    microros_unlock();
+    ros_notify(time, clock, &jump, false);
+  }
 }
 
 rcl_ret_t rcl_set_ros_time_override(rcl_clock_t * clock, rcl_time_point_value_t time_value)
@@ -149,14 +198,8 @@ rcl_ret_t rcl_set_ros_time_override(rcl_clock_t * clock, rcl_time_point_value_t 
   rcl_ret_t result;
   rcl_ros_time_t * time = ros_of(clock, &result);
 
-  if (time != NULL && time->active) {
-    const rcl_time_jump_t jump = {RCL_ROS_TIME_NO_CHANGE, {microros_time_between(time->now, time_value)}};
-
-    ros_notify(clock, &jump, true);
-    time->now = time_value;
-    ros_notify(clock, &jump, false);
-  } else if (time != NULL) {
-    time->now = time_value;
+  if (time != NULL) {
+    ros_set(time, time_value);
   }
   return result;
 }
@@ -164,8 +207,6 @@ rcl_ret_t rcl_set_ros_time_override(rcl_clock_t * clock, rcl_time_point_value_t 
 void rcl_ros_clocks_set(rcl_time_point_value_t time_value)
 {
   for (size_t i = 0; i < MICROROS_ROS_CLOCKS_MAX; ++i) {
-    if (ros_times[i].clock != NULL) {
-      (void)rcl_set_ros_time_override(ros_times[i].clock, time_value); /* cannot fail for a ROS clock */
-    }
+    ros_set(&ros_times[i], time_value);
   }
 }
