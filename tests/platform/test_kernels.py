@@ -190,6 +190,16 @@ def test_a_missing_setting_stops_the_compiler(
 
 
 @pytest.mark.builds
+def test_a_lock_of_nuttx_that_is_not_recursive_stops_the_compiler(folder: Path, run: Runner) -> None:
+    """The application makes its tasks itself."""
+    (folder / "microros.yaml").write_text(application(PAIRS[3], {**SERIAL, "tasks": ""}))
+    assert run("generate", "-o", "out").status == 0
+    name = "CONFIG_PTHREAD_MUTEX_TYPES"
+    [messages] = settings_that_stop(folder, PAIRS[3], "nuttx/config.h", (name,)).values()
+    assert f'#error "defconfig: set {name}=y' in messages
+
+
+@pytest.mark.builds
 def test_a_task_of_freertos_is_deleted_when_its_processor_has_left_it(folder: Path, run: Runner) -> None:
     (folder / "microros.yaml").write_text(application(PAIRS[0], VARIANTS[1]))
     assert run("generate", "-o", "out").status == 0
