@@ -117,7 +117,7 @@ def test_an_empty_folder_says_how_to_begin(run: Runner, folder: Path) -> None:
 def test_a_target_that_is_not_there_is_no_other_one(run: Runner, folder: Path, name: str) -> None:
     refused = run("build", "--profile", "pure_sender", "--target", name)
     assert "Did you mean" not in refused.err
-    assert "Available: cortex-m0plus" in refused.err
+    assert "Available: arduino-mega" in refused.err
     assert "or give the path of a target file" in refused.err
 
 

@@ -24,7 +24,7 @@ from tests.support.paths import TESTS
 
 GOLDEN = TESTS / "golden"
 HASHES = "hashes.txt"
-DATA = ("components", "templates")
+DATA = ("components", "platform", "templates")
 """Folders of the package whose files are copied or rendered to the output."""
 
 

@@ -41,6 +41,13 @@ bool port_task_has_priorities(void)
   return false;
 }
 
+bool port_task_set_priority(uint8_t task, uint8_t priority)
+{
+  (void)task;
+  (void)priority;
+  return false;
+}
+
 void port_task_set(uint8_t task)
 {
   (void)task;
