@@ -15,9 +15,12 @@ from pathlib import Path
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.values import Values
 from microros_gen.client.views.components import render_components
+from microros_gen.diagnostics import Diagnostics
 from microros_gen.documents.templates import shared_environment
 from microros_gen.interfaces.types import TypeName
+from microros_gen.platform.find import read_target
 from microros_gen.platform.provide import provide
+from microros_gen.platform.target import Target
 from microros_gen.selection.component import Catalogue
 from microros_gen.selection.component_sources import component_files
 from microros_gen.selection.find_components import load_catalogue
@@ -108,7 +111,7 @@ def render(out: Path, plan: RuntimePlan, names: Sequence[str]) -> Tree:
     selection = Selection(
         ("test",), chosen, plan.creation.entities, plan.transport.kind, "ping", (), (), (), (), ()
     )
-    values = Values(plan, selection)
+    values = Values(plan, selection, target=_host())
     provisions = provide((c.component for c in chosen), PORTS, (), values.holds)
     files = component_files((c.component for c in chosen), values.holds, provisions.files)
     sources, folders = [], set[Path]()
@@ -122,6 +125,13 @@ def render(out: Path, plan: RuntimePlan, names: Sequence[str]) -> Tree:
         if target.suffix == ".c":
             sources.append(target)
     return Tree(out, tuple(sources))
+
+
+@cache
+def _host() -> Target:
+    found = read_target("host", Path(), None, Diagnostics())
+    assert found is not None
+    return found.target
 
 
 def quick() -> tuple[str, tuple[str, ...]]:
