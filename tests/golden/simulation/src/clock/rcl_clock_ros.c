@@ -114,6 +114,7 @@ rcl_ret_t rcl_ros_clock_fini(rcl_clock_t * clock)
 static void ros_notify(
   const rcl_ros_time_t * time, const rcl_clock_t * clock, const rcl_time_jump_t * jump, bool before_jump)
 {
+  (void)time; /* without hooks */
   microros_lock();
   rcl_timer_on_jump(clock, jump, ros_value(time), before_jump);
   microros_unlock();

@@ -113,6 +113,7 @@ rcl_ret_t rcl_ros_clock_fini(rcl_clock_t * clock)
 static void ros_notify(
   const rcl_ros_time_t * time, const rcl_clock_t * clock, const rcl_time_jump_t * jump, bool before_jump)
 {
+  (void)time; /* without hooks */
   microros_lock();
   microros_unlock();
   rcl_clock_call_callbacks(clock, jump, before_jump);
