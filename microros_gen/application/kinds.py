@@ -88,3 +88,9 @@ SERVICE_KINDS = tuple(kind.name for kind in KINDS if kind.service_type)
 TOPIC_KINDS = tuple(kind.name for kind in KINDS if not kind.service_type)
 RECEIVING = tuple(kind for kind in KINDS if kind.receives)
 """Those that receive, in the order of their places."""
+
+
+def other_end(kind: str) -> str:
+    """Return the kind that receives what a kind sends, or sends what it receives."""
+    kinds = SERVICE_KINDS if KIND[kind].service_type else TOPIC_KINDS
+    return next(other for other in kinds if other != kind)

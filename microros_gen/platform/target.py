@@ -213,6 +213,11 @@ class Target:
         return self.hosted or (self.knows_memory and bool(self.os.linker_script))
 
     @property
+    def is_narrow(self) -> bool:
+        """Whether an interrupt can come between two bytes of a number."""
+        return self.cpu.narrow
+
+    @property
     def has_start_up(self) -> bool:
         """Whether the image begins with code of this project, and not with that of the C library."""
         return self.has_image and not self.hosted and not self.cpu.starts_itself

@@ -397,6 +397,7 @@ TIMELESS = {
     "multithread": "sleeps a millisecond",
     "parameter_messages": "hands the time of arrival on",
     "parameters": "stamps events with the time of day, which has 64 bits",
+    "port_avr": "waits for the watchdog to reset; counts one tick an interrupt",
     "port_cortex_m": "waits for one byte of a UART",
     "port_freertos": "the kernel's count of ticks, with its wraps, has 64 bits",
     "port_posix": "the system's clocks have 64 bits",

@@ -193,7 +193,10 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "    publishers: [{topic: far, type: std_msgs/msg/Int32}]\n"
         + "profiles: [pure_sender]\ncomponents: [+sleep_cycles]\ncreation: reliable\ntransport: {type: canfd, id: 7}\n"
         + "errors: code\n",
-        **{name: _of_numbers(APPLICATIONS[name]) for name in ("peer_services", "peer_serial", "local_chip")},
+        **{
+            name: _of_numbers(APPLICATIONS[name])
+            for name in ("peer_services", "peer_serial", "local_chip_tasks")
+        },
         "diagnosis": _BUSY
         + "    parameters: [{name: speed, type: double}]\n    modes: {SLOW: {speed: 0.5}}\n"
         + "    timers: [{name: tick, period: 50 ms}]\nprofiles: [managed_service]\n"
@@ -221,7 +224,7 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "    publishers: [{topic: sure, type: std_msgs/msg/Int32}]\n"
         + "    timers: [{name: tick, period: 50 ms}]\n    executors: [{name: all}]\n"
         + "profiles: [pure_sender]\ncomponents: [+executor, +timers]\nerrors: code\n"
-        + "tasks: [{name: all, executor: all, rate: 20 Hz, overrun: call}]\n",
+        + "tasks: [{name: all, executor: all, rate: 20 Hz, overrun: call}]\nwatchdog: {margin: 50 ms}\n",
         "graph": _BUSY
         + "profiles: [pure_sender]\ncomponents: [+graph]\nmemory: {arena: 4096}\nerrors: code\n",
         "graph-events": _BUSY

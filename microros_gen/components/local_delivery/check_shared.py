@@ -6,7 +6,7 @@ They agree about its messages and its rings.
 
 from __future__ import annotations
 
-from microros_gen.application.kinds import KIND, NAMES, SERVICE_KINDS, TOPIC_KINDS
+from microros_gen.application.kinds import KIND, NAMES, other_end
 from microros_gen.application.model import Application, ChipImage, EndpointDecl
 from microros_gen.client.plan.declared import declarations, full_name, type_name
 from microros_gen.client.plan.features import PlanContext
@@ -37,8 +37,7 @@ class _End:
     @property
     def missing(self) -> str:
         """Return what the other image has to do with its name."""
-        kinds = SERVICE_KINDS if KIND[self.endpoint.kind].service_type else TOPIC_KINDS
-        return next(_VERBS[kind] for kind in kinds if kind != self.endpoint.kind)
+        return _VERBS[other_end(self.endpoint.kind)]
 
     @property
     def types(self) -> tuple[TypeName, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from microros_gen.application.kinds import KIND
+from microros_gen.application.kinds import KIND, NAMES, other_end
 from microros_gen.application.model import EndpointDecl
 from microros_gen.application.system_decl import Link, PeerEnd
 from microros_gen.application.system_file import UART
@@ -25,18 +25,7 @@ MESSAGE_OVERHEAD = 12
 Key = tuple[int, str]
 """Domain and name of a topic or service."""
 
-_OTHER_END = {
-    "publisher": "subscription",
-    "subscription": "publisher",
-    "service": "client",
-    "client": "service",
-}
-_MISSING = {
-    "publisher": "subscribes to",
-    "subscription": "publishes",
-    "service": "calls",
-    "client": "serves",
-}
+_MISSING = dict(zip(NAMES, ("subscribes to", "publishes", "calls", "serves"), strict=True))
 """What no other board does, by the kind of this board's end."""
 
 
@@ -94,7 +83,7 @@ def own_ends(context: PlanContext) -> tuple[OwnEnd, ...]:
 def matches(own: OwnEnd, link: Link) -> Iterator[PeerEnd]:
     """Yield the ends of the other board that the messages of an endpoint go to, or come from."""
     for end in link.ends:
-        if end.kind == _OTHER_END[own.end.kind] and (end.domain_id, end.topic) == own.key:
+        if end.kind == other_end(own.end.kind) and (end.domain_id, end.topic) == own.key:
             yield end
 
 

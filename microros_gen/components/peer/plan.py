@@ -7,6 +7,7 @@ import hashlib
 import json
 from collections.abc import Iterable
 
+from microros_gen.application.kinds import SERVICE_KINDS, TOPIC_KINDS
 from microros_gen.application.system_decl import Link
 from microros_gen.application.system_file import UART, address_of
 from microros_gen.application.system_find import exchanged
@@ -26,6 +27,8 @@ from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
 
+_WRITER, _READER = TOPIC_KINDS
+_REPLIER, _REQUESTER = SERVICE_KINDS
 _NUMBER_BITS = 8
 """Low bits of a client key, which count the sessions; the others are the hash of the table."""
 
@@ -204,11 +207,11 @@ def _link(index: int, link: Link, ends: tuple[OwnEnd, ...], context: PlanContext
         key=_key(topics, services, link, context),
         mtu=link.mtu,
         topics=topics,
-        writers=_routes(shared, "publisher", topics),
-        readers=_routes(shared, "subscription", topics),
+        writers=_routes(shared, _WRITER, topics),
+        readers=_routes(shared, _READER, topics),
         services=services,
-        repliers=_calls(shared, "service", services, link),
-        requesters=_calls(shared, "client", services, link),
+        repliers=_calls(shared, _REPLIER, services, link),
+        requesters=_calls(shared, _REQUESTER, services, link),
     )
 
 
