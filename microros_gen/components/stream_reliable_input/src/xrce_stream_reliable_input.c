@@ -12,7 +12,7 @@
  * are old. */
 enum { ACKNACK_MESSAGE = 13, WINDOW = 16 };
 
-static const uint16_t half = 0x8000u;
+#define HALF 0x8000u /* of the sequence numbers */
 
 void xrce_stream_reliable_input_reset(xrce_stream_reliable_input_t * stream)
 {
@@ -166,7 +166,7 @@ bool xrce_stream_reliable_input_on_heartbeat(
     return true;
   }
   ahead = (uint16_t)(xrce_get_u16(&payload[0], flags) - stream->next);
-  if (ahead < half) { /* otherwise it has not yet received all acknowledgements */
+  if (ahead < HALF) { /* otherwise it has not yet received all acknowledgements */
     if (ahead > WINDOW) {
       return false; /* of another session, or forged */
     }
@@ -174,7 +174,7 @@ bool xrce_stream_reliable_input_on_heartbeat(
   }
   known = (uint16_t)(xrce_get_u16(&payload[2], flags) - stream->next + 1u);
   stream->announced =
-    known < half ? input_first(known) : 0u; /* a number beyond these was forged, or overtaken */
+    known < HALF ? input_first(known) : 0u; /* a number beyond these was forged, or overtaken */
   stream->requested = 0;
   stream->refused = 0;
   if (!input_can_deliver(stream)) { /* otherwise xrce_stream_reliable_input_continue acknowledges */

@@ -16,11 +16,10 @@
 /* Bytes 00 01 00 00 or 00 00 00 00: XCDR1 in either byte order, no options (OMG DDS-XTypes 1.3, 7.6.3.1.2). */
 enum { TAKE_ENCAPSULATION_SIZE = 4, TAKE_LITTLE_ENDIAN = 1 };
 
-static const int64_t take_ns_per_ms = 1000000;
-
 /* XRCE carries neither the sender of a sample nor its time; only the time of arrival is known. */
 void rmw_subscription_describe(const rmw_subscription_t * subscription, rmw_message_info_t * info)
 {
+  const int64_t ns_per_ms = 1000000;
   xrce_sample_t sample;
   int64_t age_ns;
   int64_t epoch_ns;
@@ -29,7 +28,7 @@ void rmw_subscription_describe(const rmw_subscription_t * subscription, rmw_mess
   if (rmw_local_describe(subscription->data, info) || !xrce_read_peek(subscription->data, &sample)) {
     return;
   }
-  age_ns = (int64_t)(port_time_ms() - sample.arrived_ms) * take_ns_per_ms;
+  age_ns = (int64_t)(port_time_ms() - sample.arrived_ms) * ns_per_ms;
   epoch_ns = microros_epoch_known_ns();
   info->received_timestamp = epoch_ns != 0 ? epoch_ns - age_ns : 0; /* the time of day has not been set yet */
   info->publication_sequence_number = RMW_MESSAGE_INFO_SEQUENCE_NUMBER_UNSUPPORTED;

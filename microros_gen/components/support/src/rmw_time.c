@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "rmw/time.h"
 
-#define NS_PER_S 1000000000
+#define NS_PER_S 1000000000u
 
 rmw_duration_t rmw_time_total_nsec(const rmw_time_t time)
 {
@@ -20,8 +20,10 @@ rmw_time_t rmw_time_from_nsec(const rmw_duration_t nanoseconds)
   rmw_time_t time = RMW_DURATION_INFINITE;
 
   if (nanoseconds >= 0) {
-    time.sec = (uint64_t)(nanoseconds / NS_PER_S);
-    time.nsec = (uint64_t)(nanoseconds % NS_PER_S);
+    const uint64_t left = (uint64_t)nanoseconds;
+
+    time.sec = left / NS_PER_S;
+    time.nsec = left % NS_PER_S;
   }
   return time;
 }

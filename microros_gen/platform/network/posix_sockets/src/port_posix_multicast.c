@@ -14,8 +14,9 @@ bool port_multicast_open(port_multicast_t * multicast)
 {
   int handle = socket(AF_INET, SOCK_DGRAM, 0);
   const int flags = handle >= 0 ? fcntl(handle, F_GETFL) : -1;
+  const unsigned int wanted = (unsigned int)flags | (unsigned int)O_NONBLOCK;
 
-  if (handle >= 0 && (flags < 0 || fcntl(handle, F_SETFL, (int)((unsigned int)flags | (unsigned int)O_NONBLOCK)) < 0)) {
+  if (handle >= 0 && (flags < 0 || fcntl(handle, F_SETFL, (int)wanted) < 0)) {
     (void)close(handle);
     handle = -1;
   }

@@ -36,8 +36,9 @@ static socklen_t socket_parse(address_t * address, const char * host, uint16_t p
 static bool socket_begin(int handle, const address_t * address, socklen_t size)
 {
   const int flags = fcntl(handle, F_GETFL);
+  const unsigned int wanted = (unsigned int)flags | (unsigned int)O_NONBLOCK;
 
-  return flags >= 0 && fcntl(handle, F_SETFL, (int)((unsigned int)flags | (unsigned int)O_NONBLOCK)) >= 0 &&
+  return flags >= 0 && fcntl(handle, F_SETFL, (int)wanted) >= 0 &&
          (connect(handle, &address->any, size) == 0 || errno == EINPROGRESS);
 }
 

@@ -43,12 +43,13 @@ static bool storage_path(char path[STORAGE_PATH_SIZE], const char * folder, uint
 static int storage_open(uint32_t slot, int flags)
 {
   const char * const folder = getenv("MICROROS_STORAGE");
+  const unsigned int wanted = (unsigned int)flags | (unsigned int)O_CLOEXEC;
   char path[STORAGE_PATH_SIZE];
 
   if (!storage_path(path, folder != NULL ? folder : ".", slot)) {
     return -1;
   }
-  return open(path, (int)((unsigned int)flags | (unsigned int)O_CLOEXEC), S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH);
+  return open(path, (int)wanted, S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH);
 }
 
 bool port_storage_erase(uint32_t slot)

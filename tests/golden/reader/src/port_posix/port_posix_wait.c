@@ -19,8 +19,9 @@ static int wake_pipe[ENDS] = {-1, -1};
 static bool wake_make_end(int end)
 {
   const int flags = fcntl(end, F_GETFL);
+  const unsigned int wanted = (unsigned int)flags | (unsigned int)O_NONBLOCK;
 
-  return flags >= 0 && fcntl(end, F_SETFL, (int)((unsigned int)flags | (unsigned int)O_NONBLOCK)) >= 0 && fcntl(end, F_SETFD, FD_CLOEXEC) >= 0;
+  return flags >= 0 && fcntl(end, F_SETFL, (int)wanted) >= 0 && fcntl(end, F_SETFD, FD_CLOEXEC) >= 0;
 }
 
 /* Without a pipe, waits end at their time-out. */
