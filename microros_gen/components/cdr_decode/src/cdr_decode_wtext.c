@@ -4,10 +4,9 @@
 /* On the wire each UTF-16 unit takes four bytes. */
 enum { UNIT_SIZE = 4 };
 
-static const uint32_t largest_unit = 0xFFFFU;
-
 void cdr_get_wstring(cdr_in_t * in, rosidl_runtime_c__U16String * text, uint32_t bound, const char * field)
 {
+  const uint32_t largest_unit = 0xFFFFU;
   const size_t capacity = (text->data == NULL) ? 0U : text->capacity;
   const uint32_t limit = cdr_in_limit((capacity == 0U) ? 0U : (capacity - 1U), bound);
   uint32_t size = cdr_in_length(in, UNIT_SIZE, field);
