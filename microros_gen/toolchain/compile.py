@@ -30,6 +30,9 @@ SCRIPT_STAMP = f"{OBJECTS}/linker_script.sha256"
 SELFTEST_SOURCES = "selftest/sources.txt"
 _FLASH_FORMATS = {".hex": "ihex", ".bin": "binary"}
 _OVERFLOW = re.compile(r"region `?(\w+)'? overflowed by (\d+) bytes")
+_REGIONS = {"text": "FLASH", "data": "RAM"}
+"""Memory regions of linker scripts of C libraries (AVR), as this project's scripts name them."""
+_RAM_EXCEEDED = re.compile(r"section `[.]\w+' is not within region `data'")
 
 
 @dataclass(frozen=True)
@@ -204,10 +207,15 @@ class _Linker:
 
 def _too_large(message: str) -> str | None:
     """Return a hint if the linker reports that a memory region is too small."""
+    if _RAM_EXCEEDED.search(message):
+        return (
+            "The variables take more than the target's RAM: `errors: code` leaves out the texts of errors; else lower"
+            " pools or limits"
+        )
     match = _OVERFLOW.search(message)
     if match is None:
         return None
-    region, size = match.groups()
+    region, size = _REGIONS.get(match[1], match[1]), match[2]
     lower = (
         "memory.stack, pools or limits"
         if region == "RAM"

@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 import time
+from pathlib import Path
 
 import pytest
 
 from tests.support.agent.observer import Observer
 from tests.support.firmware.avr import UNO, flash_and_ram, linked, simulated
-from tests.support.firmware.board import Builds, need
+from tests.support.firmware.board import Builds, build, need
 from tests.support.firmware.running import started
 from tests.support.patience import deadline
 
@@ -46,6 +47,15 @@ def test_what_a_sender_takes(builds: Builds) -> None:
     flash, ram = flash_and_ram(built, built.image)
     assert flash <= 11_800
     assert ram <= 810
+
+
+@pytest.mark.system
+def test_too_many_variables_are_an_error_with_a_remedy(tmp_path: Path) -> None:
+    """The profile alone, with texts of errors: avr-gcc has constants in RAM."""
+    need(UNO)
+    done = build(tmp_path, UNO)
+    assert done.returncode == 1
+    assert "The variables take more than the target's RAM: `errors: code` leaves out" in done.stderr
 
 
 @pytest.mark.ros
