@@ -92,7 +92,7 @@ def built_summary(out: Path, report: BuildReport, usage: Usage | None, lacks_ima
 
 
 def selftest_summary(out: Path, report: BuildReport, project: Project) -> str:
-    """Return the line about the self-test: how to run it, or why there is no image of it."""
+    """Return the line about the self-test: how to run it, or why it was not linked."""
     if report.selftest:
         text = f"{out / report.selftest}: `microros-gen run {out} --selftest` starts it"
     else:

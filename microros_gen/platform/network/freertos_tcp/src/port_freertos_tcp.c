@@ -6,7 +6,7 @@
 #error "FreeRTOSIPConfig.h: set ipconfigUSE_TCP to 1"
 #endif
 
-/* The library ends a connection that cannot be established: then there is no room any more. */
+/* The library ends a connection that cannot be established; its socket then has no room. */
 bool port_tcp_open(port_tcp_t * tcp, const char * host, uint16_t port)
 {
   struct freertos_sockaddr address;
