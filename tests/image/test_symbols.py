@@ -47,8 +47,8 @@ LIBRARY_MAY_CALL = {
     "strchr",
     "strcspn",
 }
-APPLICATION_GIVES = {"stop_motors"}
-"""What the library calls by the name that the application file declares."""
+APPLICATION_GIVES = {"stop_motors", "port_watchdog_feed"}
+"""What the application defines: what its file names, and the watchdog of a platform whose port has none."""
 COMPILER_BRINGS = {"_GLOBAL_OFFSET_TABLE_"}
 PREFIXES = (
     "rcl_",
