@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The C libraries of ROS 2 Jazzy that are called with ctypes, next to rclpy, and a check of their data structures.
 
-The calls keep Python's interpreter lock (PyDLL): the caller has one thread, and ROS 2's threads never need the lock.
+The calls keep Python's interpreter lock (PyDLL): each participant is used by one thread of Python, and ROS 2's threads
+never need the lock (see `separate_participants`).
 """
 
 from __future__ import annotations
@@ -55,6 +56,9 @@ _WRITER_DEFAULTS = f"""<?xml version="1.0" encoding="UTF-8"?>
 <max_blocking_time><sec>0</sec><nanosec>{_PATIENCE_NS}</nanosec></max_blocking_time>
 </reliability></qos><times><heartbeatPeriod><sec>0</sec><nanosec>{_HEARTBEAT_NS}</nanosec></heartbeatPeriod></times>
 </data_writer></profiles></dds>""".encode()
+_SEPARATE_PARTICIPANTS = b"""<?xml version="1.0" encoding="UTF-8"?>
+<dds xmlns="http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles">
+<library_settings><intraprocess_delivery>OFF</intraprocess_delivery></library_settings></dds>"""
 _FACTORY = "_ZN8eprosima7fastdds3dds24DomainParticipantFactory"
 _CDR_ROOM = 4096
 """An upper bound of the size of a Cdr object in bytes."""
@@ -135,15 +139,19 @@ class Libraries:
         ROS 2 sets reliability and leaves its max_blocking_time to the default profile of Fast DDS. A default profile in
         the user's XML file is loaded later and wins. Without the symbols of this Fast DDS, its own times stay.
         """
-        try:
-            fast_dds = ctypes.PyDLL("librmw_fastrtps_shared_cpp.so")  # and what it is linked with
-            factory = _function(fast_dds, f"{_FACTORY}12get_instanceEv", c_void_p)
-            load = _function(
-                fast_dds, f"{_FACTORY}24load_XML_profiles_stringEPKcm", c_int, c_void_p, c_char_p, c_size_t
-            )
-        except (OSError, AttributeError):
-            return
-        load(factory(), _WRITER_DEFAULTS, len(_WRITER_DEFAULTS))
+        _load_profiles(_WRITER_DEFAULTS)
+
+    @staticmethod
+    @functools.cache
+    def separate_participants() -> None:
+        """Let participants of this process reach each other as those of other processes do; call it before any exists.
+
+        By default, Fast DDS delivers to a participant of the same process in the call of the writer, and takes locks of
+        both. A writer of a service holds one of them while Python serializes for it. A thread that creates an endpoint
+        of the other participant holds Python's interpreter lock meanwhile, and both would wait for each other for ever:
+        for example the agent, and its parameter server in another thread.
+        """
+        _load_profiles(_SEPARATE_PARTICIPANTS)
 
     def cdr_buffer(self, cdr: int) -> FastBuffer:
         """Return the buffer of the Cdr object at address `cdr`; call `check_layout` before."""
@@ -235,6 +243,19 @@ class Libraries:
         _expect(len(places), 1, "references to its buffer in a Cdr of libfastcdr")
         self._buffer_offset = places[0] * _WORD
         _expect(get_pointer(cdr), room, "Cdr of libfastcdr")
+
+
+def _load_profiles(text: bytes) -> None:
+    """Have Fast DDS read its XML format. Without the symbols of this Fast DDS, nothing changes."""
+    try:
+        fast_dds = ctypes.PyDLL("librmw_fastrtps_shared_cpp.so")  # and what it is linked with
+        factory = _function(fast_dds, f"{_FACTORY}12get_instanceEv", c_void_p)
+        load = _function(
+            fast_dds, f"{_FACTORY}24load_XML_profiles_stringEPKcm", c_int, c_void_p, c_char_p, c_size_t
+        )
+    except (OSError, AttributeError):
+        return
+    load(factory(), text, len(text))
 
 
 def first_line(error: Exception) -> str:

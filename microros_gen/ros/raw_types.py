@@ -14,6 +14,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import re
+import threading
 from collections.abc import Callable
 from ctypes import addressof, c_bool, c_char, c_char_p, c_size_t, c_uint32, c_void_p
 from typing import Any
@@ -79,8 +80,10 @@ class RawTypes:
     def __init__(self, libraries: Libraries) -> None:
         """Use the type support identifiers of `libraries`. Raises RosUnusableError if their layout differs."""
         libraries.check_layout()
+        libraries.separate_participants()
         self.libraries = libraries
-        self._taken = b""
+        self._lock = threading.Lock()
+        self._last = threading.local()
         self._messages: dict[tuple[TypeName, str | None], _Message] = {}
         self._services: dict[tuple[TypeName, tuple[str | None, ...]], _Service] = {}
         self._kept: list[Any] = []
@@ -103,7 +106,8 @@ class RawTypes:
 
         Raises RosError if the hash does not follow REP-2011, TypeLimitError if the process uses too many types.
         """
-        return self._class(addressof(self._message(name, type_hash)))
+        with self._lock:
+            return self._class(addressof(self._message(name, type_hash)))
 
     def service_class(
         self, name: ServiceName, type_hash: str | None, request_hash: str | None, response_hash: str | None
@@ -113,18 +117,20 @@ class RawTypes:
         Raises as `message_class` does.
         """
         key = (name.type, (type_hash, request_hash, response_hash))
-        if key not in self._services:
-            self._check_room()
-            request = self._message(name.request, request_hash)
-            response = self._message(name.response, response_hash)
-            self._services[key] = self._make_service(
-                name.type, type_hash, addressof(request), addressof(response)
-            )
-        return self._class(addressof(self._services[key]))
+        with self._lock:
+            if key not in self._services:
+                self._check_room()
+                request = self._message(name.request, request_hash)
+                response = self._message(name.response, response_hash)
+                self._services[key] = self._make_service(
+                    name.type, type_hash, addressof(request), addressof(response)
+                )
+            return self._class(addressof(self._services[key]))
 
     def taken(self) -> bytes:
-        """Return and clear the request or reply (encapsulation and body) that was taken last; else empty bytes."""
-        taken, self._taken = self._taken, b""
+        """Return and clear the request or reply (encapsulation, body) that this thread took last; else empty bytes."""
+        taken: bytes = getattr(self._last, "taken", b"")
+        self._last.taken = b""
         return taken
 
     def _message(self, name: TypeName, type_hash: str | None) -> _Message:
@@ -219,7 +225,7 @@ class RawTypes:
 
     def _deserialize(self, cdr: int, _message: int) -> bool:
         buffer = self.libraries.cdr_buffer(cdr)
-        self._taken = ctypes.string_at(buffer.bytes, buffer.size)
+        self._last.taken = ctypes.string_at(buffer.bytes, buffer.size)
         return True
 
 
