@@ -22,6 +22,7 @@ from tests.support.agent.observer import observing
 from tests.support.agent.process import READY, own_domain, running_agent
 from tests.support.agent.serial_link import SerialLink
 from tests.support.agent.tcp_link import TcpLink
+from tests.support.free_ports import free_port
 from tests.support.paths import ROOT
 from tests.support.patience import seconds
 from tests.support.slices import spread_rows
@@ -64,7 +65,7 @@ def test_clients_of_every_transport_are_in_the_graph_and_leave_it(number: int, t
 
 @pytest.mark.ros
 def test_a_configuration_file(tmp_path: Path) -> None:
-    port = _free_port()
+    port = free_port()
     path = tmp_path / "agent.yaml"
     path.write_text(
         "version: 1\ntransports:\n  - udp4: {port: 0}\n  - tcp4: {port: 0}\n"
@@ -86,13 +87,6 @@ def test_a_configuration_file(tmp_path: Path) -> None:
             asker.sendto(bytes.fromhex("80000000020108000009fffd03000000"), (GROUP, port))
             assert agent.port.to_bytes(2, "little") in asker.recv(1000)
         assert agent.stop() == 0
-
-
-def _free_port() -> int:
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        probe.bind(("", 0))
-        port: int = probe.getsockname()[1]
-        return port
 
 
 @pytest.mark.ros

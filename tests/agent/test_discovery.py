@@ -19,19 +19,13 @@ from microros_gen.agent.transport.udp import Udp
 from microros_gen.diagnostics import UserError
 from tests.support.agent.fakes import Bench
 from tests.support.agent.served import Served
+from tests.support.free_ports import free_port
 from tests.support.patience import seconds
 
 QUESTION = bytes.fromhex("80000000020108000009fffd03000000")
 """GET_INFO as the public client sends it to the group."""
 ANSWER = "80000000 0601%s00 0009fffd 0000 01 0d 58524345 0100 010f 00 01 0d 00 0100 0000"
 """INFO up to the number of locators; after `0601` its length."""
-
-
-def free_port() -> int:
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        probe.bind(("", 0))
-        port: int = probe.getsockname()[1]
-        return port
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ from pathlib import Path
 from tests.bench.client import compiled
 from tests.bench.instructions import IDL, run, version
 from tests.support.agent.process import running_agent
-from tests.support.e2e.agent_list import free_ports
+from tests.support.free_ports import free_ports
 
 NAMES = ("there", "back")
 SIZES = (64, 256)

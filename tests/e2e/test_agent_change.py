@@ -14,12 +14,13 @@ import pytest
 
 from tests.support.agent.observer import Observer
 from tests.support.agent.process import AgentProcess, running_agent
-from tests.support.e2e.agent_list import agent_of, free_ports, listed, wait_for_agent
+from tests.support.e2e.agent_list import agent_of, listed, wait_for_agent
 from tests.support.e2e.images import C_FILES, Images, ends_well, started
 from tests.support.e2e.live import Live
 from tests.support.e2e.parameter_calls import DEVICE
 from tests.support.e2e.parameter_peer import parameter_peer
 from tests.support.e2e.serving import await_line
+from tests.support.free_ports import free_ports
 from tests.support.patience import deadline, seconds
 
 pytestmark = pytest.mark.ros

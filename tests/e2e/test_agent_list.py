@@ -10,10 +10,11 @@ from contextlib import ExitStack
 
 import pytest
 
-from tests.support.e2e.agent_list import agent_of, free_ports, listed, wait_for_agent
+from tests.support.e2e.agent_list import agent_of, listed, wait_for_agent
 from tests.support.e2e.images import POOLS, Images
 from tests.support.e2e.live import Live
 from tests.support.e2e.udp_agent import serving
+from tests.support.free_ports import free_ports
 from tests.support.patience import deadline
 from tests.support.runtime.fake_agent import FakeAgent
 

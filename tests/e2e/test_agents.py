@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import signal
-import socket
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack
@@ -17,6 +16,7 @@ from tests.support.e2e.images import Image, Images, run
 from tests.support.e2e.live import Live, Sample
 from tests.support.e2e.relay import Relay, rough
 from tests.support.e2e.udp_agent import serving
+from tests.support.free_ports import free_port
 from tests.support.patience import deadline, seconds
 from tests.support.runtime.fake_agent import FakeAgent
 from tests.support.slices import first
@@ -43,12 +43,6 @@ def accepted(samples: list[Sample]) -> list[int]:
     """Return the values that a stream took: it may be full while the machine is busy."""
     assert {sample.code for sample in samples} <= {0, 1}
     return [sample.value for sample in samples if sample.code == 0]
-
-
-def free_port() -> int:
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 # No agent

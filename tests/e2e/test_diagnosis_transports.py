@@ -15,6 +15,7 @@ from tests.support.agent.observer import Observer
 from tests.support.agent.process import running_agent
 from tests.support.e2e.images import C_FILES, QUICK, Images, run, started
 from tests.support.e2e.relay import Relay
+from tests.support.free_ports import free_port
 from tests.support.paths import TESTS
 from tests.support.patience import deadline
 
@@ -60,9 +61,7 @@ def wait_for_session(observer: Observer, node: str, again: Callable[[], object] 
 
 
 def test_over_tcp(images: Images, observer: Observer, domain: int) -> None:
-    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
-        probe.bind(("127.0.0.1", 0))
-        port: int = probe.getsockname()[1]
+    port = free_port(socket.SOCK_STREAM)
     text = APPLICATION.format(transport=f'tcp, agent: "127.0.0.1:{port}"', key=21, node="over_tcp")
     image = images.build(0, text, flags=(*QUICK, "-DEXAMPLE_SAMPLES=100000", "-DEXAMPLE_PERIOD_MS=15"))
     observer.subscribe(TOPIC, TYPE)

@@ -13,7 +13,7 @@ import pytest
 
 from tests.support.agent.observer import Observer
 from tests.support.agent.process import AgentProcess, running_agent
-from tests.support.e2e.agent_list import free_ports
+from tests.support.free_ports import free_ports
 from tests.support.patience import deadline, seconds
 from tests.support.runtime.peers import APPLICATION, HOST, Board, board_program, started, system
 

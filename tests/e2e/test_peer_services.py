@@ -9,7 +9,7 @@ import pytest
 
 from tests.support.agent.observer import Observer
 from tests.support.agent.process import running_agent
-from tests.support.e2e.agent_list import free_ports
+from tests.support.free_ports import free_ports
 from tests.support.runtime.peers import HOST, system
 from tests.support.runtime.service_boards import (
     SERVICES,

@@ -20,6 +20,7 @@ import pytest
 from tests.support.agent.process import environment
 from tests.support.e2e.images import QUICK, Image, Images, run
 from tests.support.e2e.relay import Relay
+from tests.support.free_ports import free_port
 from tests.support.paths import ROOT
 from tests.support.patience import seconds
 
@@ -32,12 +33,6 @@ profiles: [pure_sender]
 nodes:
   - {name: runner, domain_id: DOMAIN, publishers: [{topic: run, type: std_msgs/msg/Int32}]}
 """
-
-
-def free_port() -> int:
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 @pytest.fixture(scope="module")

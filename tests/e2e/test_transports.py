@@ -13,6 +13,7 @@ from tests.support.agent.observer import Observer
 from tests.support.agent.process import running_agent
 from tests.support.e2e.images import QUICK, Images, ends_well, started
 from tests.support.e2e.programs import run_to, until
+from tests.support.free_ports import free_port
 from tests.support.patience import seconds
 from tests.support.slices import first
 
@@ -62,16 +63,9 @@ def test_functions_of_an_application(
     run_to(SAMPLES - 1, [sample["data"] for sample in samples[f"/custom_{way}"]])
 
 
-def _free_port() -> int:
-    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
-        probe.bind(("127.0.0.1", 0))
-        port: int = probe.getsockname()[1]
-    return port
-
-
 def test_tcp_and_an_agent_that_restarts(images: Images, observer: Observer, domain: int) -> None:
     """The connection breaks with the agent; the example goes on over another one by itself."""
-    port = _free_port()
+    port = free_port(socket.SOCK_STREAM)
     text = APPLICATION.format(transport=f'tcp, agent: "127.0.0.1:{port}"', key=14, topic="tcp")
     flags = (*QUICK, f"-DEXAMPLE_SAMPLES={4 * LAST}", "-DEXAMPLE_PERIOD_MS=15")
     image = images.build(0, text, flags=flags)
@@ -94,7 +88,7 @@ def test_tcp_and_an_agent_that_restarts(images: Images, observer: Observer, doma
 @pytest.mark.system
 def test_an_agent_that_is_searched_for(images: Images, observer: Observer, domain: int) -> None:
     """The image knows a port of the multicast group alone; the agent, and one after it, listen wherever they like."""
-    port = _free_port()
+    port = free_port(socket.SOCK_STREAM)
     text = APPLICATION.replace("pure_sender", "ad_hoc_discoverable_sender").format(
         transport=f'udp, agent: "discover:{port}"', key=15, topic="found"
     )

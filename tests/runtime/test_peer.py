@@ -13,6 +13,7 @@ import pytest
 
 from microros_gen.agent.wire.data_messages import WriteData
 from microros_gen.agent.wire.session_messages import CreateClient, StatusAgent
+from tests.support.free_ports import free_ports
 from tests.support.patience import deadline
 from tests.support.runtime.peers import HOST, Board, Relay, board_program, started, system, unreliable
 
@@ -49,8 +50,8 @@ def fresh(relay: Relay) -> Iterator[None]:
 
 def own_ports() -> tuple[int, int]:
     """Return two ports that nobody has now."""
-    with Relay() as unused:
-        return unused.ports[0], unused.ports[1]
+    first, second = free_ports(2)
+    return first, second
 
 
 @contextmanager

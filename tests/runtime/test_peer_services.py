@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from microros_gen.agent.wire.data_messages import WriteData
+from tests.support.free_ports import free_ports
 from tests.support.patience import deadline
 from tests.support.runtime.peers import HOST, Relay, system, unreliable
 from tests.support.runtime.service_boards import ServiceBoard, service_board, service_board_program, until
@@ -33,8 +34,7 @@ def relay() -> Iterator[Relay]:
 def programs(tmp_path_factory: pytest.TempPathFactory, relay: Relay) -> tuple[Path, Path]:
     """The programs of both boards, each of which sees the relay as the other one."""
     folder = tmp_path_factory.mktemp("boards")
-    with Relay() as unused:
-        own = unused.ports
+    own = free_ports(2)
     ends = {
         "a": system(f"{HOST}:{own[0]}", f"{HOST}:{relay.ports[0]}"),
         "b": system(f"{HOST}:{relay.ports[1]}", f"{HOST}:{own[1]}"),

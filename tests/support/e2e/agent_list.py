@@ -3,23 +3,12 @@
 
 from __future__ import annotations
 
-import socket
 import time
 from collections.abc import Sequence
-from contextlib import ExitStack
 
 from tests.support.e2e.images import POOLS
 from tests.support.e2e.live import Live
 from tests.support.patience import deadline
-
-
-def free_ports(count: int, family: int = socket.AF_INET, kind: int = socket.SOCK_DGRAM) -> list[int]:
-    """Return ports that nobody uses."""
-    with ExitStack() as stack:
-        probes = [stack.enter_context(socket.socket(family, kind)) for _ in range(count)]
-        for probe in probes:
-            probe.bind(("::1" if family == socket.AF_INET6 else "127.0.0.1", 0))
-        return [int(probe.getsockname()[1]) for probe in probes]
 
 
 def listed(
