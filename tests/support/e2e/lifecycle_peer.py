@@ -160,6 +160,13 @@ class _Peer:
     def services(self, node: str) -> list[Any]:
         """Return the services of a node for its life cycle, with their types."""
         namespace, _, name = node.rpartition("/")
+        end = deadline(20)
+        while (
+            name,
+            namespace or "/",
+        ) not in self._asker.get_node_names_and_namespaces():  # names arrive late
+            assert time.monotonic() < end
+            time.sleep(0.05)
         found = self._asker.get_service_names_and_types_by_node(name, namespace)
         return sorted([s, t] for s, t in found if t[0].startswith("lifecycle_msgs"))
 
