@@ -6,6 +6,11 @@
 #include <stdbool.h>
 #include <string.h>
 
+/* Otherwise the functions by which a thread finds its task (pthread_key_create and others) are missing at the link. */
+#if !defined(CONFIG_TLS_NELEM) || (CONFIG_TLS_NELEM < 1)
+#error "defconfig: set CONFIG_TLS_NELEM=1, or more if other programs use pthread_key_create"
+#endif
+
 enum { STACK_FILL = 0xa5 };
 
 static const uint32_t own_fill = 0xa5a5a5a5u;
