@@ -339,7 +339,7 @@ class Application:
     """The whole file. `interfaces` are `pkg` or `pkg/msg/Type`.
 
     `hard_liveliness_ms`: how long the agent goes on without hearing the client; 0: as it likes.
-    `pools` count entities where no nodes are given. `creation` (best_effort, reliable) is the stream of CREATE; None:
+    `exact_float64`: what would round a float64 is an error. `pools` count entities where no nodes are given. `creation` (best_effort, reliable) is the stream of CREATE; None:
     best effort. `clock` (steady, ros) is an axis like `entities` and `liveliness`. `interface_paths` are relative to
     the file. `implied` are the endpoints of the library itself where there are no nodes (with nodes they are among
     their endpoints), `endpoints` what the file changes of those. `spans` holds the places of top-level keys and of
@@ -367,6 +367,7 @@ class Application:
     on_full: str = "error"
     on_full_block_ms: int = 0
     error_text: bool = True
+    exact_float64: bool = False
     clock: Named | None = None
     logging: tuple[LogWriter, ...] = ()
     diagnosis: DiagnosisDecl | None = None

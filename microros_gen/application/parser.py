@@ -122,6 +122,7 @@ def _application(tree: MappingNode, diagnostics: Diagnostics) -> Application:
         on_full=on_full,
         on_full_block_ms=block_ms,
         error_text=text_of(child(tree, "errors")) != "code",
+        exact_float64=text_of(child(tree, "float64")) == "exact",
         clock=named_of(child(tree, "clock")),
         logging=_log_writers(child(tree, "logging"), diagnostics),
         diagnosis=parse_diagnosis(child(tree, diagnosis_decl.KEY), nodes, diagnostics),

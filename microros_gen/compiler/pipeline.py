@@ -182,7 +182,15 @@ def _planned(resolved: Resolved, diagnostics: Diagnostics) -> Planned:
     diagnostics.check()
     received = _received(application, selection, capacities)
     models = models_of(resolved.request.target.data_model)
-    types = plan_types(interfaces.messages, capacities, interfaces.type_hash, diagnostics, received, models)
+    types = plan_types(
+        interfaces.messages,
+        capacities,
+        interfaces.type_hash,
+        diagnostics,
+        received,
+        models,
+        application.exact_float64,
+    )
     diagnostics.check()
     project = plan_project(
         application,

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from microros_gen.client.plan.declared import declarations
 from microros_gen.client.plan.features import PlanContext
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.interfaces.types import Primitive, TypeName
+from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.decode import DecodeStep, Messages, NumberSequence, Part, Strings
 from microros_gen.typesupport.plan.names import include_path, type_files
@@ -69,9 +69,9 @@ def _stays(name: TypeName, types: Mapping[TypeName, TypePlan]) -> bool:
 
 
 def _step_stays(step: DecodeStep, types: Mapping[TypeName, TypePlan]) -> bool:
-    """Return the same of a step. Wide strings and bools have other bytes; sequences of others need memory."""
+    """Return the same of a step. Wide strings and converted numbers have other bytes; sequences of others need memory."""
     if isinstance(step, NumberSequence):
-        return step.primitive is not Primitive.BOOL
+        return step.form.isdigit()
     if isinstance(step, Strings):
         return not step.wide and not step.sequence
     if isinstance(step, Messages):

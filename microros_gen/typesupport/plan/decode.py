@@ -50,19 +50,20 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Bools:
-    """A bool, or an array of `count` bools."""
+class Converted:
+    """A number that differs in memory, or an array of `count`; `form` is that of TypeFacts."""
 
     member: str
     count: int | None
+    form: str
 
 
 @dataclass(frozen=True)
 class NumberSequence:
-    """A sequence of numbers or bools; `bound` None: without."""
+    """A sequence of numbers or bools; `form` is that of TypeFacts; `bound` None: without."""
 
     member: str
-    primitive: Primitive
+    form: str
     bound: int | None
 
 
@@ -82,8 +83,8 @@ class Strings:
 class Messages:
     """An array (`count`) or a sequence (`bound`) of messages.
 
-    `row`: size and count of an element's numbers, where all have one size and no bool is among them; they are
-    read at once then.
+    `row`: size and count of an element's numbers, where all have one size and none is converted; they are read at
+    once then.
     """
 
     member: str
@@ -101,7 +102,7 @@ class Part:
     type: TypeName
 
 
-DecodeStep = Union[Row, Bools, NumberSequence, Strings, Messages, Part]  # noqa: UP007
+DecodeStep = Union[Row, Converted, NumberSequence, Strings, Messages, Part]  # noqa: UP007
 
 
 @dataclass(frozen=True)
@@ -125,10 +126,13 @@ def decode_files(files: TypeFiles) -> tuple[str, str]:
 
 
 def plan_decoders(
-    messages: Mapping[TypeName, Message], received: Collection[TypeName]
+    messages: Mapping[TypeName, Message], received: Collection[TypeName], converts_float64: bool = False
 ) -> dict[TypeName, DecodePlan]:
-    """Plan the decoders of the `received` types and of every type that they call."""
-    facts = TypeFacts(messages)
+    """Plan the decoders of the `received` types and of every type that they call.
+
+    `converts_float64`: a double of the target is no binary64.
+    """
+    facts = TypeFacts(messages, converts_float64)
     steps: dict[TypeName, tuple[DecodeStep, ...]] = {}
     pending = sorted(received)
     while pending:
@@ -180,9 +184,9 @@ class _Reader:
         elif isinstance(element, StringType):
             self._emit(Strings(path, element.wide, element.bound, count, sequence, bound))
         elif sequence:
-            self._emit(NumberSequence(path, element, bound))
-        elif element is Primitive.BOOL:
-            self._emit(Bools(path, count))
+            self._emit(NumberSequence(path, self._facts.form(element), bound))
+        elif not self._facts.is_copied(element):
+            self._emit(Converted(path, count, self._facts.form(element)))
         else:
             self._number(path, element.size, count, offset)
 
@@ -214,14 +218,14 @@ def row_of(facts: TypeFacts, name: TypeName) -> tuple[int, int] | None:
     if not facts.fixed(name):
         return None
     leaves = list(facts.leaves(name))
-    sizes = set(_sizes(leaves))
+    sizes = set(_sizes(facts, leaves))
     if len(sizes) != 1 or 0 in sizes:
         return None
     (width,) = sizes
     return width, sum(leaf[1] for leaf in leaves if leaf is not None)
 
 
-def _sizes(leaves: list[tuple[Primitive, int] | None]) -> Iterator[int]:
-    """Yield the size of each number; 0 for what is none."""
+def _sizes(facts: TypeFacts, leaves: list[tuple[Primitive, int] | None]) -> Iterator[int]:
+    """Yield the size of each number; 0 for what is none, or is converted."""
     for leaf in leaves:
-        yield 0 if leaf is None or leaf[0] is Primitive.BOOL else leaf[0].size
+        yield leaf[0].size if leaf is not None and facts.is_copied(leaf[0]) else 0

@@ -18,15 +18,22 @@ from microros_gen.interfaces.types import (
 from microros_gen.typesupport.plan.layout import LP64, StructLayouts
 from microros_gen.typesupport.plan.size import is_fixed, members
 
+DOUBLE = "double"
+"""The form of a float64 where a double is no binary64: `cdr_put_double` converts it."""
+
 LARGEST_INLINE = 3
 """Variable parts that a nested type may have to be written in place: beyond, a call costs less flash."""
 
 
 class TypeFacts:
-    """Answers about the types of one plan; each is worked out once."""
+    """Answers about the types of one plan; each is worked out once.
 
-    def __init__(self, messages: Mapping[TypeName, Message]) -> None:
+    `converts_float64`: a double of the target is no binary64.
+    """
+
+    def __init__(self, messages: Mapping[TypeName, Message], converts_float64: bool = False) -> None:
         self.messages = messages
+        self.converts_float64 = converts_float64
         self.layouts = StructLayouts(messages, LP64)
         self._fixed: dict[TypeName, bool] = {}
         self._parts: dict[TypeName, int] = {}
@@ -36,6 +43,17 @@ class TypeFacts:
         if name not in self._fixed:
             self._fixed[name] = is_fixed(self.messages[name], self.messages)
         return self._fixed[name]
+
+    def form(self, primitive: Primitive) -> str:
+        """Return what ends the names of the functions that write and read it: `bool`, `double`, or its bytes."""
+        if primitive is Primitive.BOOL:
+            return "bool"
+        is_converted = primitive is Primitive.FLOAT64 and self.converts_float64
+        return DOUBLE if is_converted else str(primitive.size)
+
+    def is_copied(self, primitive: Primitive) -> bool:
+        """Return whether it has the same bytes in memory (little endian) as on the wire."""
+        return self.form(primitive).isdigit()
 
     def is_inline(self, name: TypeName) -> bool:
         """Return whether a member of this type is written in place."""
@@ -56,7 +74,7 @@ class TypeFacts:
     def packed(self, name: TypeName) -> tuple[int, int] | None:
         """Return size and alignment where an array of the type is one run on the wire and in C, else None.
 
-        That is: no bool, no padding, the first member has the largest alignment, the size is a multiple of
+        That is: nothing that is converted, no padding, the first member has the largest alignment, the size is a multiple of
         it.
         """
         leaves = list(self.leaves(name))
@@ -66,7 +84,7 @@ class TypeFacts:
         alignment = max(p.size for p, _ in primitives)
         size = 0
         for primitive, count in primitives:
-            if primitive is Primitive.BOOL or size % primitive.size:
+            if not self.is_copied(primitive) or size % primitive.size:
                 return None
             size += primitive.size * count
         if primitives[0][0].size != alignment or size % alignment:

@@ -32,6 +32,11 @@ class DataModel:
     align_most: int = 8
     double: int = 8
 
+    @property
+    def converts_float64(self) -> bool:
+        """Whether a double is no binary64, so that float64 members are converted on the wire."""
+        return self.double != Primitive.FLOAT64.size
+
 
 LP64 = DataModel(pointer=8, size=8, align_8=8)
 """64-bit hosts (System V x86-64, AArch64)."""

@@ -48,12 +48,13 @@ class Align:
 
 @dataclass(frozen=True)
 class Leaf:
-    """A number, or an array of `count` numbers; `member` is its path in the C struct."""
+    """A number, or an array of `count` numbers; `member` is its path in the C struct, `form` that of TypeFacts."""
 
     place: Place
     member: str
     primitive: Primitive
     count: int | None
+    form: str
 
     @property
     def size(self) -> int:
@@ -98,12 +99,13 @@ class Texts:
 
 @dataclass(frozen=True)
 class Numbers:
-    """A sequence of numbers."""
+    """A sequence of numbers; `form` is that of TypeFacts."""
 
     place: Place
     member: str
     primitive: Primitive
     limit: Limit
+    form: str
 
 
 @dataclass(frozen=True)

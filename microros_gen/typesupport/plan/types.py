@@ -13,6 +13,7 @@ from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.capacity import Capacities
 from microros_gen.typesupport.plan.decode import DecodePlan, decode_files, plan_decoders
 from microros_gen.typesupport.plan.layout import WIDE_MODELS, DataModel, StructLayouts
+from microros_gen.typesupport.plan.narrow import narrowed
 from microros_gen.typesupport.plan.names import TypeFiles, c_name, include_path, type_files
 from microros_gen.typesupport.plan.own_limits import LimitSet, plan_limit_sets, sent_limits, topic_names
 from microros_gen.typesupport.plan.size import TypeLimits, WireSizes, is_fixed
@@ -114,16 +115,20 @@ def plan_types(
     diagnostics: Diagnostics,
     received: Collection[TypeName] = (),
     models: tuple[DataModel, ...] = WIDE_MODELS,
+    exact_float64: bool = False,
 ) -> tuple[TypePlan, ...]:
     """Plan every type of `messages` (closed, in dependency order; the roots are those of `capacities`).
 
-    `received`: the roots that need a decoder. `models`: those of the target.
+    `received`: the roots that need a decoder. `models`: those of the target. `exact_float64`: members that a double of
+    the target would round are errors.
     """
-    decoders = plan_decoders(messages, received)
+    converts = any(model.converts_float64 for model in models)
+    messages = narrowed(messages) if converts else messages
+    decoders = plan_decoders(messages, received, converts)
     names = topic_names(capacities)
     sizes = WireSizes(messages)
     sets = plan_limit_sets(capacities.entities, names, sizes)
-    wires = plan_wire(messages, capacities.limits, sent_limits(sets))
+    wires = plan_wire(messages, capacities.limits, sent_limits(sets), converts)
     storages = plan_storage(
         messages, capacities.limits, wires.home_limits, diagnostics, capacities.topics, names
     )
@@ -163,7 +168,8 @@ def plan_types(
             )
         )
     _check_sizes(plans, diagnostics)
-    _check_doubles(plans, diagnostics)
+    if converts and exact_float64:
+        _check_doubles(plans, diagnostics)
     _check_files(plans, diagnostics)
     return tuple(plans)
 
@@ -180,15 +186,14 @@ def _check_sizes(plans: Iterable[TypePlan], diagnostics: Diagnostics) -> None:
 
 
 def _check_doubles(plans: Iterable[TypePlan], diagnostics: Diagnostics) -> None:
-    """Report messages with numbers that the C of the target does not have."""
+    """Report messages with numbers that the C of the target rounds."""
     for plan in plans:
         for field in plan.message.fields:
-            is_double = element_of(field.type) is Primitive.FLOAT64
-            if is_double and any(model.double != Primitive.FLOAT64.size for model in plan.models):
+            if element_of(field.type) is Primitive.FLOAT64:
                 diagnostics.error(
                     f"{plan.name} has the float64 member '{field.name}', and a double has only 4 bytes on this target",
                     field.span,
-                    "Use a message with float32 members",
+                    "Use a message with float32 members, or float64: converted",
                     id="MG-5014",
                 )
 

@@ -56,10 +56,14 @@ class WirePlan:
     root_limits: TypeLimits | None
 
     @property
+    def steps(self) -> tuple[Step, ...]:
+        """The steps of all of its functions."""
+        return (*(self.root_steps or ()), *(self.at_steps or ()))
+
+    @property
     def calls(self) -> tuple[TypeName, ...]:
         """Types whose functions are called, sorted."""
-        steps = (*(self.root_steps or ()), *(self.at_steps or ()))
-        return tuple(sorted({s.type for s in steps if isinstance(s, (Messages, Part))}))
+        return tuple(sorted({s.type for s in self.steps if isinstance(s, (Messages, Part))}))
 
 
 @dataclass(frozen=True)
@@ -74,12 +78,14 @@ def plan_wire(
     messages: Mapping[TypeName, Message],
     root_limits: Mapping[TypeName, TypeLimits | None],
     own_limits: Mapping[TypeName, Collection[TypeLimits]],
+    converts_float64: bool = False,
 ) -> WirePlans:
     """Plan the encoders of the roots and of every type that they call.
 
     `own_limits`: those of entities that send a root and have their own limits, which call its `encode_at` too.
+    `converts_float64`: a double of the target is no binary64.
     """
-    facts = _Facts(messages, plan_homes(messages, root_limits, own_limits))
+    facts = _Facts(messages, plan_homes(messages, root_limits, own_limits), converts_float64)
     called = _called(facts, root_limits) | set(own_limits)
     facts.called = frozenset(called)
     plans = {}
@@ -133,8 +139,10 @@ def _called_by(facts: _Facts, name: TypeName) -> Iterator[TypeName]:
 class _Facts(TypeFacts):
     """What the emitter asks about types: where limits differ, and which types have their own function."""
 
-    def __init__(self, messages: Mapping[TypeName, Message], homes: Homes) -> None:
-        super().__init__(messages)
+    def __init__(
+        self, messages: Mapping[TypeName, Message], homes: Homes, converts_float64: bool
+    ) -> None:
+        super().__init__(messages, converts_float64)
         self.homes = homes
         self.called: frozenset[TypeName] = frozenset()
 
@@ -264,21 +272,22 @@ class _Emitter:
 
     def _numbers(self, path: str, primitive: Primitive, limit: Limit) -> None:
         self._align(LENGTH_SIZE)
-        self._emit(Numbers(self._here(), path, primitive, limit))
+        self._emit(Numbers(self._here(), path, primitive, limit, self._facts.form(primitive)))
         self._after_variable(min(primitive.size, LENGTH_SIZE))
 
     def _leaf(self, path: str, primitive: Primitive, count: int | None, c_offset: int) -> None:
         contiguous = self._run and c_offset == self._run_end
-        if not contiguous or primitive is Primitive.BOOL or not self._is_aligned(primitive.size):
+        is_copied = self._facts.is_copied(primitive)
+        if not contiguous or not is_copied or not self._is_aligned(primitive.size):
             self._flush_run()
         self._align(primitive.size)
-        leaf = Leaf(self._here(), path, primitive, count)
+        leaf = Leaf(self._here(), path, primitive, count, self._facts.form(primitive))
         self._offset += leaf.size
         self._run_end = c_offset + leaf.size
-        if primitive is Primitive.BOOL:
-            self._steps.append(leaf)
-        else:
+        if is_copied:
             self._run.append(leaf)
+        else:
+            self._steps.append(leaf)
 
     def _is_aligned(self, alignment: int) -> bool:
         return self._offset % alignment == 0 and (not self._variable or self._modulus >= alignment)

@@ -9,20 +9,25 @@ from typing import Any
 from jinja2 import Environment
 
 from microros_gen.interfaces.derived import declaring_name
-from microros_gen.interfaces.types import Primitive
 from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.decode import (
-    Bools,
+    Converted,
     Messages,
     Number,
     NumberSequence,
     Part,
     Row,
     Strings,
+    DecodeStep,
     decode_files,
 )
+from microros_gen.typesupport.plan.facts import DOUBLE
 from microros_gen.typesupport.plan.names import c_name, guard, include_path, type_files
 from microros_gen.typesupport.plan.types import TypePlan
+
+
+DOUBLE_DECODERS = "microros/cdr_decode_double.h"
+"""The header of what reads a float64 where a double is no binary64."""
 
 
 @dataclass(frozen=True)
@@ -64,15 +69,21 @@ def render_decoders(type_plans: Sequence[TypePlan], environment: Environment) ->
 
 
 def _includes(plans: Iterable[TypePlan]) -> list[str]:
-    """Return the headers of the decoders that are called, besides the file's own."""
+    """Return the headers of the functions that are called, besides the file's own."""
     found = {
         include_path(decode_files(type_files(name))[0])
         for plan in plans
         if plan.decoder is not None
         for name in plan.decoder.calls
     }
+    if any(_converts_double(plan.decoder.steps) for plan in plans if plan.decoder is not None):
+        found.add(DOUBLE_DECODERS)
     own = {include_path(decode_files(plan.files)[0]) for plan in plans}
     return sorted(found - own)
+
+
+def _converts_double(steps: Iterable[DecodeStep]) -> bool:
+    return any(isinstance(step, (Converted, NumberSequence)) and step.form == DOUBLE for step in steps)
 
 
 def _decoder_view(plan: TypePlan) -> DecoderView:
@@ -96,15 +107,16 @@ def _number(width: int, number: Number) -> str:
     return _call(f"get_{width}", f"message->{number.member}", f"{number.count}U", number.member)
 
 
-def _bools(_owner: str, step: Bools) -> StepView:
+def _converted(_owner: str, step: Converted) -> StepView:
     address = "&" if step.count is None else ""
     count = 1 if step.count is None else step.count
-    return StepView((_call("get_bool", f"{address}message->{step.member}", f"{count}U", step.member),))
+    to = f"{address}message->{step.member}"
+    return StepView((_call(f"get_{step.form}", to, f"{count}U", step.member),))
 
 
 def _number_sequence(_owner: str, step: NumberSequence) -> StepView:
-    kind = "bool" if step.primitive is Primitive.BOOL else str(step.primitive.size)
-    call = _call(f"get_sequence_{kind}", f"&message->{step.member}", _bound(step.bound), step.member)
+    to = f"&message->{step.member}"
+    call = _call(f"get_sequence_{step.form}", to, _bound(step.bound), step.member)
     return StepView((call,))
 
 
@@ -158,7 +170,7 @@ def _nested(call: str, member: str, index: str) -> tuple[str, ...]:
 
 _VIEWS: Mapping[type, Callable[[str, Any], StepView]] = {
     Row: _row,
-    Bools: _bools,
+    Converted: _converted,
     NumberSequence: _number_sequence,
     Strings: _strings,
     Messages: _messages,

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.decode import decode_files
+from microros_gen.typesupport.plan.facts import DOUBLE
 from microros_gen.typesupport.plan.limits import LimitMember, limit_value
 from microros_gen.typesupport.plan.names import c_name, guard, include_path, type_files
 from microros_gen.typesupport.plan.own_limits import LimitSet
@@ -28,6 +29,10 @@ from microros_gen.typesupport.plan.steps import (
 from microros_gen.typesupport.plan.types import TypePlan
 from microros_gen.typesupport.views.largest import LargestSizes
 from microros_gen.typesupport.views.steps import StepView, StepViews, cdr_size, position
+
+
+DOUBLE_ENCODERS = "microros/cdr_double.h"
+"""The header of what writes a float64 where a double is no binary64."""
 
 
 @dataclass(frozen=True)
@@ -180,6 +185,8 @@ class _Builder:
             found.add("microros/cdr_sizes.h")
         for name in (*(self._plan.wire.calls if self._plan.wire else ()), *self._named):
             found.add(include_path(type_files(name).type_support))
+        if self._plan.wire is not None and any(map(_converts_double, self._plan.wire.steps)):
+            found.add(DOUBLE_ENCODERS)
         if self._plan.received:
             found.add(include_path(decode_files(self._plan.files)[0]))
         return tuple(sorted(found))
@@ -303,6 +310,10 @@ def _encode_head(name: str) -> str:
 
 def _size_head(name: str) -> str:
     return f"static uint32_t {name}__encoded_size(\n  const void * untyped, cdr_fault_t * fault)"
+
+
+def _converts_double(step: Step) -> bool:
+    return isinstance(step, (Leaf, Numbers)) and step.form == DOUBLE
 
 
 def _entities(own: LimitSet) -> str:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from microros_gen.interfaces.types import Primitive, TypeName
+from microros_gen.interfaces.types import TypeName
 from microros_gen.typesupport.plan.names import c_name
 from microros_gen.typesupport.plan.size import LENGTH_SIZE, TypeLimits
 from microros_gen.typesupport.plan.steps import (
@@ -83,12 +83,11 @@ class StepViews:
     def numbers(self, step: Numbers) -> StepView:
         """View of a sequence of numbers."""
         size = f"message->{step.member}.size"
-        suffix = "bool" if step.primitive is Primitive.BOOL else str(step.primitive.size)
         width = step.primitive.size
         return {
             "kind": "numbers",
             "check": _check(step.member, step.limit),
-            "put": f"cdr_put_sequence_{suffix}",
+            "put": f"cdr_put_sequence_{step.form}",
             "at": position(step.place),
             "data": f"message->{step.member}.data",
             "size": size,
@@ -212,11 +211,10 @@ def _start(step: Messages | Texts) -> str:
 
 def _put(leaf: Leaf) -> str:
     target = f"&body[{position(leaf.place)}], "
-    suffix = "bool" if leaf.primitive is Primitive.BOOL else str(leaf.primitive.size)
     if leaf.count is not None:
-        return f"cdr_put_array_{suffix}({target}message->{leaf.member}, {leaf.count}U)"
-    address = "" if leaf.primitive is Primitive.BOOL else "&"
-    return f"cdr_put_{suffix}({target}{address}message->{leaf.member})"
+        return f"cdr_put_array_{leaf.form}({target}message->{leaf.member}, {leaf.count}U)"
+    address = "&" if leaf.form.isdigit() else ""
+    return f"cdr_put_{leaf.form}({target}{address}message->{leaf.member})"
 
 
 def _limit(limit: Limit) -> str:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 from microros_gen.interfaces.types import TypeName
@@ -90,6 +91,9 @@ def storage_view(plan: TypePlan, plans: Mapping[TypeName, TypePlan]) -> StorageV
         for s in steps
         if isinstance(s, InitMessages) or (isinstance(s, BindMessages) and s.init)
     }
+    values = (v for s in steps if isinstance(s, BindNumbers) for v in s.defaults)
+    values = (*values, *(s.value for s in steps if isinstance(s, SetNumber)))
+    needs_math = any(isinstance(v, float) and not math.isfinite(v) for v in values)
     assertion = f"sizeof({plan.c_name}__Storage) == {cdr_size(plan.storage_sizes)}"
     return StorageView(
         guard=guard(plan.files.storage),
@@ -98,7 +102,7 @@ def storage_view(plan: TypePlan, plans: Mapping[TypeName, TypePlan]) -> StorageV
         storage_header=include_path(plan.files.storage),
         header_includes=tuple(sorted({include_path(plan.files.struct), *shared, *structs})),
         includes=tuple(sorted({*functions, "microros/cdr.h"})),
-        system_includes=("string.h",),
+        system_includes=("math.h", "string.h") if needs_math else ("string.h",),
         size_assertion=assertion,
         units=units,
     )

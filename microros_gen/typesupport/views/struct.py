@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterator, Mapping
 
 from microros_gen.interfaces.types import (
@@ -126,7 +127,7 @@ def struct_view(plan: TypePlan) -> StructView:
     """Return the view of the struct header."""
     message = plan.message
     values = [constant.value for constant in message.constants]
-    floating = any(isinstance(v, float) and (v != v or v in (float("inf"), -float("inf"))) for v in values)
+    floating = any(isinstance(v, float) and not math.isfinite(v) for v in values)
     return StructView(
         guard=guard(plan.files.struct),
         ros_name=str(plan.name),

@@ -45,7 +45,7 @@ extern "C" {
 
 CDR_STATIC_ASSERT(cdr_assert_byte_has_8_bits, UINT8_MAX == 255U);
 CDR_STATIC_ASSERT(cdr_assert_float_is_binary32, sizeof(float) == 4U);
-/* On AVR a double is a float; messages with float64 members are not generated for it. */
+/* On AVR a double is a float: microros/cdr_double.h. */
 CDR_STATIC_ASSERT(cdr_assert_double_is_binary64, (sizeof(double) == 8U) || (sizeof(void *) == 2U));
 CDR_STATIC_ASSERT(cdr_assert_character_has_16_bits, sizeof(uint_least16_t) == 2U);
 
