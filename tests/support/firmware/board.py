@@ -141,6 +141,7 @@ class Builds:
                 shutil.rmtree(home, ignore_errors=True)
                 home.mkdir()
                 for file, text in more_files:
+                    (home / file).parent.mkdir(parents=True, exist_ok=True)
                     (home / file).write_text(text)
                 if command == "generate":
                     generate(home, name, application)
