@@ -13,9 +13,9 @@
  * %s name, %d detail, %n found, %m fits; %t name, a DDS type, in ROS spelling, %D likewise for detail; %a
  * found, a status of the agent; %y key to change.
  */
-const char microros_error_transport[] = "no transport to " XRCE_PLACE_N;
-const char microros_error_agent_silent[] = "no agent answers at " XRCE_PLACE_N " within %m ms";
-const char microros_error_agent_refused[] = "the agent at " XRCE_PLACE_M " refuses the session: %a";
+const MICROROS_FLASH char microros_error_transport[] = "no transport to " XRCE_PLACE_N;
+const MICROROS_FLASH char microros_error_agent_silent[] = "no agent answers at " XRCE_PLACE_N " within %m ms";
+const MICROROS_FLASH char microros_error_agent_refused[] = "the agent at " XRCE_PLACE_M " refuses the session: %a";
 
 /* From status 0x80 on (OMG DDS-XRCE 1.0, 7.7.2). */
 static const char * const statuses[] = {"DDS_ERROR",         "MISMATCH",     "ALREADY_EXISTS", "DENIED",
@@ -101,7 +101,7 @@ void microros_error_set(
 
   microros_lock();
   text = error_begin(NULL, 0);
-  for (const char * at = error; *at != '\0'; ++at) {
+  for (microros_error_t at = error; *at != '\0'; ++at) {
     if (*at != '%') {
       text_put(&text, *at);
       continue;
@@ -155,7 +155,8 @@ int32_t microros_error_named(int32_t result, microros_error_t error, const char 
   return result;
 }
 
-int32_t microros_error_refuse(int32_t result, const char * argument)
+/* In parentheses, as it may be a macro, too. */
+int32_t(microros_error_refuse)(int32_t result, const char * argument)
 {
   return microros_error_named(result, microros_error_argument, argument);
 }
