@@ -15,6 +15,7 @@ from typing import Literal
 
 from microros_gen.image.attribution import Chunk
 from microros_gen.image.disassembly import Code, parse_disassembly
+from microros_gen.image.disassembly_avr import parse_avr
 from microros_gen.image.elf import THUMB, Elf
 from microros_gen.image.folder import Folder
 from microros_gen.image.pointers import Pointers, read_pointers
@@ -24,7 +25,11 @@ from microros_gen.toolchain.toolchain import run, sibling
 
 INDIRECT = "__indirect_call"
 TYPE_MEMBERS = ("encode", "encoded_size", "decode")
-_ARCHIVERS = {"EM_ARM": "arm-none-eabi-ar", "EM_RISCV": "riscv64-unknown-elf-ar"}
+AVR = "EM_AVR"
+"""Its compiler of Debian, gcc 5, writes no call graph: frames are those of the disassembly."""
+_AVR_ARCHITECTURE, _AVR_6 = 0x7F, 6
+"""Of e_flags (binutils, include/elf/avr.h): avr6 has a program counter of 22 bits."""
+_ARCHIVERS = {"EM_ARM": "arm-none-eabi-ar", "EM_RISCV": "riscv64-unknown-elf-ar", AVR: "avr-ar"}
 """Of an image whose tool chain nobody named."""
 ALLOCATOR_MEMBERS = ("allocate", "deallocate", "reallocate", "zero_allocate")
 
@@ -98,11 +103,15 @@ def build_call_graph(folder: Folder, image: Elf, chunks: Iterable[Chunk]) -> Cal
     functions = {p.address: p for p in chunks if p.function and p.symbol}
     frames = _frames(folder, functions.values())
     nodes = {address: _node(chunk, frames) for address, chunk in functions.items()}
-    for code in _disassembled(folder, image):
+    disassembled = _disassembled(folder, image)
+    for code in disassembled:
         _add_code(nodes, code, _is_external(image, code))
     pointers = read_pointers(folder, image, functions)
     _add_compiled(folder, nodes, functions, frames, _constructors(image), pointers)
-    return CallGraph(nodes, image.machine, bool(frames))
+    for code in disassembled:
+        for place in code.places:
+            _add_pointer(folder, nodes[code.address], f"{place}:0", functions, pointers)
+    return CallGraph(nodes, image.machine, bool(frames or (image.machine == AVR and disassembled)))
 
 
 def _frames(folder: Folder, functions: Iterable[Chunk]) -> Mapping[tuple[str, str], Frame]:
@@ -140,8 +149,13 @@ def _disassembled(folder: Folder, image: Elf) -> tuple[Code, ...]:
     program = sibling(archiver, "ar", "objdump")
     if program is None:
         return ()
-    result = run([program, "-d", "--no-show-raw-insn", str(image.path.resolve())], folder.path)
     extents = {s.address: s.size for s in image.symbols if s.function and s.size}
+    places = ["-l"] if image.machine == AVR else []
+    call = [program, "-d", "--no-show-raw-insn", *places, str(image.path.resolve())]
+    result = run(call, folder.path)
+    if image.machine == AVR:
+        wide = image.flags & _AVR_ARCHITECTURE == _AVR_6
+        return parse_avr(result.stdout, extents, wide) if result.returncode == 0 else ()
     return parse_disassembly(result.stdout, image.machine, extents) if result.returncode == 0 else ()
 
 
@@ -189,17 +203,36 @@ def _add_compiled(
             if to is not None:
                 nodes[address].calls.add(to)
         for place in frame.pointers:
-            member = _member(folder, place, pointers.members)
-            targets: frozenset[int] | None = _targets(member, functions)
-            if member and not targets:
-                targets = pointers.targets(member)
+            member, targets = _reached(folder, place, functions, pointers)
             if member is None and (chunk.source or "").startswith("src/port_"):
                 nodes[address].calls |= constructors
                 continue
-            nodes[address].calls |= targets or frozenset()
-            if targets is None or not member:
-                what = f"the callback {member}" if member else "a call through a pointer"
-                nodes[address].open.add(f"{chunk.symbol}: {what} ({place.rpartition(':')[0]})")
+            _add_targets(nodes[address], place, member, targets)
+
+
+def _add_pointer(
+    folder: Folder, node: Node, place: str, functions: Mapping[int, Chunk], pointers: Pointers
+) -> None:
+    """Add where a call through a pointer at `place` can go."""
+    _add_targets(node, place, *_reached(folder, place, functions, pointers))
+
+
+def _reached(
+    folder: Folder, place: str, functions: Mapping[int, Chunk], pointers: Pointers
+) -> tuple[str | None, frozenset[int] | None]:
+    """Return the member that a call goes through, and the functions that it can hold; None where nobody knows."""
+    member = _member(folder, place, pointers.members)
+    targets: frozenset[int] | None = _targets(member, functions)
+    if member and not targets:
+        targets = pointers.targets(member)
+    return member, targets
+
+
+def _add_targets(node: Node, place: str, member: str | None, targets: frozenset[int] | None) -> None:
+    node.calls |= targets or frozenset()
+    if targets is None or not member:
+        what = f"the callback {member}" if member else "a call through a pointer"
+        node.open.add(f"{node.name}: {what} ({place.rpartition(':')[0]})")
 
 
 def _constructors(image: Elf) -> frozenset[int]:

@@ -14,7 +14,10 @@ from dataclasses import dataclass, field
 
 @dataclass
 class Code:
-    """A function of the image. `calls` are addresses; `indirect`: it calls or jumps through a register."""
+    """A function of the image. `calls` are addresses; `indirect`: it calls or jumps through a register.
+
+    `places`: file and line of such calls, where they are known.
+    """
 
     name: str
     address: int
@@ -22,6 +25,7 @@ class Code:
     calls: set[int] = field(default_factory=set)
     indirect: bool = False
     dynamic: bool = False
+    places: list[str] = field(default_factory=list)
 
 
 _HEAD = re.compile(r"^([0-9a-f]+) <(.+)>:$")

@@ -27,11 +27,15 @@ _BRANCHES: Mapping[str, frozenset[int]] = {
     "EM_RISCV": frozenset({16, 17, 18, 19, 44, 45}),
     "EM_X86_64": frozenset({4}),
     "EM_386": frozenset({2, 4}),
+    "EM_AVR": frozenset({2, 3, 18}),
 }
+_AVR_WORDS = frozenset({24, 25})
+"""R_AVR_LO8_LDI_GS and HI8: the address of code. That of the own section is where __prologue_saves__ returns to."""
 _HOLDERS = ("DW_TAG_member", "DW_TAG_variable", "DW_TAG_formal_parameter")
 FOREIGN = ("application", "other library", "unknown")
 """Owners whose code is the user's."""
-_UNWINDING = (".eh_frame", ".ARM.ex", ".gcc_except_table")
+_UNWINDING = (".eh_frame", ".ARM.ex", ".gcc_except_table", ".progmem.gcc_sw_table")
+"""Sections that name parts of functions: for unwinding, and the tables of `switch`."""
 
 
 @dataclass(frozen=True)
@@ -119,6 +123,9 @@ def _names(item: Elf, section: Any, by_section: Mapping[int, list[str]]) -> Iter
         if relocation["r_info_type"] in branches:
             continue
         symbol = table.get_symbol(relocation["r_info_sym"])
+        is_own = symbol["st_shndx"] == section["sh_info"]
+        if is_own and item.machine == "EM_AVR" and relocation["r_info_type"] in _AVR_WORDS:
+            continue
         if symbol["st_info"]["type"] == "STT_SECTION" and isinstance(symbol["st_shndx"], int):
             yield from by_section.get(symbol["st_shndx"], ())
         else:

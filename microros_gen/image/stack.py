@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 
-from microros_gen.image.callgraph import CallGraph, Node
+from microros_gen.image.callgraph import AVR, CallGraph, Node
 from microros_gen.image.elf import THUMB, Elf
 from microros_gen.records import dataclass
 from microros_gen.toolchain.identity import CALL_GRAPH
@@ -19,6 +19,8 @@ _API = re.compile(r"^(rclc?|rmw|rcutils|micro_ros_utilities)_")
 _PLAN = re.compile(r"__plan_[0-9a-f]{16}$")
 _TRAP = re.compile(r"(trap_entry|trap_vector|_Handler|_handler|_isr|_ISR)$")
 _BARE = ("EM_ARM", "EM_RISCV")
+# avr-libc's names. An interrupt disables all others until it ends (AVR Instruction Set Manual, RETI).
+_AVR_VECTOR = re.compile(r"^__vector_[0-9]+$")
 # What the hardware pushes when an interrupt comes: 8 words, with the floating-point unit 26, and one to align
 # (Armv7-M Architecture Reference Manual, B1.5.7). RISC-V pushes nothing itself.
 _ARM_EXCEPTION, _ARM_EXCEPTION_FLOAT = 36, 108
@@ -50,7 +52,7 @@ class Bound:
 @dataclass(frozen=True)
 class StackReport:
     """`functions`: the public ones, heaviest first. `total` is main's (or the reset handler's) with every interrupt
-    on top of it once; `hardware` bytes of them are pushed at interrupts or lie below the stack pointer.
+    on top of it once (of an AVR the heaviest, as they do not nest); `hardware` bytes of them are pushed at interrupts or lie below the stack pointer.
 
     `known` is false where the compiler tells no frames: then there are no numbers.
     """
@@ -83,7 +85,8 @@ def stack_report(graph: CallGraph, image: Elf, public: Iterable[str]) -> StackRe
     functions = sorted((worst.bound(n, "function") for n in api), key=lambda b: (-b.bytes, b.name))
     hardware = _RED_ZONE.get(image.machine, 0) + _exception(image) * len(handlers)
     most = main.bytes if main else max((b.bytes for b in functions), default=0)
-    total = most + sum(b.bytes for b in handlers) + hardware
+    nested = max if image.machine == AVR else sum
+    total = most + nested([b.bytes for b in handlers] or [0]) + hardware
     return StackReport(True, "", total, main, handlers, tuple(functions), hardware)
 
 
@@ -106,6 +109,8 @@ def _start(graph: CallGraph, image: Elf) -> Node | None:
 
 def _handlers(graph: CallGraph, image: Elf) -> Iterator[Node]:
     """Yield the interrupt and fault handlers: those of the vector table (Cortex-M), or known by their names."""
+    if image.machine == AVR:
+        yield from (node for _, node in sorted(graph.nodes.items()) if _AVR_VECTOR.match(node.name))
     if image.machine not in _BARE or graph.nodes.get(image.entry & ~THUMB) is None:
         return
     vectors = _vectors(image)

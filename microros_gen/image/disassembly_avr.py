@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What `objdump -d -l` shows of each function of an AVR (AVR Instruction Set Manual; avr-gcc's ABI).
+
+The frame is the return address, everything that is pushed, and what is subtracted from the stack pointer, which is
+the pair of I/O registers 0x3e and 0x3d. With -mcall-prologues, `__prologue_saves__` of libgcc pushes and subtracts.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+
+from microros_gen.image.disassembly import Code
+from microros_gen.records import dataclass
+
+RETURN_ADDRESS = {True: 3, False: 2}
+"""Bytes that a call pushes, by whether the program counter has 22 bits (more than 128 KiB of flash)."""
+
+_HEAD = re.compile(r"^([0-9a-f]+) <(.+)>:$")
+_LINE = re.compile(r"^\s*([0-9a-f]+):\t(\w+)\s*([^;]*)(?:;.*)?$")
+_TARGET = re.compile(r"; 0x([0-9a-f]+) <([^>+]+)(?:\+0x([0-9a-f]+))?>")
+_PLACE = re.compile(r"^(\S.*:[0-9]+)(?: \(discriminator [0-9]+\))?$")
+_ENDS = ("ret", "reti", "jmp", "rjmp", "ijmp", "eijmp")
+_INDIRECT = ("icall", "eicall", "ijmp", "eijmp")
+_SAVES, _RESTORES, _SWITCH = "__prologue_saves__", "__epilogue_restores__", "__tablejump2__"
+_SAVED = 18
+"""Registers that __prologue_saves__ pushes from its beginning, with instructions of 2 bytes: r2 to r17, r28, r29."""
+
+
+@dataclass(frozen=True)
+class _Instruction:
+    address: int
+    mnemonic: str
+    operands: tuple[str, ...]
+    target: int | None
+    label: str
+    offset: int
+    place: str
+
+
+def parse_avr(text: str, extents: Mapping[int, int], wide: bool) -> tuple[Code, ...]:
+    """Return every function of the output of `objdump -d -l --no-show-raw-insn`, in its order.
+
+    `extents` are the sizes of functions by address; what has none (assembly of libraries) goes on to the next label
+    that it does not run into. `wide`: the program counter has 22 bits.
+    """
+    found = [_function(name, lines, RETURN_ADDRESS[wide]) for name, lines in _functions(text, extents) if lines]
+    starts = {code.address for code, _ in found}
+    ends = {code.address: end for code, end in found}
+    for code, _ in found:
+        code.calls = {_containing(to, starts, ends) for to in code.calls}
+    return tuple(code for code, _ in found)
+
+
+def _containing(address: int, starts: set[int], ends: Mapping[int, int]) -> int:
+    """Return the function that an address is in: labels of libraries are called, too."""
+    if address in starts:
+        return address
+    return next((start for start in starts if start < address <= ends[start]), address)
+
+
+def _functions(text: str, extents: Mapping[int, int]) -> Iterator[tuple[str, list[_Instruction]]]:
+    name, lines, place = "", list[_Instruction](), ""
+    for line in text.splitlines():
+        head, here = _HEAD.match(line), _PLACE.match(line)
+        if head:
+            if not _goes_on(lines, int(head[1], 16), extents):
+                yield name, lines
+                name, lines = head[2], []
+        elif here:
+            place = here[1]
+        elif match := _LINE.match(line):
+            lines.append(_instruction(line, match, place))
+    yield name, lines
+
+
+def _goes_on(lines: list[_Instruction], address: int, extents: Mapping[int, int]) -> bool:
+    """Return whether the function of `lines` has not ended before `address`."""
+    if not lines:
+        return False
+    size = extents.get(lines[0].address, 0)
+    return address < lines[0].address + size if size else (
+        address not in extents and lines[-1].mnemonic not in _ENDS
+    )
+
+
+def _instruction(line: str, match: re.Match[str], place: str) -> _Instruction:
+    target = _TARGET.search(line)
+    return _Instruction(
+        address=int(match[1], 16),
+        mnemonic=match[2],
+        operands=tuple(part.strip() for part in match[3].split(",")),
+        target=int(target[1], 16) if target else None,
+        label=target[2] if target else "",
+        offset=int(target[3] or "0", 16) if target else 0,
+        place=place,
+    )
+
+
+def _function(name: str, lines: list[_Instruction], word: int) -> tuple[Code, int]:
+    """Return a function and its last address."""
+    begin, end = lines[0].address, lines[-1].address
+    code = Code(name, begin, word)
+    frame = _Frame()
+    for instruction in lines:
+        frame.see(instruction, word)
+        if instruction.mnemonic in _INDIRECT:
+            code.places.append(instruction.place)
+        elif instruction.label == _SWITCH and instruction.mnemonic in ("call", "rcall"):
+            code.indirect = True
+        elif _leaves(instruction, begin, end):
+            code.calls.add(int(instruction.target or 0))
+    code.frame += frame.bytes
+    code.dynamic = frame.is_dynamic
+    return code, end
+
+
+def _leaves(instruction: _Instruction, begin: int, end: int) -> bool:
+    """Return whether it calls or jumps to another function. A `switch` jumps back by a table."""
+    if instruction.target is None or instruction.label in (_SAVES, _RESTORES, _SWITCH):
+        return False
+    if instruction.mnemonic not in ("call", "rcall", "jmp", "rjmp") and not instruction.mnemonic.startswith("br"):
+        return False
+    is_call = instruction.mnemonic in ("call", "rcall") and not _reserves(instruction)
+    return not begin <= instruction.target <= end or (is_call and instruction.target == begin)
+
+
+def _reserves(instruction: _Instruction) -> bool:
+    """Return whether it is a call of the next instruction, which the compiler uses to move the stack pointer."""
+    return instruction.mnemonic == "rcall" and instruction.operands[0] == ".+0"
+
+
+class _Frame:
+    """Adds up by how much the instructions of one function lower the stack pointer, in their order."""
+
+    def __init__(self) -> None:
+        self.bytes = 0
+        self.is_dynamic = False
+        self._loaded: dict[str, int] = {}
+        self._copies: dict[str, int | None] = {}
+        """How far a copy of the stack pointer was lowered, by its low register; None: nobody can say."""
+
+    def see(self, instruction: _Instruction, word: int) -> None:
+        """Take the next instruction; a call pushes `word` bytes."""
+        mnemonic, operands = instruction.mnemonic, instruction.operands
+        if mnemonic == "push":
+            self.bytes += 1
+        elif _reserves(instruction):
+            self.bytes += word
+        elif instruction.label == _SAVES:
+            self.bytes += _SAVED - instruction.offset // 2
+            self.bytes += self._loaded.get("r26", 0) | self._loaded.get("r27", 0) << 8
+        elif mnemonic == "ldi":
+            self._loaded[operands[0]] = int(operands[1], 16)
+        elif mnemonic == "in" and operands[1] == "0x3d":
+            self._copies[operands[0]] = 0
+        elif mnemonic == "out" and operands[0] == "0x3d":
+            self._moved(operands[1])
+        else:
+            self._changed(mnemonic, operands)
+
+    def _moved(self, register: str) -> None:
+        lowered = self._copies.pop(register, 0 if register == "r28" else None)
+        if lowered is None:
+            self.is_dynamic = True
+        else:
+            self.bytes += max(lowered, 0)
+
+    def _changed(self, mnemonic: str, operands: tuple[str, ...]) -> None:
+        low = operands[0]
+        high = f"r{int(low[1:]) - 1}" if re.fullmatch(r"r[0-9]+", low) else ""
+        if mnemonic in ("sbiw", "subi") and low in self._copies:
+            self._lower(low, int(operands[1], 16))
+        elif mnemonic == "sbci" and high in self._copies:
+            value = int(operands[1], 16) << 8
+            self._lower(high, value - 0x10000 if value & 0x8000 else value)
+        elif mnemonic == "adiw" and low in self._copies:
+            self._lower(low, -int(operands[1], 16))
+        elif mnemonic in ("sub", "sbc", "add", "adc", "mov", "movw", "ldd", "ld", "pop"):
+            for register in (low, high):
+                if register in self._copies:
+                    self._copies[register] = None
+
+    def _lower(self, register: str, by: int) -> None:
+        lowered = self._copies[register]
+        self._copies[register] = None if lowered is None else lowered + by
