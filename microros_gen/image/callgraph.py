@@ -16,6 +16,7 @@ from typing import Literal
 from microros_gen.image.attribution import Chunk
 from microros_gen.image.disassembly import Code, parse_disassembly
 from microros_gen.image.disassembly_avr import parse_avr
+from microros_gen.image.dwarf import source_places
 from microros_gen.image.elf import THUMB, Elf
 from microros_gen.image.folder import Folder
 from microros_gen.image.pointers import Pointers, read_pointers
@@ -103,14 +104,16 @@ def build_call_graph(folder: Folder, image: Elf, chunks: Iterable[Chunk]) -> Cal
     functions = {p.address: p for p in chunks if p.function and p.symbol}
     frames = _frames(folder, functions.values())
     nodes = {address: _node(chunk, frames) for address, chunk in functions.items()}
-    disassembled = _disassembled(folder, image)
+    disassembled = _disassembled(folder, image, functions)
     for code in disassembled:
         _add_code(nodes, code, _is_external(image, code))
     pointers = read_pointers(folder, image, functions)
     _add_compiled(folder, nodes, functions, frames, _constructors(image), pointers)
+    places = source_places(image, [at for code in disassembled for at in code.pointers])
     for code in disassembled:
-        for place in code.places:
-            _add_pointer(folder, nodes[code.address], f"{place}:0", functions, pointers)
+        for address in code.pointers:
+            place = places.get(address, f"{address:#x}")
+            _add_targets(nodes[code.address], place, *_reached(folder, place, functions, pointers))
     return CallGraph(nodes, image.machine, bool(frames or (image.machine == AVR and disassembled)))
 
 
@@ -144,16 +147,16 @@ def _file(chunk: Chunk) -> str:
     return (chunk.source or "the application").rpartition("/")[2]
 
 
-def _disassembled(folder: Folder, image: Elf) -> tuple[Code, ...]:
+def _disassembled(folder: Folder, image: Elf, functions: Mapping[int, Chunk]) -> tuple[Code, ...]:
     archiver = str(folder.tools.get("archiver") or _ARCHIVERS.get(image.machine, "ar"))
     program = sibling(archiver, "ar", "objdump")
     if program is None:
         return ()
     extents = {s.address: s.size for s in image.symbols if s.function and s.size}
-    places = ["-l"] if image.machine == AVR else []
-    call = [program, "-d", "--no-show-raw-insn", *places, str(image.path.resolve())]
-    result = run(call, folder.path)
+    result = run([program, "-d", "--no-show-raw-insn", str(image.path.resolve())], folder.path)
     if image.machine == AVR:
+        of_libraries = {a for a, p in functions.items() if p.owner.group in ("compiler", "C library")}
+        extents = {address: size for address, size in extents.items() if address not in of_libraries}
         wide = image.flags & _AVR_ARCHITECTURE == _AVR_6
         return parse_avr(result.stdout, extents, wide) if result.returncode == 0 else ()
     return parse_disassembly(result.stdout, image.machine, extents) if result.returncode == 0 else ()
@@ -203,6 +206,7 @@ def _add_compiled(
             if to is not None:
                 nodes[address].calls.add(to)
         for place in frame.pointers:
+            place = place.rpartition(":")[0]
             member, targets = _reached(folder, place, functions, pointers)
             if member is None and (chunk.source or "").startswith("src/port_"):
                 nodes[address].calls |= constructors
@@ -210,17 +214,10 @@ def _add_compiled(
             _add_targets(nodes[address], place, member, targets)
 
 
-def _add_pointer(
-    folder: Folder, node: Node, place: str, functions: Mapping[int, Chunk], pointers: Pointers
-) -> None:
-    """Add where a call through a pointer at `place` can go."""
-    _add_targets(node, place, *_reached(folder, place, functions, pointers))
-
-
 def _reached(
     folder: Folder, place: str, functions: Mapping[int, Chunk], pointers: Pointers
 ) -> tuple[str | None, frozenset[int] | None]:
-    """Return the member that a call goes through, and the functions that it can hold; None where nobody knows."""
+    """Return the member that a call at `file:line` goes through, and the functions that it can hold; None where nobody knows."""
     member = _member(folder, place, pointers.members)
     targets: frozenset[int] | None = _targets(member, functions)
     if member and not targets:
@@ -232,7 +229,7 @@ def _add_targets(node: Node, place: str, member: str | None, targets: frozenset[
     node.calls |= targets or frozenset()
     if targets is None or not member:
         what = f"the callback {member}" if member else "a call through a pointer"
-        node.open.add(f"{node.name}: {what} ({place.rpartition(':')[0]})")
+        node.open.add(f"{node.name}: {what} ({place})")
 
 
 def _constructors(image: Elf) -> frozenset[int]:
@@ -255,10 +252,10 @@ def _targets(member: str | None, functions: Mapping[int, Chunk]) -> frozenset[in
 
 
 def _member(folder: Folder, place: str, pointers: Container[str]) -> str | None:
-    """Return the member, or the variable among `pointers`, that a call at `file:line:column` goes through."""
-    name, line, _ = place.rsplit(":", 2)
+    """Return the member, or the variable among `pointers`, that a call at `file:line` goes through."""
+    name, _, line = place.rpartition(":")
     lines = _lines_of(folder, name)
-    text = lines[int(line) - 1] if int(line) <= len(lines) else ""
+    text = lines[int(line) - 1] if line.isdigit() and int(line) <= len(lines) else ""
     found = re.findall(r"(?:->|\.)(\w+)\s*\(", text)
     known = [m for m in found if m in (*TYPE_MEMBERS, *ALLOCATOR_MEMBERS)]
     if not found:

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 class Code:
     """A function of the image. `calls` are addresses; `indirect`: it calls or jumps through a register.
 
-    `places`: file and line of such calls, where they are known.
+    `pointers`: addresses of such calls, where each is to be looked at.
     """
 
     name: str
@@ -25,7 +25,7 @@ class Code:
     calls: set[int] = field(default_factory=set)
     indirect: bool = False
     dynamic: bool = False
-    places: list[str] = field(default_factory=list)
+    pointers: list[int] = field(default_factory=list)
 
 
 _HEAD = re.compile(r"^([0-9a-f]+) <(.+)>:$")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What `objdump -d -l` shows of each function of an AVR (AVR Instruction Set Manual; avr-gcc's ABI).
+"""What `objdump -d` shows of each function of an AVR (AVR Instruction Set Manual; avr-gcc's ABI).
 
 The frame is the return address, everything that is pushed, and what is subtracted from the stack pointer, which is
 the pair of I/O registers 0x3e and 0x3d. With -mcall-prologues, `__prologue_saves__` of libgcc pushes and subtracts.
@@ -19,10 +19,11 @@ RETURN_ADDRESS = {True: 3, False: 2}
 _HEAD = re.compile(r"^([0-9a-f]+) <(.+)>:$")
 _LINE = re.compile(r"^\s*([0-9a-f]+):\t(\w+)\s*([^;]*)(?:;.*)?$")
 _TARGET = re.compile(r"; 0x([0-9a-f]+) <([^>+]+)(?:\+0x([0-9a-f]+))?>")
-_PLACE = re.compile(r"^(\S.*:[0-9]+)(?: \(discriminator [0-9]+\))?$")
 _ENDS = ("ret", "reti", "jmp", "rjmp", "ijmp", "eijmp")
 _INDIRECT = ("icall", "eicall", "ijmp", "eijmp")
 _SAVES, _RESTORES, _SWITCH = "__prologue_saves__", "__epilogue_restores__", "__tablejump2__"
+_ZERO = "r1"
+"""The register that is always 0 between statements."""
 _SAVED = 18
 """Registers that __prologue_saves__ pushes from its beginning, with instructions of 2 bytes: r2 to r17, r28, r29."""
 
@@ -35,42 +36,68 @@ class _Instruction:
     target: int | None
     label: str
     offset: int
-    place: str
 
 
 def parse_avr(text: str, extents: Mapping[int, int], wide: bool) -> tuple[Code, ...]:
-    """Return every function of the output of `objdump -d -l --no-show-raw-insn`, in its order.
+    """Return every function of the output of `objdump -d --no-show-raw-insn`, in its order.
 
-    `extents` are the sizes of functions by address; what has none (assembly of libraries) goes on to the next label
-    that it does not run into. `wide`: the program counter has 22 bits.
+    `extents` are the sizes of functions by address; what has none, assembly of libraries, ends where nothing goes on
+    to the next instruction, so that a function has several parts. `wide`: the program counter has 22 bits.
     """
-    found = [_function(name, lines, RETURN_ADDRESS[wide]) for name, lines in _functions(text, extents) if lines]
-    starts = {code.address for code, _ in found}
-    ends = {code.address: end for code, end in found}
-    for code, _ in found:
-        code.calls = {_containing(to, starts, ends) for to in code.calls}
-    return tuple(code for code, _ in found)
+    word = RETURN_ADDRESS[wide]
+    found = [_function(name, lines, word) for name, lines in _functions(text, extents) if lines]
+    ends = {code.address: end for code, end, _ in found}
+    jumps: dict[int, set[int]] = {}
+    for code, _, to in found:
+        code.calls = {_containing(address, ends) for address in code.calls}
+        jumps[code.address] = {_containing(address, ends) for address in to}
+        if code.address in extents:
+            code.calls |= jumps.pop(code.address)
+    _join(tuple(code for code, _, _ in found), jumps, word)
+    return tuple(code for code, _, _ in found)
 
 
-def _containing(address: int, starts: set[int], ends: Mapping[int, int]) -> int:
+def _join(codes: tuple[Code, ...], jumps: Mapping[int, set[int]], word: int) -> None:
+    """Give each part of a library's function what the parts that it can jump to push and call: they are in its frame."""
+    by_address = {code.address: code for code in codes}
+    frames = {code.address: code.frame - word for code in codes}
+    calls = {code.address: frozenset(code.calls) for code in codes}
+    for begin in jumps:
+        code, reached, waiting = by_address[begin], {begin}, [begin]
+        while waiting:
+            for to in jumps.get(waiting.pop(), set()) - reached:
+                if to in jumps:
+                    reached.add(to)
+                    waiting.append(to)
+                else:
+                    code.calls.add(to)
+        for other in reached - {begin}:
+            code.frame += frames[other]
+            code.calls |= calls[other]
+            code.indirect |= by_address[other].indirect
+            code.dynamic |= by_address[other].dynamic
+
+
+def _containing(address: int, ends: Mapping[int, int]) -> int:
     """Return the function that an address is in: labels of libraries are called, too."""
-    if address in starts:
+    if address in ends:
         return address
-    return next((start for start in starts if start < address <= ends[start]), address)
+    return next((start for start, end in ends.items() if start < address <= end), address)
 
 
 def _functions(text: str, extents: Mapping[int, int]) -> Iterator[tuple[str, list[_Instruction]]]:
-    name, lines, place = "", list[_Instruction](), ""
+    name, lines = "", list[_Instruction]()
     for line in text.splitlines():
-        head, here = _HEAD.match(line), _PLACE.match(line)
+        head = _HEAD.match(line)
         if head:
             if not _goes_on(lines, int(head[1], 16), extents):
                 yield name, lines
                 name, lines = head[2], []
-        elif here:
-            place = here[1]
         elif match := _LINE.match(line):
-            lines.append(_instruction(line, match, place))
+            if lines and lines[0].address not in extents and lines[-1].mnemonic in _ENDS:
+                yield name, lines
+                lines = []
+            lines.append(_instruction(line, match))
     yield name, lines
 
 
@@ -84,7 +111,7 @@ def _goes_on(lines: list[_Instruction], address: int, extents: Mapping[int, int]
     )
 
 
-def _instruction(line: str, match: re.Match[str], place: str) -> _Instruction:
+def _instruction(line: str, match: re.Match[str]) -> _Instruction:
     target = _TARGET.search(line)
     return _Instruction(
         address=int(match[1], 16),
@@ -93,26 +120,26 @@ def _instruction(line: str, match: re.Match[str], place: str) -> _Instruction:
         target=int(target[1], 16) if target else None,
         label=target[2] if target else "",
         offset=int(target[3] or "0", 16) if target else 0,
-        place=place,
     )
 
 
-def _function(name: str, lines: list[_Instruction], word: int) -> tuple[Code, int]:
-    """Return a function and its last address."""
+def _function(name: str, lines: list[_Instruction], word: int) -> tuple[Code, int, set[int]]:
+    """Return a function, its last address, and where it jumps."""
     begin, end = lines[0].address, lines[-1].address
     code = Code(name, begin, word)
-    frame = _Frame()
+    frame, jumps = _Frame(), set[int]()
     for instruction in lines:
         frame.see(instruction, word)
         if instruction.mnemonic in _INDIRECT:
-            code.places.append(instruction.place)
+            code.pointers.append(instruction.address)
         elif instruction.label == _SWITCH and instruction.mnemonic in ("call", "rcall"):
             code.indirect = True
         elif _leaves(instruction, begin, end):
-            code.calls.add(int(instruction.target or 0))
+            calls = code.calls if instruction.mnemonic in ("call", "rcall") else jumps
+            calls.add(int(instruction.target or 0))
     code.frame += frame.bytes
     code.dynamic = frame.is_dynamic
-    return code, end
+    return code, end, jumps
 
 
 def _leaves(instruction: _Instruction, begin: int, end: int) -> bool:
@@ -176,7 +203,7 @@ class _Frame:
             self._lower(high, value - 0x10000 if value & 0x8000 else value)
         elif mnemonic == "adiw" and low in self._copies:
             self._lower(low, -int(operands[1], 16))
-        elif mnemonic in ("sub", "sbc", "add", "adc", "mov", "movw", "ldd", "ld", "pop"):
+        elif mnemonic in ("sub", "sbc", "add", "adc", "mov", "movw", "ldd", "ld", "pop") and operands[-1] != _ZERO:
             for register in (low, high):
                 if register in self._copies:
                     self._copies[register] = None
