@@ -41,11 +41,15 @@ class _Instruction:
 def parse_avr(text: str, extents: Mapping[int, int], wide: bool) -> tuple[Code, ...]:
     """Return every function of the output of `objdump -d --no-show-raw-insn`, in its order.
 
-    `extents` are the sizes of functions by address; what has none, assembly of libraries, ends where nothing goes on
-    to the next instruction, so that a function has several parts. `wide`: the program counter has 22 bits.
+    `extents` are the sizes of functions by address. What has none, assembly of libraries, is taken apart at each
+    address that something goes to, as such functions share their ends. `wide`: the program counter has 22 bits.
     """
     word = RETURN_ADDRESS[wide]
-    found = [_function(name, lines, word) for name, lines in _functions(text, extents) if lines]
+    found = []
+    for name, lines, after in _functions(text, extents):
+        found.append(_function(name, lines, word))
+        if lines[0].address not in extents and lines[-1].mnemonic not in _ENDS:
+            found[-1][2].add(after)
     ends = {code.address: end for code, end, _ in found}
     jumps: dict[int, set[int]] = {}
     for code, _, to in found:
@@ -85,30 +89,30 @@ def _containing(address: int, ends: Mapping[int, int]) -> int:
     return next((start for start, end in ends.items() if start < address <= end), address)
 
 
-def _functions(text: str, extents: Mapping[int, int]) -> Iterator[tuple[str, list[_Instruction]]]:
+def _functions(
+    text: str, extents: Mapping[int, int]
+) -> Iterator[tuple[str, list[_Instruction], int]]:
+    """Yield each function, or part of a library's, and the address after it."""
     name, lines = "", list[_Instruction]()
+    targets = {int(match[1], 16) for match in _TARGET.finditer(text)}
     for line in text.splitlines():
-        head = _HEAD.match(line)
-        if head:
-            if not _goes_on(lines, int(head[1], 16), extents):
-                yield name, lines
-                name, lines = head[2], []
-        elif match := _LINE.match(line):
-            if lines and lines[0].address not in extents and lines[-1].mnemonic in _ENDS:
-                yield name, lines
-                lines = []
+        head, match = _HEAD.match(line), _LINE.match(line)
+        found = head or match
+        if found is None:
+            continue
+        address = int(found[1], 16)
+        begin = lines[0].address if lines else address
+        is_within = address < begin + extents.get(begin, 0)
+        is_part = address in targets or (bool(lines) and lines[-1].mnemonic in _ENDS)
+        if lines and not is_within and (head or is_part):
+            yield name, lines, address
+            lines = []
+        if head and not lines:
+            name = head[2]
+        if match:
             lines.append(_instruction(line, match))
-    yield name, lines
-
-
-def _goes_on(lines: list[_Instruction], address: int, extents: Mapping[int, int]) -> bool:
-    """Return whether the function of `lines` has not ended before `address`."""
-    if not lines:
-        return False
-    size = extents.get(lines[0].address, 0)
-    return address < lines[0].address + size if size else (
-        address not in extents and lines[-1].mnemonic not in _ENDS
-    )
+    if lines:
+        yield name, lines, 0
 
 
 def _instruction(line: str, match: re.Match[str]) -> _Instruction:

@@ -3,40 +3,29 @@
 
 from __future__ import annotations
 
+import re
 import time
 from pathlib import Path
 
 import pytest
 
 from tests.support.agent.observer import Observer
-from tests.support.firmware.avr import UNO, flash_and_ram, linked, simulated
+from tests.support.firmware.avr import (
+    ANSWERS,
+    EXCHANGES,
+    MEGA,
+    READS,
+    SENDS,
+    UNO,
+    bounded,
+    flash_and_ram,
+    linked,
+    simulated,
+)
 from tests.support.firmware.board import Builds, build, need
 from tests.support.firmware.running import started
 from tests.support.patience import deadline
 
-SENDS = """\
-version: 1
-profiles: [pure_sender]
-errors: code
-liveliness: none
-session: {key: 1}
-nodes:
-  - name: uno
-    publishers: [{topic: count, type: std_msgs/msg/Int32, qos: {reliability: best_effort}}]
-"""
-EXCHANGES = """\
-version: 1
-profiles: [pure_sender, pure_reader]
-components: [+executor, +timers]
-errors: code
-# a busy test machine
-session: {key: 2, connect_timeout: 20 s, create_timeout: 20 s}
-nodes:
-  - name: uno
-    publishers: [{topic: count, type: std_msgs/msg/Int32}]
-    subscriptions: [{topic: led, type: std_msgs/msg/Int16}]
-    timers: [{name: report, period: 100 ms}]
-"""
 FLASH, RAM = 32 * 1024, 2048
 
 
@@ -49,13 +38,67 @@ def test_what_a_sender_takes(builds: Builds) -> None:
     assert ram <= 810
 
 
+def test_texts_of_errors_stay_in_flash(builds: Builds) -> None:
+    """An Uno has room for them: each object of the library's texts lies below the code."""
+    need(UNO)
+    built = builds.build(UNO, SENDS.replace("errors: code", "errors: text"))
+    flash, ram = flash_and_ram(built, built.image)
+    assert flash <= 15_000
+    assert ram <= 1310
+    names = [name for name in built.symbols() if name.startswith("microros_error_")]
+    assert len(names) > 20
+    assert all(built.symbols()[name] < FLASH for name in names)
+    assert ram + bounded(built, built.image)[0] < RAM
+
+
 @pytest.mark.system
 def test_too_many_variables_are_an_error_with_a_remedy(tmp_path: Path) -> None:
-    """The profile alone, with texts of errors: avr-gcc has constants in RAM."""
+    """With all places of a session and texts of errors."""
     need(UNO)
-    done = build(tmp_path, UNO)
+    done = build(tmp_path, UNO, EXCHANGES.replace("errors: code", "errors: text"))
     assert done.returncode == 1
     assert "The variables take more than the target's RAM: `errors: code` leaves out" in done.stderr
+
+
+@pytest.mark.system
+@pytest.mark.parametrize("name", [UNO, MEGA])
+@pytest.mark.parametrize("application", [SENDS, READS, EXCHANGES], ids=["sends", "reads", "exchanges"])
+def test_the_stack_has_a_bound(builds: Builds, name: str, application: str) -> None:
+    """The generated example: what its callbacks are is known, so that nothing is left out."""
+    need(name)
+    built = builds.build(name, application)
+    bound, left_out = bounded(built, built.image)
+    assert left_out == []
+    assert 250 < bound < 700
+
+
+def test_a_budget_of_the_stack(tmp_path: Path) -> None:
+    need(UNO)
+    done = build(tmp_path, UNO, f"{SENDS}memory: {{stack: 100}}\n")
+    assert done.returncode == 1
+    assert re.search(r"worst stack from main with 3 interrupt handler\(s\) on top: [0-9]+ bytes", done.stderr)
+
+
+@pytest.mark.ros
+def test_a_server_of_set_bool(builds: Builds, observer: Observer, domain: int) -> None:
+    """A Mega answers requests; the stack stays below its bound."""
+    built = builds.build(MEGA, ANSWERS)
+    image = linked(builds, built, "setbool.c")
+    with simulated(builds, built, image) as board:
+        with started("agent", "serial", "--dev", board.device, "--domain", str(domain), domain=domain) as agent:
+            agent.wait_for("agent ready")
+            for data in (True, False):
+                observer.ask(do="set_bool", service="/set_bool", data=data)
+                _answered(observer, data)
+        touched = board.touched_stack()
+    assert touched <= bounded(built, image)[0]
+
+
+def _answered(observer: Observer, data: bool) -> None:
+    end = deadline(60)
+    while observer.ask(do="answers") != [[data, "ok"]]:
+        assert time.monotonic() < end, "no answer"
+        time.sleep(0.1)
 
 
 @pytest.mark.ros
@@ -73,7 +116,11 @@ def test_samples_of_both_directions(builds: Builds, observer: Observer, domain: 
             with started(*serial, domain=domain) as agent:
                 agent.wait_for("agent ready")
                 _published_until_heard(observer, number)
-        assert ram + board.touched_stack() < RAM
+        touched = board.touched_stack()
+    bound, left_out = bounded(built, image)
+    assert touched <= bound
+    assert [name for name in left_out if "callback" not in name] == []
+    assert ram + bound < RAM
 
 
 def _published_until_heard(observer: Observer, number: int) -> None:

@@ -110,7 +110,7 @@ def plan_board(
         )
     uart = target.uart if driver not in ("none", OWN_DRIVER) else None
     if target.cpu.starts_itself:
-        _check_no_stack(application, target, diagnostics)
+        _check_stack(application.memory.stack or 0, application, target, diagnostics)
         return BoardPlan(
             ring_size=ring_size(runtime),
             output_size=runtime.transport.send_buffer,
@@ -274,20 +274,15 @@ def _stdio_divisor(
     return found.divisor
 
 
-def _check_no_stack(application: Application, target: Target, diagnostics: Diagnostics) -> None:
-    if application.memory.stack is not None:
-        diagnostics.error(
-            f"'memory.stack' has no effect: on {target.name} the stack is what remains of RAM",
-            application.memory.stack_span or application.target.span,
-            "Remove it; `memory: {ram_budget: …}` leaves room for the stack",
-            id="MG-7034",
-        )
-
-
 def _stack_size(application: Application, target: Target, diagnostics: Diagnostics) -> int:
     requested = application.memory.stack
     size = DEFAULT_STACK if requested is None else requested
     size = (size + _STACK_ALIGNMENT - 1) // _STACK_ALIGNMENT * _STACK_ALIGNMENT
+    _check_stack(size, application, target, diagnostics)
+    return size
+
+
+def _check_stack(size: int, application: Application, target: Target, diagnostics: Diagnostics) -> None:
     region = target.stack_region
     assert region is not None
     if size > region.size or (region is target.ram and size == region.size):
@@ -297,7 +292,6 @@ def _stack_size(application: Application, target: Target, diagnostics: Diagnosti
             "Lower memory.stack",
             id="MG-7009",
         )
-    return size
 
 
 def _divisor(uart: Uart, target: Target, application: Application, diagnostics: Diagnostics) -> int:

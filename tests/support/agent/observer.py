@@ -18,6 +18,8 @@
 {"do": "add", "service": "/sum"}                   serves example_interfaces/srv/AddTwoInts; with "ends": no more
 {"do": "ask_sums", "service": "/sum", "pairs": [[1, 2]]}   calls it at once, when it is there
 {"do": "sums"}     what these calls gave, or null
+{"do": "set_bool", "service": "/s", "data": true}  calls std_srvs/srv/SetBool once, when it is there
+{"do": "answers"}  what this call gave, success and message; empty: nothing yet
 {"do": "graph"}    nodes, topics with types, and publishers with their QoS
 {"do": "endpoints", "topic": "/a"}                publishers and subscriptions with QoS and type hash
 {"do": "node", "node": "n", "namespace": "/"}     services and clients of a node
@@ -306,6 +308,17 @@ class _Peer:
         assert client.wait_for_service(30)
         self._calls = [client.call_async(AddTwoInts.Request(a=a, b=b)) for a, b in pairs]
         return True
+
+    def set_bool(self, service: str, data: bool) -> bool:
+        from std_srvs.srv import SetBool
+
+        client = self._node.create_client(SetBool, service)
+        assert client.wait_for_service(30)
+        self._calls = [client.call_async(SetBool.Request(data=data))]
+        return True
+
+    def answers(self) -> list[Any]:
+        return [[call.result().success, call.result().message] for call in self._calls if call.done()]
 
     def sums(self) -> list[Any]:
         return [call.result().sum if call.done() else None for call in self._calls]

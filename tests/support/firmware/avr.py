@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
 import signal
 import subprocess
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,9 +17,41 @@ from pathlib import Path
 import pytest
 
 from tests.support.firmware.board import C_FILES, Builds, Built, check
+from tests.support.firmware.footprint import SERVES
 from tests.support.patience import seconds
 
 UNO, MEGA = "arduino-uno", "arduino-mega"
+SENDS = """\
+version: 1
+profiles: [pure_sender]
+errors: code
+liveliness: none
+session: {key: 1}
+nodes:
+  - name: uno
+    publishers: [{topic: count, type: std_msgs/msg/Int32, qos: {reliability: best_effort}}]
+"""
+READS = """\
+version: 1
+profiles: [pure_reader]
+errors: code
+session: {key: 1}
+nodes: [{name: uno, subscriptions: [{topic: count, type: std_msgs/msg/Int32}]}]
+"""
+EXCHANGES = """\
+version: 1
+profiles: [pure_sender, pure_reader]
+components: [+executor, +timers]
+errors: code
+# a busy test machine
+session: {key: 2, connect_timeout: 20 s, create_timeout: 20 s}
+nodes:
+  - name: uno
+    publishers: [{topic: count, type: std_msgs/msg/Int32}]
+    subscriptions: [{topic: led, type: std_msgs/msg/Int16}]
+    timers: [{name: report, period: 100 ms}]
+"""
+ANSWERS = f"{SERVES}session: {{key: 5, connect_timeout: 20 s, create_timeout: 20 s}}\n"
 _CLOCK_HZ = 16_000_000
 _HEADER = Path("/usr/include/simavr/sim_avr.h")
 
@@ -48,11 +82,12 @@ def linked(builds: Builds, built: Built, source: str) -> Path:
     target, image = built.target, built.out.parent / f"{Path(source).stem}.elf"
     with builds.once(f"{built.out.parent.name}-{image.name}") as first:
         if first:
-            flags = [*target.c_flags, *target.link_flags, "-std=c99", "-Wall", "-Wextra", "-Werror"]
+            compiled = str(image.with_suffix(".o"))
+            flags = [*target.c_flags, "-std=c99", "-Wall", "-Wextra", "-Werror", f"-I{built.out / 'include'}"]
+            check([target.compilers[0], *flags, "-c", str(C_FILES / source), "-o", compiled])
             library = str(built.out / "lib" / "libmicroros.a")
-            include = f"-I{built.out / 'include'}"
-            files = [str(C_FILES / source), library, "-o", str(image)]
-            check([target.compilers[0], *flags, include, *files])
+            files = [compiled, library, f"-Wl,-Map={image.with_suffix('.map')}", "-o", str(image)]
+            check([target.compilers[0], *target.c_flags, *target.link_flags, *files])
     return image
 
 
@@ -60,6 +95,13 @@ def flash_and_ram(built: Built, image: Path) -> tuple[int, int]:
     """Return bytes of flash, and of RAM without the stack."""
     text, data, bss = map(int, check([built.tool("size"), str(image)]).splitlines()[1].split()[:3])
     return text + data, data + bss
+
+
+def bounded(built: Built, image: Path) -> tuple[int, list[str]]:
+    """Return the bound of the stack that `size` proves, and what it leaves out."""
+    command = [sys.executable, "-m", "microros_gen", "size", str(built.out), "--format", "json"]
+    stack = json.loads(check([*command, "--image", str(image)]))["stack"]
+    return int(stack["total"]), list(stack["not_counted"])
 
 
 @contextmanager

@@ -13,7 +13,7 @@
 
 #include <stddef.h>
 
-enum { NS_PER_MS = 1000000 };
+#define NS_PER_MS 1000000
 
 static bool service_fits(const microros_message_type_t * sent, bool replies)
 {

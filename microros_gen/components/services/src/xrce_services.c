@@ -35,7 +35,7 @@ xrce_write_t xrce_service_write(
     (void)memcpy(&room[end], identity, XRCE_IDENTITY_SIZE);
     end += XRCE_IDENTITY_SIZE;
   }
-  size = xrce_service_of(endpoint)->sent->encode(message, &room[end], fault);
+  size = (size_t)xrce_service_of(endpoint)->sent->encode(message, &room[end], fault);
   if (size == 0u) {
     return XRCE_WRITE_REFUSED;
   }
