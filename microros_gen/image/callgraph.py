@@ -217,7 +217,10 @@ def _add_compiled(
 def _reached(
     folder: Folder, place: str, functions: Mapping[int, Chunk], pointers: Pointers
 ) -> tuple[str | None, frozenset[int] | None]:
-    """Return the member that a call at `file:line` goes through, and the functions that it can hold; None where nobody knows."""
+    """Return the member that a call at `file:line` goes through, and the functions that it can hold.
+
+    None where nobody knows.
+    """
     member = _member(folder, place, pointers.members)
     targets: frozenset[int] | None = _targets(member, functions)
     if member and not targets:

@@ -62,7 +62,7 @@ def parse_avr(text: str, extents: Mapping[int, int], wide: bool) -> tuple[Code, 
 
 
 def _join(codes: tuple[Code, ...], jumps: Mapping[int, set[int]], word: int) -> None:
-    """Give each part of a library's function what the parts that it can jump to push and call: they are in its frame."""
+    """Give each part of a library's function what the parts that it can jump to push and call."""
     by_address = {code.address: code for code in codes}
     frames = {code.address: code.frame - word for code in codes}
     calls = {code.address: frozenset(code.calls) for code in codes}
@@ -89,9 +89,7 @@ def _containing(address: int, ends: Mapping[int, int]) -> int:
     return next((start for start, end in ends.items() if start < address <= end), address)
 
 
-def _functions(
-    text: str, extents: Mapping[int, int]
-) -> Iterator[tuple[str, list[_Instruction], int]]:
+def _functions(text: str, extents: Mapping[int, int]) -> Iterator[tuple[str, list[_Instruction], int]]:
     """Yield each function, or part of a library's, and the address after it."""
     name, lines = "", list[_Instruction]()
     targets = {int(match[1], 16) for match in _TARGET.finditer(text)}
@@ -150,7 +148,9 @@ def _leaves(instruction: _Instruction, begin: int, end: int) -> bool:
     """Return whether it calls or jumps to another function. A `switch` jumps back by a table."""
     if instruction.target is None or instruction.label in (_SAVES, _RESTORES, _SWITCH):
         return False
-    if instruction.mnemonic not in ("call", "rcall", "jmp", "rjmp") and not instruction.mnemonic.startswith("br"):
+    if instruction.mnemonic not in ("call", "rcall", "jmp", "rjmp") and not instruction.mnemonic.startswith(
+        "br"
+    ):
         return False
     is_call = instruction.mnemonic in ("call", "rcall") and not _reserves(instruction)
     return not begin <= instruction.target <= end or (is_call and instruction.target == begin)
@@ -207,7 +207,10 @@ class _Frame:
             self._lower(high, value - 0x10000 if value & 0x8000 else value)
         elif mnemonic == "adiw" and low in self._copies:
             self._lower(low, -int(operands[1], 16))
-        elif mnemonic in ("sub", "sbc", "add", "adc", "mov", "movw", "ldd", "ld", "pop") and operands[-1] != _ZERO:
+        elif (
+            mnemonic in ("sub", "sbc", "add", "adc", "mov", "movw", "ldd", "ld", "pop")
+            and operands[-1] != _ZERO
+        ):
             for register in (low, high):
                 if register in self._copies:
                     self._copies[register] = None

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import itertools
-import os
 from collections.abc import Collection, Iterator, Mapping
 from pathlib import PurePosixPath
 from typing import Any, Literal
@@ -251,4 +250,9 @@ def _file_name(unit: Any, program: Any, index: int) -> str:
     entry = program["file_entry"][index - 1]
     folders = [unit.get_top_DIE().attributes["DW_AT_comp_dir"].value, *program["include_directory"]]
     parts = (folders[0], folders[entry["dir_index"]], entry["name"])
-    return os.path.join(*(part.decode("utf-8", "replace") for part in parts))
+    return "/".join(str(part.decode("utf-8", "replace")) for part in parts[_first(parts) :])
+
+
+def _first(parts: tuple[bytes, ...]) -> int:
+    """Return the last part that is an absolute path, or 0."""
+    return max((i for i, part in enumerate(parts) if part.startswith(b"/")), default=0)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`make bench`: generate and build, encode and decode besides Fast CDR, instructions, parameters, life cycle, flash of
-types, firmware, whole images, the client, links of boards, tasks, the agent, the agent under attack.
+types, firmware, whole images, images for an Arduino, the client, links of boards, tasks, the agent, the same
+under attack.
 
 Times depend on the machine; so each stands besides a peer that ran in the same minutes. Instruction counts come
 from callgrind or QEMU and repeat exactly with one compiler.
@@ -17,6 +18,7 @@ from pathlib import Path
 from tests.bench.agent_attacks import bench_attacks
 from tests.bench.agent_bench import bench_agent
 from tests.bench.agent_sides import Target
+from tests.bench.avr import bench_avr
 from tests.bench.client import bench_client
 from tests.bench.codec import bench_codec
 from tests.bench.footprint import bench_footprint
@@ -41,6 +43,7 @@ PARTS = (
     "types",
     "footprint",
     "images",
+    "avr",
     "client",
     "peer",
     "tasks",
@@ -83,6 +86,8 @@ def main() -> int:
             bench_footprint(work / "footprint")
         if "images" in options.parts:
             bench_images(work / "images")
+        if "avr" in options.parts:
+            bench_avr(work / "avr")
         if "client" in options.parts:
             bench_client(work / "client")
         if "peer" in options.parts:

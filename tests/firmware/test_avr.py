@@ -85,7 +85,9 @@ def test_a_server_of_set_bool(builds: Builds, observer: Observer, domain: int) -
     built = builds.build(MEGA, ANSWERS)
     image = linked(builds, built, "setbool.c")
     with simulated(builds, built, image) as board:
-        with started("agent", "serial", "--dev", board.device, "--domain", str(domain), domain=domain) as agent:
+        with started(
+            "agent", "serial", "--dev", board.device, "--domain", str(domain), domain=domain
+        ) as agent:
             agent.wait_for("agent ready")
             for data in (True, False):
                 observer.ask(do="set_bool", service="/set_bool", data=data)

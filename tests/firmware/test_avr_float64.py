@@ -78,7 +78,9 @@ def test_messages_of_both_directions(builds: Builds, observer: Observer, domain:
     image = linked(builds, built, "twist.c")
     observer.subscribe("/temperature", "sensor_msgs/msg/Temperature", reliable=False)
     with simulated(builds, built, image) as board:
-        with started("agent", "serial", "--dev", board.device, "--domain", str(domain), domain=domain) as agent:
+        with started(
+            "agent", "serial", "--dev", board.device, "--domain", str(domain), domain=domain
+        ) as agent:
             agent.wait_for("agent ready")
             for speed, turn in SAMPLES:
                 _echoed(observer, speed, turn)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""float64 where a double is a binary32: every number becomes the nearest one, by numpy; both halves by integers alone."""
+"""float64 where a double is a binary32: every number becomes the nearest one, by numpy."""
 
 from __future__ import annotations
 

@@ -74,8 +74,8 @@ class TypeFacts:
     def packed(self, name: TypeName) -> tuple[int, int] | None:
         """Return size and alignment where an array of the type is one run on the wire and in C, else None.
 
-        That is: nothing that is converted, no padding, the first member has the largest alignment, the size is a multiple of
-        it.
+        That is: nothing that is converted, no padding, the first member has the largest alignment, the size is a
+        multiple of it.
         """
         leaves = list(self.leaves(name))
         if not leaves or not self.fixed(name) or None in leaves:

@@ -13,8 +13,8 @@ from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.capacity import Capacities
 from microros_gen.typesupport.plan.decode import DecodePlan, decode_files, plan_decoders
 from microros_gen.typesupport.plan.layout import WIDE_MODELS, DataModel, StructLayouts
-from microros_gen.typesupport.plan.narrow import narrowed
 from microros_gen.typesupport.plan.names import TypeFiles, c_name, include_path, type_files
+from microros_gen.typesupport.plan.narrow import narrowed
 from microros_gen.typesupport.plan.own_limits import LimitSet, plan_limit_sets, sent_limits, topic_names
 from microros_gen.typesupport.plan.size import TypeLimits, WireSizes, is_fixed
 from microros_gen.typesupport.plan.storage import plan_storage, storage_extents

@@ -139,9 +139,7 @@ def _called_by(facts: _Facts, name: TypeName) -> Iterator[TypeName]:
 class _Facts(TypeFacts):
     """What the emitter asks about types: where limits differ, and which types have their own function."""
 
-    def __init__(
-        self, messages: Mapping[TypeName, Message], homes: Homes, converts_float64: bool
-    ) -> None:
+    def __init__(self, messages: Mapping[TypeName, Message], homes: Homes, converts_float64: bool) -> None:
         super().__init__(messages, converts_float64)
         self.homes = homes
         self.called: frozenset[TypeName] = frozenset()

@@ -12,19 +12,18 @@ from microros_gen.interfaces.derived import declaring_name
 from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.decode import (
     Converted,
+    DecodeStep,
     Messages,
     Number,
     NumberSequence,
     Part,
     Row,
     Strings,
-    DecodeStep,
     decode_files,
 )
 from microros_gen.typesupport.plan.facts import DOUBLE
 from microros_gen.typesupport.plan.names import c_name, guard, include_path, type_files
 from microros_gen.typesupport.plan.types import TypePlan
-
 
 DOUBLE_DECODERS = "microros/cdr_decode_double.h"
 """The header of what reads a float64 where a double is no binary64."""

@@ -30,7 +30,6 @@ from microros_gen.typesupport.plan.types import TypePlan
 from microros_gen.typesupport.views.largest import LargestSizes
 from microros_gen.typesupport.views.steps import StepView, StepViews, cdr_size, position
 
-
 DOUBLE_ENCODERS = "microros/cdr_double.h"
 """The header of what writes a float64 where a double is no binary64."""
 

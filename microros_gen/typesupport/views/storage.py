@@ -91,8 +91,8 @@ def storage_view(plan: TypePlan, plans: Mapping[TypeName, TypePlan]) -> StorageV
         for s in steps
         if isinstance(s, InitMessages) or (isinstance(s, BindMessages) and s.init)
     }
-    values = (v for s in steps if isinstance(s, BindNumbers) for v in s.defaults)
-    values = (*values, *(s.value for s in steps if isinstance(s, SetNumber)))
+    defaults = (v for s in steps if isinstance(s, BindNumbers) for v in s.defaults)
+    values = (*defaults, *(s.value for s in steps if isinstance(s, SetNumber)))
     needs_math = any(isinstance(v, float) and not math.isfinite(v) for v in values)
     assertion = f"sizeof({plan.c_name}__Storage) == {cdr_size(plan.storage_sizes)}"
     return StorageView(

@@ -84,6 +84,18 @@ static void connect_line(avr_t * avr)
   avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUT_XOFF), on_flow, NULL);
 }
 
+/* The stack pointer is written in two halves, the upper one first, with interrupts off: in between it means nothing. */
+static bool is_halfway(const avr_t * avr, bool was)
+{
+  const uint16_t code = (uint16_t)(avr->flash[avr->pc] | avr->flash[avr->pc + 1u] << 8);
+  const uint16_t target = (uint16_t)((code >> 5 & 0x30) | (code & 0x0f));
+
+  if ((code & 0xf800) != 0xb800) { /* OUT */
+    return was;
+  }
+  return target == 0x3e || (was && target != 0x3d);
+}
+
 static void report(const avr_t * avr, uint16_t lowest)
 {
   printf("stack %u\n", (unsigned)(avr->ramend - lowest));
@@ -97,6 +109,7 @@ int main(int count, char ** arguments)
   avr_t * avr;
   uint16_t lowest = UINT16_MAX;
   int state = cpu_Running;
+  bool halfway = false;
   avr_cycle_count_t next_input = 0;
   uint8_t byte;
 
@@ -121,9 +134,10 @@ int main(int count, char ** arguments)
   while (state != cpu_Done && state != cpu_Crashed && !is_ending) {
     uint16_t pointer;
 
+    halfway = is_halfway(avr, halfway);
     state = avr_run(avr);
     pointer = (uint16_t)(avr->data[R_SPL] | avr->data[R_SPH] << 8);
-    lowest = pointer != 0u && pointer < lowest ? pointer : lowest;
+    lowest = pointer != 0u && !halfway && pointer < lowest ? pointer : lowest;
     if (avr->cycle >= next_input && takes_input && read(line, &byte, 1) == 1) {
       avr_raise_irq(input, byte);
       next_input = avr->cycle + (avr_cycle_count_t)avr->frequency * BITS_OF_A_BYTE / BAUD; /* as fast as the line */

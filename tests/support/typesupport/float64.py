@@ -15,7 +15,13 @@ QUIET = 1 << 22
 def edge_patterns() -> list[int]:
     """Return binary64 bit patterns around every place where the result changes its kind, with both signs."""
     values = [0, 1, (1 << 52) - 1, 1 << 52, 0x7FEFFFFFFFFFFFFF, 0x7FF0000000000000]
-    nans = [0x7FF8000000000000, 0x7FF0000000000001, 0x7FFFFFFFFFFFFFFF, 0x7FF000001FFFFFFF, 0x7FF0000020000000]
+    nans = [
+        0x7FF8000000000000,
+        0x7FF0000000000001,
+        0x7FFFFFFFFFFFFFFF,
+        0x7FF000001FFFFFFF,
+        0x7FF0000020000000,
+    ]
     singles = [0, 1, 2, 3, 0x7FFFFE, 0x7FFFFF, 0x800000, 0x800001, 0x3F800000, 0x4B7FFFFF, 0x7F7FFFFE]
     singles += [1 << bit for bit in range(23)]
     for low in singles:
@@ -23,7 +29,9 @@ def edge_patterns() -> list[int]:
         exact, halfway = _bits(below), _bits((below + above) / 2)
         values += [exact, halfway - 1, halfway, halfway + 1, exact + 1, max(exact - 1, 0)]
     largest = _bits(float(np.finfo(np.float32).max))
-    values += [largest + (1 << 28) + step for step in (-1, 0, 1)]  # the middle between it and the next power of two
+    values += [
+        largest + (1 << 28) + step for step in (-1, 0, 1)
+    ]  # the middle between it and the next power of two
     values += [exponent << 52 | fraction for exponent in range(0x360, 0x390) for fraction in (0, 1 << 51, 1)]
     return [value | sign for value in values + nans for sign in (0, 1 << 63)]
 
