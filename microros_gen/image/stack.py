@@ -52,8 +52,8 @@ class Bound:
 @dataclass(frozen=True)
 class StackReport:
     """`functions`: the public ones, heaviest first. `total` is main's (or the reset handler's) with every interrupt
-    on top of it once (of an AVR the heaviest, as they do not nest); `hardware` bytes of them are pushed at interrupts or
-    lie below the stack pointer.
+    on top of it once (of an AVR the heaviest, as they do not nest); `hardware` bytes of them are pushed at interrupts
+    or lie below the stack pointer.
 
     `known` is false where the compiler tells no frames: then there are no numbers.
     """

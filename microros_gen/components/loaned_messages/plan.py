@@ -69,7 +69,7 @@ def _stays(name: TypeName, types: Mapping[TypeName, TypePlan]) -> bool:
 
 
 def _step_stays(step: DecodeStep, types: Mapping[TypeName, TypePlan]) -> bool:
-    """Return the same of a step. Wide strings and converted numbers differ in the body; sequences of others need memory."""
+    """Return the same of a step. Wide strings and converted numbers differ there; sequences of others need memory."""
     if isinstance(step, NumberSequence):
         return step.form.isdigit()
     if isinstance(step, Strings):

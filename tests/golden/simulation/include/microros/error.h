@@ -6,6 +6,8 @@
 #ifndef MICROROS_ERROR_H
 #define MICROROS_ERROR_H
 
+#include "microros/flash.h"
+
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -15,44 +17,44 @@ extern "C" {
 /* Words that become `detail`. */
 #define MICROROS_ERROR_WORDS(words) (words)
 
-typedef const char * microros_error_t;
+typedef const MICROROS_FLASH char * microros_error_t;
 
-extern const char microros_error_argument[];
-extern const char microros_error_context_in_use[];
-extern const char microros_error_transport[];
-extern const char microros_error_agent_silent[];
-extern const char microros_error_agent_refused[];
-extern const char microros_error_address[];
-extern const char microros_error_name[];
-extern const char microros_error_name_long[];
-extern const char microros_error_node_undeclared[];
-extern const char microros_error_node_open[];
-extern const char microros_error_nodes_full[];
-extern const char microros_error_entity_silent[];
-extern const char microros_error_entity_refused[];
-extern const char microros_error_arena[];
-extern const char microros_error_domain[];
-extern const char microros_error_encapsulation[];
-extern const char microros_error_not_received[];
-extern const char microros_error_body_end[];
-extern const char microros_error_value[];
-extern const char microros_error_memory_given[];
-extern const char microros_error_subscription_undeclared[];
-extern const char microros_error_subscription_open[];
-extern const char microros_error_subscriptions_full[];
-extern const char microros_error_subscription_qos[];
-extern const char microros_error_sample_large[];
-extern const char microros_error_read_refused[];
-extern const char microros_error_receiver_reliable[];
-extern const char microros_error_pool_full[];
-extern const char microros_error_clock[];
-extern const char microros_error_timer[];
-extern const char microros_error_executor[];
-extern const char microros_error_field_bound[];
-extern const char microros_error_field_capacity[];
-extern const char microros_error_pool_most[];
-extern const char microros_error_block_large[];
-extern const char microros_error_blocks_taken[];
+extern const MICROROS_FLASH char microros_error_argument[];
+extern const MICROROS_FLASH char microros_error_context_in_use[];
+extern const MICROROS_FLASH char microros_error_transport[];
+extern const MICROROS_FLASH char microros_error_agent_silent[];
+extern const MICROROS_FLASH char microros_error_agent_refused[];
+extern const MICROROS_FLASH char microros_error_address[];
+extern const MICROROS_FLASH char microros_error_name[];
+extern const MICROROS_FLASH char microros_error_name_long[];
+extern const MICROROS_FLASH char microros_error_node_undeclared[];
+extern const MICROROS_FLASH char microros_error_node_open[];
+extern const MICROROS_FLASH char microros_error_nodes_full[];
+extern const MICROROS_FLASH char microros_error_entity_silent[];
+extern const MICROROS_FLASH char microros_error_entity_refused[];
+extern const MICROROS_FLASH char microros_error_arena[];
+extern const MICROROS_FLASH char microros_error_domain[];
+extern const MICROROS_FLASH char microros_error_encapsulation[];
+extern const MICROROS_FLASH char microros_error_not_received[];
+extern const MICROROS_FLASH char microros_error_body_end[];
+extern const MICROROS_FLASH char microros_error_value[];
+extern const MICROROS_FLASH char microros_error_memory_given[];
+extern const MICROROS_FLASH char microros_error_subscription_undeclared[];
+extern const MICROROS_FLASH char microros_error_subscription_open[];
+extern const MICROROS_FLASH char microros_error_subscriptions_full[];
+extern const MICROROS_FLASH char microros_error_subscription_qos[];
+extern const MICROROS_FLASH char microros_error_sample_large[];
+extern const MICROROS_FLASH char microros_error_read_refused[];
+extern const MICROROS_FLASH char microros_error_receiver_reliable[];
+extern const MICROROS_FLASH char microros_error_pool_full[];
+extern const MICROROS_FLASH char microros_error_clock[];
+extern const MICROROS_FLASH char microros_error_timer[];
+extern const MICROROS_FLASH char microros_error_executor[];
+extern const MICROROS_FLASH char microros_error_field_bound[];
+extern const MICROROS_FLASH char microros_error_field_capacity[];
+extern const MICROROS_FLASH char microros_error_pool_most[];
+extern const MICROROS_FLASH char microros_error_block_large[];
+extern const MICROROS_FLASH char microros_error_blocks_taken[];
 
 /*
  * Sets the last error. The texts' file explains `name`, `detail`, `found` and `fits`. The strings are only
@@ -64,6 +66,11 @@ void microros_error_set(
 /* Shorthands for microros_error_argument, and for errors with only a name. Both return `result`. */
 int32_t microros_error_refuse(int32_t result, const char * argument);
 int32_t microros_error_named(int32_t result, microros_error_t error, const char * name);
+#ifdef __FLASH
+int32_t microros_error_refuse_flash(int32_t result, const MICROROS_FLASH char * argument);
+#define microros_error_refuse(result, argument) \
+  microros_error_refuse_flash((result), MICROROS_FLASH_TEXT(argument))
+#endif
 
 /* Largest pool of one kind that a session can have. */
 #define MICROROS_POOL_MOST 250u
