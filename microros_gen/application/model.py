@@ -344,8 +344,8 @@ class Application:
     the file. `implied` are the endpoints of the library itself where there are no nodes (with nodes they are among
     their endpoints), `endpoints` what the file changes of those. `spans` holds the places of top-level keys and of
     the keys of `pools` (as `pools.history`), for later steps. `exact_float64`: what would
-    round a float64 is an error. `links` are those of this board in its `system`,
-    `chip` the image that has the other core there.
+    round a float64 is an error. `links` are those of this board in its `system`, `chip` the image that has the other
+    core there.
     """
 
     distro: str = "jazzy"

@@ -94,10 +94,10 @@ def _echoed(observer: Observer, speed: float, turn: float) -> None:
     velocity = {"linear": {**zeros, "x": speed}, "angular": {**zeros, "z": turn}}
     wanted = tuple(_nearest(value) for value in (speed, turn))
     while True:
-        heard = [sample for topic, sample in observer.ask(do="samples") if topic == "/temperature"]
-        if any((sample["temperature"], sample["variance"]) == wanted for sample in heard):
+        echoed = [sample for topic, sample in observer.ask(do="samples") if topic == "/temperature"]
+        if any((sample["temperature"], sample["variance"]) == wanted for sample in echoed):
             return
-        assert time.monotonic() < end, f"not heard: {wanted}, but {heard}"
+        assert time.monotonic() < end, f"not heard: {wanted}, but {echoed}"
         observer.ask(do="publish", topic="/cmd_vel", type="geometry_msgs/msg/Twist", values=[velocity])
         time.sleep(0.1)
 

@@ -29,8 +29,8 @@ def answers(tmp_path_factory: pytest.TempPathFactory) -> list[tuple[int, int]]:
     includes = [f"-I{folder}", *(f"-I{COMPONENTS / c / 'include'}" for c in COMPONENT_HEADERS)]
     sources = [C_FILES / "float64.c", COMPONENTS / "cdr" / "src" / "cdr_double.c"]
     run(["cc", "-std=c99", "-O1", "-fsanitize=undefined", *includes, *sources, "-o", folder / "float64"])
-    given = struct.pack(f"<{len(PATTERNS)}Q", *PATTERNS)
-    done = subprocess.run([folder / "float64"], input=given, capture_output=True, check=True)
+    sent = struct.pack(f"<{len(PATTERNS)}Q", *PATTERNS)
+    done = subprocess.run([folder / "float64"], input=sent, capture_output=True, check=True)
     assert done.stderr == b""
     return list(struct.iter_unpack("<IQ", done.stdout))
 

@@ -45,7 +45,7 @@ def _narrowed_message(message: Message) -> Message:
 
 def _narrowed(field_type: FieldType, value: Value) -> Value:
     if isinstance(value, tuple):
-        return tuple(_scalar(element_of(field_type), one) for one in value)
+        return tuple(_scalar(element_of(field_type), element) for element in value)
     return _scalar(element_of(field_type), value)
 
 

@@ -17,7 +17,9 @@ static void send(const void * bytes, size_t size)
   (void)fwrite(bytes, 1, size, stdout);
 }
 
-static void start(void) {}
+static void start(void)
+{
+}
 #else
 #include <avr/io.h>
 #include <microros/cdr_decode_double.h>

@@ -41,9 +41,9 @@ static rcl_ret_t start(void)
       &subscription, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(geometry_msgs, msg, Twist), "cmd_vel");
   }
   result = result == RCL_RET_OK ? rclc_executor_init(&executor, &support.context, 1, &allocator) : result;
-  return result == RCL_RET_OK ? rclc_executor_add_subscription(
-                                  &executor, &subscription, &received, on_velocity, ON_NEW_DATA)
-                              : result;
+  return result == RCL_RET_OK
+           ? rclc_executor_add_subscription(&executor, &subscription, &received, on_velocity, ON_NEW_DATA)
+           : result;
 }
 
 int main(void)

@@ -2,34 +2,32 @@
 #include "microros/cdr_double.h"
 
 /* Fields of a binary32, and of the upper half of a binary64 (IEEE 754, 3.4). */
-#define SINGLE_FRACTION 0x007FFFFFUL
-#define SINGLE_ONE 0x00800000UL /* the bit before the fraction, which a normal number does not store */
-#define SINGLE_INFINITY 0x7F800000UL
-#define SIGN 0x80000000UL
-#define DOUBLE_FRACTION 0x000FFFFFUL
-#define DOUBLE_INFINITY 0x7FF00000UL
+#define SIGN 0x80000000U
+#define SINGLE_FRACTION 0x007FFFFFU
+#define SINGLE_ONE \
+  0x00800000U /* the bit before the fraction, which a normal number does not store */
+#define SINGLE_INFINITY 0x7F800000U
+#define SINGLE_EXPONENTS 0xFFU
+#define SINGLE_BITS 23U
+#define DOUBLE_FRACTION 0x000FFFFFU
+#define DOUBLE_EXPONENTS 0x7FFU
+#define DOUBLE_BITS 20U /* of the fraction, in the upper half */
 
-enum {
-  SINGLE_BITS = 23,
-  DOUBLE_BITS = 20, /* of the fraction, in the upper half */
-  MORE_BITS = 3,    /* SINGLE_BITS - DOUBLE_BITS: bits of the lower half that a binary32 has */
-  LOST_BITS = 29,   /* 32 - MORE_BITS */
-  BIASES = 896,     /* 1023 - 127 */
-  DOUBLE_EXPONENTS = 0x7FF,
-  SINGLE_EXPONENTS = 0xFF
-};
+#define MORE_BITS 3U /* SINGLE_BITS - DOUBLE_BITS: bits of the lower half that a binary32 has */
+#define LOST_BITS 29U
+#define BIASES 896U /* 1023 - 127 */
 
 void cdr_double_widen(uint8_t * to, uint32_t bits)
 {
   uint32_t fraction = bits & SINGLE_FRACTION;
-  uint32_t exponent = (bits >> SINGLE_BITS) & (uint32_t)SINGLE_EXPONENTS;
+  uint32_t exponent = (bits >> SINGLE_BITS) & SINGLE_EXPONENTS;
 
-  if (exponent == (uint32_t)SINGLE_EXPONENTS) {
+  if (exponent == SINGLE_EXPONENTS) {
     exponent = DOUBLE_EXPONENTS;
   } else if (exponent != 0U) {
-    exponent += (uint32_t)BIASES;
+    exponent += BIASES;
   } else if (fraction != 0U) {
-    exponent = (uint32_t)BIASES + 1U; /* subnormal: normal as a binary64 */
+    exponent = BIASES + 1U; /* subnormal: normal as a binary64 */
     while ((fraction & SINGLE_ONE) == 0U) {
       fraction <<= 1U;
       --exponent;
@@ -49,7 +47,7 @@ void cdr_double_widen(uint8_t * to, uint32_t bits)
 /* Returns `value` rounded by `rest`, the bits after it: half of its last bit is 0x80000000. Ties to even. */
 static uint32_t double_round(uint32_t value, uint32_t rest)
 {
-  const uint32_t half = 0x80000000UL;
+  const uint32_t half = 0x80000000U;
   const bool up = (rest > half) || ((rest == half) && ((value & 1U) != 0U));
 
   return up ? (value + 1U) : value;
@@ -59,9 +57,9 @@ static uint32_t double_round(uint32_t value, uint32_t rest)
  * would be normal, and `significand` has its leading bit. */
 static uint32_t double_subnormal(uint32_t significand, uint32_t rest, uint32_t exponent)
 {
-  const uint32_t shift = ((uint32_t)BIASES + 1U) - exponent;
+  const uint32_t shift = (BIASES + 1U) - exponent;
 
-  if (shift > ((uint32_t)SINGLE_BITS + 1U)) {
+  if (shift > (SINGLE_BITS + 1U)) {
     return 0U; /* below half of the least one */
   }
   return double_round(significand >> shift, (significand << (32U - shift)) | ((rest != 0U) ? 1U : 0U));
@@ -70,27 +68,29 @@ static uint32_t double_subnormal(uint32_t significand, uint32_t rest, uint32_t e
 /* Returns the bits, without sign, of an infinity or a NaN. */
 static uint32_t double_special(uint32_t fraction, uint32_t rest)
 {
-  const bool is_lost = (fraction == 0U) && (rest != 0U); /* of a NaN only lower bits: it must not become infinity */
+  const bool is_lost =
+    (fraction == 0U) && (rest != 0U); /* of a NaN only lower bits: it must not become infinity */
 
   return SINGLE_INFINITY | (is_lost ? 1U : fraction);
 }
 
 uint32_t cdr_double_narrow(uint32_t upper, uint32_t lower)
 {
-  const uint32_t exponent = (upper >> DOUBLE_BITS) & (uint32_t)DOUBLE_EXPONENTS;
+  const uint32_t exponent = (upper >> DOUBLE_BITS) & DOUBLE_EXPONENTS;
   const uint32_t fraction = ((upper & DOUBLE_FRACTION) << MORE_BITS) | (lower >> LOST_BITS);
   const uint32_t rest = lower << MORE_BITS;
   uint32_t bits;
 
-  if (exponent == (uint32_t)DOUBLE_EXPONENTS) {
+  if (exponent == DOUBLE_EXPONENTS) {
     bits = double_special(fraction, rest);
-  } else if (exponent >= ((uint32_t)BIASES + (uint32_t)SINGLE_EXPONENTS)) {
+  } else if (exponent >= (BIASES + SINGLE_EXPONENTS)) {
     bits = SINGLE_INFINITY;
-  } else if (exponent > (uint32_t)BIASES) {
+  } else if (exponent > BIASES) {
     /* A carry goes on into the exponent, from the largest number to infinity. */
-    bits = double_round(((exponent - (uint32_t)BIASES) << SINGLE_BITS) | fraction, rest);
+    bits = double_round(((exponent - BIASES) << SINGLE_BITS) | fraction, rest);
   } else {
-    bits = double_subnormal(fraction | SINGLE_ONE, rest, exponent); /* also zero, and what is subnormal itself */
+    bits =
+      double_subnormal(fraction | SINGLE_ONE, rest, exponent); /* also zero, and what is subnormal itself */
   }
   return (upper & SIGN) | bits;
 }

@@ -14,7 +14,8 @@ extern "C" {
 void cdr_get_double(cdr_in_t * in, double * to, size_t count, const char * field);
 
 /** Reads a sequence of doubles; `sequence` as for cdr_get_size. */
-void cdr_get_sequence_double(cdr_in_t * in, rosidl_runtime_c__double__Sequence * sequence, uint32_t bound, const char * field);
+void cdr_get_sequence_double(
+  cdr_in_t * in, rosidl_runtime_c__double__Sequence * sequence, uint32_t bound, const char * field);
 
 #ifdef __cplusplus
 }

@@ -15,7 +15,8 @@
  */
 const MICROROS_FLASH char microros_error_transport[] = "no transport to " XRCE_PLACE_N;
 const MICROROS_FLASH char microros_error_agent_silent[] = "no agent answers at " XRCE_PLACE_N " within %m ms";
-const MICROROS_FLASH char microros_error_agent_refused[] = "the agent at " XRCE_PLACE_M " refuses the session: %a";
+const MICROROS_FLASH char microros_error_agent_refused[] =
+  "the agent at " XRCE_PLACE_M " refuses the session: %a";
 
 /* From status 0x80 on (OMG DDS-XRCE 1.0, 7.7.2). */
 static const char * const statuses[] = {"DDS_ERROR",         "MISMATCH",     "ALREADY_EXISTS", "DENIED",
