@@ -4,8 +4,7 @@
 /* Fields of a binary32, and of the upper half of a binary64 (IEEE 754, 3.4). */
 #define SIGN 0x80000000U
 #define SINGLE_FRACTION 0x007FFFFFU
-#define SINGLE_ONE \
-  0x00800000U /* the bit before the fraction, which a normal number does not store */
+#define SINGLE_ONE 0x00800000U /* the leading bit, which a normal number does not store */
 #define SINGLE_INFINITY 0x7F800000U
 #define SINGLE_EXPONENTS 0xFFU
 #define SINGLE_BITS 23U
