@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import time
 from pathlib import Path
@@ -20,6 +21,7 @@ from tests.support.firmware.avr import (
     bounded,
     flash_and_ram,
     linked,
+    read_line,
     simulated,
 )
 from tests.support.firmware.board import Builds, build, need
@@ -49,6 +51,19 @@ def test_texts_of_errors_stay_in_flash(builds: Builds) -> None:
     assert len(names) > 20
     assert all(built.symbols()[name] < FLASH for name in names)
     assert ram + bounded(built, built.image)[0] < RAM
+
+
+@pytest.mark.system
+def test_texts_of_errors_are_read_from_flash(builds: Builds) -> None:
+    """One with the name of an argument, which lies there, too, and one with numbers."""
+    built = builds.build(MEGA, SENDS.replace("errors: code", "errors: text"))
+    wanted = b"support or allocator: NULL or not initialized\0domain 1000 is above 232\0"
+    with simulated(builds, built, linked(builds, built, "error_texts.c")) as board:
+        line = os.open(board.device, os.O_RDWR | os.O_NOCTTY)
+        try:
+            assert read_line(line, len(wanted)) == wanted
+        finally:
+            os.close(line)
 
 
 @pytest.mark.system

@@ -5,14 +5,13 @@ from __future__ import annotations
 
 import math
 import os
-import select
 import struct
 import time
 
 import pytest
 
 from tests.support.agent.observer import Observer
-from tests.support.firmware.avr import MEGA, UNO, flash_and_ram, linked, simulated
+from tests.support.firmware.avr import MEGA, UNO, flash_and_ram, linked, read_line, simulated
 from tests.support.firmware.board import Builds
 from tests.support.firmware.running import started
 from tests.support.patience import deadline
@@ -60,7 +59,7 @@ def test_every_kind_of_number(builds: Builds) -> None:
     with simulated(builds, built, image) as board:
         line = os.open(board.device, os.O_RDWR | os.O_NOCTTY)
         try:
-            started_with = struct.unpack("<10f", _read(line, 40))
+            started_with = struct.unpack("<10f", read_line(line, 40))
             answers = [_asked(line, pattern) for pattern in patterns]
         finally:
             os.close(line)
@@ -112,15 +111,5 @@ def _nearest(value: float) -> float:
 def _asked(line: int, pattern: int) -> tuple[int, int]:
     """Send a float64; return what it becomes, and what that becomes again."""
     os.write(line, struct.pack("<Q", pattern))
-    narrow, wide = struct.unpack("<IQ", _read(line, 12))
+    narrow, wide = struct.unpack("<IQ", read_line(line, 12))
     return narrow, wide
-
-
-def _read(line: int, count: int) -> bytes:
-    found = b""
-    end = deadline(20)
-    while len(found) < count:
-        assert time.monotonic() < end, "the board does not answer"
-        ready, _, _ = select.select([line], [], [], 1)
-        found += os.read(line, count - len(found)) if ready else b""
-    return found

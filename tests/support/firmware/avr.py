@@ -6,10 +6,12 @@ from __future__ import annotations
 import json
 import os
 import re
+import select
 import shutil
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -18,7 +20,7 @@ import pytest
 
 from tests.support.firmware.board import C_FILES, Builds, Built, check
 from tests.support.firmware.footprint import SERVES
-from tests.support.patience import seconds
+from tests.support.patience import deadline, seconds
 
 UNO, MEGA = "arduino-uno", "arduino-mega"
 SENDS = """\
@@ -89,6 +91,17 @@ def linked(builds: Builds, built: Built, source: str) -> Path:
             files = [compiled, library, f"-Wl,-Map={image.with_suffix('.map')}", "-o", str(image)]
             check([target.compilers[0], *target.c_flags, *target.link_flags, *files])
     return image
+
+
+def read_line(line: int, count: int) -> bytes:
+    """Return the next `count` bytes that the board sends; `line` is the open terminal."""
+    found = b""
+    end = deadline(20)
+    while len(found) < count:
+        assert time.monotonic() < end, "the board does not answer"
+        ready, _, _ = select.select([line], [], [], 1)
+        found += os.read(line, count - len(found)) if ready else b""
+    return found
 
 
 def flash_and_ram(built: Built, image: Path) -> tuple[int, int]:
