@@ -651,6 +651,14 @@ _TOP = {
         "1:9",
         "'errors' must be text or code; it is",
     ),
+    "float64": KeyCase(
+        "float64: exact",
+        lambda a: a.exact_float64,
+        True,
+        "float64: rounded",
+        "1:10",
+        "'float64' must be converted or exact; it is",
+    ),
     "nodes": KeyCase(
         "nodes: [{name: a}, {name: b}]",
         lambda a: _names(a.nodes),
