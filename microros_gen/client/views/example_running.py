@@ -56,7 +56,7 @@ class TimerView:
 class ExecutorView:
     """An executor, how many handles it has, the calls that it begins with, and how long a round waits, as C.
 
-    `has_task`: a task runs it.
+    `has_task`: a task runs it; `has_releases`: a task with a period.
     """
 
     variable: str
@@ -64,6 +64,7 @@ class ExecutorView:
     calls: tuple[str, ...]
     wait: str
     has_task: bool = False
+    has_releases: bool = False
 
 
 @dataclass(frozen=True)
@@ -82,6 +83,11 @@ class RunningView:
     def has_tasks(self) -> bool:
         """Return whether tasks run executors."""
         return any(executor.has_task for executor in self.executors)
+
+    @property
+    def has_release(self) -> bool:
+        """Return whether a function is called in the task of the first executor, which has what components add."""
+        return bool(self.executors) and self.executors[0].has_releases
 
     @property
     def spun(self) -> tuple[ExecutorView, ...]:
@@ -165,6 +171,7 @@ def running_view(
                 bool(used),
                 0 if index else more_handles,
                 has_task=name in _of_tasks(project),
+                has_releases=name in _of_tasks(project, periodic=True),
             )
             for index, (name, own, timeout) in enumerate(shared)
         ),
@@ -177,14 +184,14 @@ def running_view(
     )
 
 
-def _of_tasks(project: Project) -> frozenset[str]:
-    """Return the variables of the executors that tasks run."""
+def _of_tasks(project: Project, *, periodic: bool = False) -> frozenset[str]:
+    """Return the variables of the executors that tasks run; `periodic`: that tasks with a period run."""
     nodes = project.application.nodes
     every = [(node, executor.name) for node, decl in enumerate(nodes) for executor in decl.executors]
     return frozenset(
         f"executor_{every.index((task.node, task.executor.name))}"
         for task in project.application.tasks
-        if task.executor is not None
+        if task.executor is not None and (task.period_us or not periodic)
     )
 
 
@@ -281,6 +288,7 @@ def _executor(
     more_handles: int,
     *,
     has_task: bool,
+    has_releases: bool,
 ) -> ExecutorView:
     """`has_timers`: rounds have no other end than what is ready; otherwise all of them fill EXAMPLE_PERIOD_MS."""
     calls = [f"rclc_executor_set_timeout(&{variable}, {timeout})"] if timeout else []
@@ -292,6 +300,7 @@ def _executor(
         tuple(calls),
         f"{variable}.timeout_ns" if has_timers else rest,
         has_task,
+        has_releases,
     )
 
 

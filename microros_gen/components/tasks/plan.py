@@ -164,7 +164,7 @@ class TasksPlan:
     def example_calls(self) -> tuple[str, ...]:
         """Return the calls of the example that name the executors and the functions of tasks."""
         runs = [
-            f"rclc_task_set_executor({task.constant}, &executor_{task.executor}, NULL)"
+            f"rclc_task_set_executor({task.constant}, &executor_{task.executor}, {_callback(task)})"
             for task in self.tasks
             if task.executor is not None
         ]
@@ -175,6 +175,11 @@ class TasksPlan:
     def example_function(self) -> tuple[str, ...]:
         """Return functions of the example as lines of C, for the overruns of tasks and for the watchdog."""
         return (*(_ON_OVERRUN if any(map(_calls, self.tasks)) else ()), *(_FEED if self.is_watched else ()))
+
+
+def _callback(task: TaskPlan) -> str:
+    """Return the function of the example for releases: of the first executor, which has all that components add."""
+    return "on_release" if task.executor == 0 and task.period_us else "NULL"
 
 
 def _calls(task: TaskPlan) -> bool:

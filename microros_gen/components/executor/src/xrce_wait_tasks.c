@@ -13,7 +13,7 @@ enum { WAIT_MOST_MS = 1000 };
 static bool wait_enter(
   xrce_client_t * client, uint32_t timeout_ms, const uint32_t * news, uint32_t * left_ms, intptr_t * handle)
 {
-  const bool enters = *news == microros_news && !client->wakes;
+  const bool enters = *news == microros_news() && !client->wakes;
 
   *left_ms =
     xrce_wait_left(client, timeout_ms < (uint32_t)WAIT_MOST_MS ? timeout_ms : (uint32_t)WAIT_MOST_MS);
@@ -26,7 +26,7 @@ static bool wait_enter(
 static void wait_leave(xrce_client_t * client, const uint32_t * news)
 {
   --client->waiting;
-  client->wakes = client->waiting != 0u && (client->wakes || *news != microros_news);
+  client->wakes = client->waiting != 0u && (client->wakes || *news != microros_news());
   if (client->wakes) {
     port_wake();
   }
@@ -43,14 +43,14 @@ void xrce_wait_news(xrce_client_t * client, uint32_t timeout_ms, uint32_t * news
   enters = wait_enter(client, timeout_ms, news, &left_ms, &handle);
   wakes = client->wakes;
   if (!enters) {
-    *news = microros_news;
+    *news = microros_news();
   }
   microros_unlock();
   if (enters) {
     port_wait(handle, left_ms);
     microros_lock();
     wait_leave(client, news);
-    *news = microros_news;
+    *news = microros_news();
     microros_unlock();
   } else if (wakes) {
     port_sleep_ms(1); /* the wake-ups are for the tasks that wait already */

@@ -24,7 +24,7 @@ static inline rcl_waiting_t rcl_waiting_of(uint32_t start_ms, uint32_t timeout_m
   rcl_waiting_t waiting = {start_ms, timeout_ms, 0};
 
   microros_lock();
-  waiting.news = microros_news;
+  waiting.news = microros_news();
   microros_unlock();
   return waiting;
 }

@@ -20,7 +20,7 @@ rcl_ret_t rcl_graph_open(rcl_node_t * node)
 
   microros_lock(); /* another task may announce a change now */
   graph_triggers[index].taken = true;
-  graph_triggers[index].seen = graph_triggers[index].triggered;
+  microros_flag_clear(&graph_triggers[index].is_triggered);
   graph_conditions[index].impl = &graph_triggers[index];
   graph_conditions[index].context = node->context;
   microros_unlock();

@@ -2,6 +2,7 @@
 #include "rcl_lifecycle/rcl_lifecycle.h"
 
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/rcl_lifecycle_answer.h"
 #include "microros/rcl_lifecycle_events.h"
 #include "microros/rcl_lifecycle_states.h"
@@ -175,8 +176,10 @@ rcl_ret_t rcl_lifecycle_state_machine_fini(
   }
   rcl_lifecycle_answer_no_longer(state_machine);
   if (rcl_node_is_valid(node_handle)) {
+    microros_lock();
     rmw_lifecycle_set_state(node_handle->impl, 0u);
     rcl_lifecycle_events_clear(node_handle);
+    microros_unlock();
   }
   result = machine_close(&state_machine->com_interface, node_handle);
   *state_machine = rcl_lifecycle_get_zero_initialized_state_machine();
@@ -221,15 +224,17 @@ static rcl_ret_t machine_go(
     return microros_error_named(
       RCL_RET_INVALID_ARGUMENT, microros_error_transition, machine->current_state->label);
   }
+  microros_lock(); /* whichever task receives answers with the state and publishes what happened */
   machine->current_state = transition->goal;
   if (machine_is_primary(transition->goal)) {
     rmw_lifecycle_set_state(machine->com_interface.node_handle->impl, transition->goal->id);
-    if (transition->goal->id == (uint8_t)lifecycle_msgs__msg__State__PRIMARY_STATE_ACTIVE) {
-      rcl_lifecycle_timers_start(machine->com_interface.node_handle);
-    }
   }
   if (publish) {
     rcl_lifecycle_events_add(&machine->com_interface, transition);
+  }
+  microros_unlock();
+  if (transition->goal->id == (uint8_t)lifecycle_msgs__msg__State__PRIMARY_STATE_ACTIVE) {
+    rcl_lifecycle_timers_start(machine->com_interface.node_handle);
   }
   return RCL_RET_OK;
 }

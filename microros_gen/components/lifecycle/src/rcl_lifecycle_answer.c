@@ -3,6 +3,7 @@
 #include "microros/rcl_lifecycle_answer.h"
 
 #include "lifecycle_msgs/srv/get_available_transitions.h"
+#include "microros/lock.h"
 #include "microros/rcl_lifecycle_events.h"
 #include "microros/rcl_lifecycle_types.h"
 #include "microros/rmw_lifecycle.h"
@@ -20,24 +21,30 @@ void rcl_lifecycle_answer_for(rcl_lifecycle_state_machine_t * state_machine)
 {
   const rcl_node_t * node = state_machine->com_interface.node_handle;
 
+  microros_lock();
   answer_machines[rmw_node_index(node->impl)] = state_machine;
+  microros_unlock();
   rmw_lifecycle_use(node->impl, rcl_lifecycle_write_graph);
 }
 
 void rcl_lifecycle_answer_no_longer(const rcl_lifecycle_state_machine_t * state_machine)
 {
+  microros_lock();
   for (size_t i = 0; i < MICROROS_NODES_MAX; ++i) {
     if (answer_machines[i] == state_machine) {
       answer_machines[i] = NULL;
     }
   }
+  microros_unlock();
 }
 
 void rcl_lifecycle_leave(const rcl_node_t * node)
 {
+  microros_lock();
   answer_machines[rmw_node_index(node->impl)] = NULL;
   rmw_lifecycle_set_state(node->impl, 0u);
   rcl_lifecycle_events_clear(node);
+  microros_unlock();
 }
 
 /* Takes a request that can be answered; false: none has arrived, or it is not of its type. */
@@ -77,9 +84,11 @@ static void answer_requests(rcl_lifecycle_state_machine_t * machine)
 
 void rcl_lifecycle_answer(void)
 {
+  microros_lock(); /* whichever task receives answers, while that of the node changes its state */
   for (size_t i = 0; i < MICROROS_NODES_MAX; ++i) {
     if (answer_machines[i] != NULL) {
       answer_requests(answer_machines[i]);
     }
   }
+  microros_unlock();
 }

@@ -3,6 +3,7 @@
 
 #include "microros/epoch.h"
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/rcl_publisher_open.h"
 #include "microros/rcl_service_open.h"
 #include "microros/rclc_modes_known.h"
@@ -200,7 +201,9 @@ rcl_ret_t rclc_modes_switch(rclc_modes_t * modes, uint8_t mode, bool asks)
   }
   result = rclc_modes_apply(modes->parameter_server, modes->table, mode, asks);
   if (result == RCL_RET_OK) {
+    microros_lock(); /* a request of this device compares it */
     modes->mode = mode;
+    microros_unlock();
     rmw_modes_set(modes->lifecycle_node->node->impl, mode);
   }
   return result;
@@ -208,15 +211,18 @@ rcl_ret_t rclc_modes_switch(rclc_modes_t * modes, uint8_t mode, bool asks)
 
 void rclc_modes_publish(rclc_modes_t * modes)
 {
+  microros_lock(); /* the task of the session publishes it, too */
   if (
     modes->event_is_due && rmw_parameters_have_room(rcl_publisher_get_rmw_handle(&modes->event_publisher)) &&
     rcl_publish(&modes->event_publisher, modes, NULL) == RCL_RET_OK) {
     modes->event_is_due = false;
   }
+  microros_unlock();
 }
 
 void rclc_modes_notify(rclc_modes_t * modes, uint8_t start_mode)
 {
+  microros_lock();
   if (!modes->event_is_due) {
     modes->event_start = start_mode;
   }
@@ -224,6 +230,7 @@ void rclc_modes_notify(rclc_modes_t * modes, uint8_t start_mode)
   modes->event_time_ns = (uint64_t)microros_epoch_known_ns();
   modes->event_is_due = true;
   rclc_modes_publish(modes);
+  microros_unlock();
 }
 
 rcl_ret_t rclc_modes_change(rclc_modes_t * modes, uint8_t mode)

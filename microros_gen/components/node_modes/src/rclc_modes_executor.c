@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/error.h"
 #include "microros/executor_handles.h"
+#include "microros/rclc_modes_known.h"
 #include "microros/rclc_modes_table.h"
 #include "microros/rmw_service.h"
 
@@ -16,8 +17,14 @@ static rcl_ret_t modes_look(const rclc_executor_handle_t * handle, bool * is_rea
     return microros_error_refuse(RCL_RET_SERVICE_INVALID, "service");
   }
   rclc_modes_publish(handle->callback_context);
-  *is_ready = rmw_replier_is_ready(handle->service->impl);
+  *is_ready =
+    rmw_replier_is_ready(handle->service->impl) || rclc_modes_is_requested(handle->callback_context);
   return RCL_RET_OK;
+}
+
+bool rclc_modes_has_handle(const rclc_executor_handle_t * handle)
+{
+  return handle->kind == &modes_kind;
 }
 
 /* Responses are written from the modes, by the encoders of their types. */

@@ -13,6 +13,9 @@ extern "C" {
 void rclc_modes_register(rclc_modes_t * modes);
 void rclc_modes_remove(const rclc_modes_t * modes);
 
+/* Returns whether the executor of these modes has to begin a round. */
+bool rclc_modes_is_requested(const rclc_modes_t * modes);
+
 #ifdef __cplusplus
 }
 #endif

@@ -16,4 +16,10 @@ static inline void rclc_modes_remove(const rclc_modes_t * modes)
   (void)modes;
 }
 
+static inline bool rclc_modes_is_requested(const rclc_modes_t * modes)
+{
+  (void)modes;
+  return false;
+}
+
 #endif /* MICROROS_RCLC_MODES_KNOWN_H */

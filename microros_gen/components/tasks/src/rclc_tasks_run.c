@@ -249,7 +249,7 @@ void rclc_tasks_run_session(uint8_t task)
     microros_unlock();
     rcl_waiting_receive();
     microros_lock();
-    news = microros_news - (session_is_due ? 1u : 0u); /* due since it was run: it does not wait */
+    news = microros_news() - (session_is_due ? 1u : 0u); /* due since it was run: it does not wait */
     session_release_tasks();
     microros_unlock();
     task_count(task);

@@ -51,17 +51,17 @@ bool rmw_turn_waits(uint32_t timeout_ms, uint32_t * news)
     return false;
   }
   microros_lock();
-  waits = *news == microros_news;
+  waits = *news == microros_news();
   waiting_tasks[task].waits = waits;
   waiting_tasks[task].is_released = false;
   waiting_tasks[task].until_ms = port_time_ms() + timeout_ms;
-  *news = microros_news;
+  *news = microros_news();
   microros_unlock();
   if (waits) {
     port_task_wait(task, timeout_ms);
     microros_lock();
     waiting_tasks[task].waits = false;
-    *news = microros_news;
+    *news = microros_news();
     microros_unlock();
   }
   return true;

@@ -130,7 +130,7 @@ void rcl_timer_wake(rcl_timer_impl_t * timer)
 {
   timer->woken = true;
   if (timer->guard != NULL) {
-    timer->guard->triggered = timer->guard->triggered + 1u;
+    microros_flag_set(&timer->guard->is_triggered);
   }
   microros_wake();
 }

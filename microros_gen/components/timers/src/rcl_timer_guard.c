@@ -21,8 +21,11 @@ rcl_guard_condition_t * rcl_timer_get_guard_condition(const rcl_timer_t * timer)
   if (impl->guard == NULL) {
     impl->guard = &states[index];
     impl->guard->taken = true;
-    impl->guard->seen =
-      impl->guard->triggered - (impl->woken ? 1u : 0u); /* triggered before it was requested */
+    if (impl->woken) { /* before it was requested */
+      microros_flag_set(&impl->guard->is_triggered);
+    } else {
+      microros_flag_clear(&impl->guard->is_triggered);
+    }
     guards[index].impl = impl->guard;
   }
   microros_unlock();

@@ -4,20 +4,17 @@
 #define MICROROS_RCL_GUARD_CONDITION_INTERNAL_H
 
 #include <stdbool.h>
-#include <stdint.h>
 
+#include "microros/shared_flag.h"
 #include "rcl/guard_condition.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/*
- * Counters of triggers and of seen triggers: the triggering context writes only the first, the waiting
- * task only the second. */
+/* The triggering context sets the flag, the waiting task clears it. */
 struct rcl_guard_condition_impl_s {
-  volatile uint32_t triggered;
-  uint32_t seen;
+  microros_shared_flag_t is_triggered;
   bool taken;
 };
 

@@ -9,24 +9,26 @@
 #include <stdint.h>
 
 #include "microros/port.h"
+#include "microros/shared_flag.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* Counts news modulo 2^32. Two that are counted at once may count as one: each waiting task looks after it all the same. */
-extern volatile uint32_t microros_news;
+/* A wake-up that microros_news has not counted. An interrupt cannot take the lock, and two that add to one counter at
+ * once can make it go back. */
+extern microros_shared_flag_t microros_is_woken;
 
-/* Counts news, without waking a task. */
-static inline void microros_note(void)
-{
-  microros_news = microros_news + 1u;
-}
+/* Counts news, without waking a task. Called with the lock. */
+void microros_note(void);
+
+/* Returns the number of news modulo 2^32. Called with the lock, before looking at what may be new. */
+uint32_t microros_news(void);
 
 /* Callable from any task and from an interrupt. */
 static inline void microros_wake(void)
 {
-  microros_note(); /* first: whoever is woken sees it */
+  microros_flag_set(&microros_is_woken); /* first: whoever is woken sees it */
   port_wake();
 }
 

@@ -6,13 +6,18 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "rclc/executor.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* Reconfigures a node, by its index. Returns whether it is in that mode then; false: to be tried again. Called in the
- * task of the executor. */
+/* Requests that a node, by its index, is reconfigured; returns whether it is in that mode already. The executor of its
+ * modes does it when its next round begins. Callable in any task. */
 bool rclc_modes_request(uint16_t node, const char * mode);
+
+/* Reconfigures what was requested of the modes that this executor has. */
+void rclc_modes_round_begins(const rclc_executor_t * executor);
 
 #ifdef __cplusplus
 }

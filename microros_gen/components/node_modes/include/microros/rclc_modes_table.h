@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "rclc/executor_handle.h"
 #include "rclc_modes/rclc_modes.h"
 #include "rosidl_runtime_c/message_type_support_struct.h"
 #include "rosidl_runtime_c/service_type_support_struct.h"
@@ -60,6 +61,9 @@ void rclc_modes_publish(rclc_modes_t * modes);
 
 /* Notes an error of a mode; returns `result`. */
 rcl_ret_t rclc_modes_refuse(rcl_ret_t result, const char * name, const char * why);
+
+/* Returns whether a handle of an executor is that of modes, which are its context then. */
+bool rclc_modes_has_handle(const rclc_executor_handle_t * handle);
 
 /* Returns the state of the node's life cycle. */
 uint8_t rclc_modes_state(const rclc_modes_t * modes);

@@ -28,12 +28,12 @@ bool rcl_guard_condition_is_valid(const rcl_guard_condition_t * guard_condition)
 
 bool rcl_guard_condition_is_ready(const rcl_guard_condition_t * guard_condition)
 {
-  return guard_condition->impl->triggered != guard_condition->impl->seen;
+  return microros_flag_is_set(&guard_condition->impl->is_triggered);
 }
 
 void rcl_guard_condition_acknowledge(const rcl_guard_condition_t * guard_condition)
 {
-  guard_condition->impl->seen = guard_condition->impl->triggered;
+  microros_flag_clear(&guard_condition->impl->is_triggered);
 }
 
 static rcl_guard_condition_impl_t * guard_condition_take(void)
@@ -87,7 +87,7 @@ rcl_ret_t rcl_trigger_guard_condition(rcl_guard_condition_t * guard_condition)
   if (!rcl_guard_condition_is_valid(guard_condition)) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "guard_condition");
   }
-  guard_condition->impl->triggered = guard_condition->impl->triggered + 1u;
+  microros_flag_set(&guard_condition->impl->is_triggered);
   microros_wake();
   return RCL_RET_OK;
 }
