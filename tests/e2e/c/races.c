@@ -324,7 +324,8 @@ static void on_news(const void * user_data, size_t number)
 /* Waits with its own wait set, and takes. */
 static void wait_once(rcl_wait_set_t * set, uint32_t turn)
 {
-  static std_msgs__msg__String text;
+  static char room[21];
+  static std_msgs__msg__String text = {{room, 0, sizeof(room)}};
 
   (void)turn;
   DO(rcl_wait_set_clear(set));
