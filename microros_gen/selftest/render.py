@@ -66,6 +66,7 @@ class _ConfigView:
     device: str
     baud: int
     stack: int
+    plan_id: str
 
 
 def render_selftest(project: Project, environment: Environment) -> dict[str, bytes]:
@@ -123,6 +124,7 @@ def _config(project: Project, tested: tuple[TypePlan, ...]) -> _ConfigView:
         device=string(runtime.transport.device),
         baud=runtime.transport.baud,
         stack=stack,
+        plan_id=runtime.plan_id,
     )
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import pty
 import re
@@ -405,6 +406,22 @@ def test_run_gives_the_result_of_a_board(outputs: Path, run: Runner) -> None:
         found[fault] = (done.status, re.findall(r"MG-\d+", done.err))
         assert ("stack_peak" in done.out) == (fault != "stops")
     assert found == {"": (0, []), "peak_zero": (1, []), "stops": (1, ["MG-7163"])}
+
+
+def test_size_measures_the_self_test_of_this_plan_alone(outputs: Path, run: Runner) -> None:
+    image = board_image(outputs, "qemu-mps2-an386")
+    out = image.parent
+    shown = run("size", str(out), "--image", str(image))
+    assert (shown.status, "port_cortex_m" in shown.out) == (0, True), shown.out + shown.err
+    manifest = out / "manifest.json"
+    before = manifest.read_text()
+    plan = json.loads(before)["plan"]
+    manifest.write_text(before.replace(plan, plan[::-1]))
+    try:
+        refused = run("size", str(out), "--image", str(image))
+    finally:
+        manifest.write_text(before)
+    assert (refused.status, "MG-8414" in refused.err) == (2, True)
 
 
 def test_run_refuses_what_has_no_self_test(outputs: Path, run: Runner, out: Path) -> None:

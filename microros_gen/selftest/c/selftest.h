@@ -8,6 +8,8 @@
 
 #include <stdint.h>
 
+#include "selftest_config.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
