@@ -38,6 +38,7 @@ CHECKS = (
     Check("udp", ("udp",)),
     Check("udp_loop", ("udp", "udp_local"), _LENGTHS),
     Check("tcp", ("tcp",)),
+    Check("multicast", ("multicast",)),
     Check("serial", ("serial",), _LENGTHS),
 )
 

@@ -147,6 +147,13 @@ TCP_FAULTS = {
     "tcp_waits": "tcp_receive_never_waits",
     "tcp_invents": "tcp_refused",
 }
+MULTICAST_FAULTS = {
+    "multicast_none": "multicast_open",
+    "multicast_takes_all": "multicast_refuses_a_wrong_group",
+    "multicast_refuses": "multicast_send",
+    "multicast_invents": "multicast_receive_nothing",
+    "multicast_waits": "multicast_receive_never_waits",
+}
 BOARD_FAULTS = {
     "us_back": "microseconds_never_backwards",
     "us_coarse": "microseconds_resolution",
@@ -313,6 +320,14 @@ def test_a_connection_that_is_refused(outputs: Path) -> None:
     check_faults(program, TCP_FAULTS)
 
 
+def test_multicast(outputs: Path) -> None:
+    text = f"{HEAD.replace('pure_reader', 'ad_hoc_discoverable_sender, pure_reader')}{SMALL}"
+    out = generated(outputs / "multicast", text)
+    program = link(["gcc", "-O1"], out, out / "faulty", DECODER)
+    assert results(all_pass(program))["multicast_send"] == ("PASS", "")
+    check_faults(program, MULTICAST_FAULTS)
+
+
 def run_on(name: str, image: Path, *arguments: str) -> str:
     """Return what a self-test prints in the emulator of a target."""
     emulator = target(name).emulator
@@ -385,7 +400,7 @@ def test_a_serial_line_of_a_board_that_is_looped(outputs: Path) -> None:
 
 def test_every_check_has_a_fault() -> None:
     """Each name in the C files is one that some fault makes fail."""
-    faults = (HOST_FAULTS, SERIAL_FAULTS, TCP_FAULTS, BOARD_FAULTS)
+    faults = (HOST_FAULTS, SERIAL_FAULTS, TCP_FAULTS, MULTICAST_FAULTS, BOARD_FAULTS)
     wanted = [checks for group in faults for checks in group.values()]
     tested = {name for checks in wanted if ": " not in checks for name in checks.split()}
     folder = Path(checks_module.__file__).parent / "c"

@@ -25,6 +25,7 @@ void selftest_stack_peak(void);
 void selftest_udp(void);
 void selftest_udp_loop(void);
 void selftest_tcp(void);
+void selftest_multicast(void);
 void selftest_serial(void);
 
 /* Round trips of the message types (selftest_types.c). */

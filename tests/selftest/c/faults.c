@@ -206,6 +206,31 @@ WRAP(int32_t, port_tcp_receive, (port_tcp_t * tcp, uint8_t * buffer, size_t capa
   return __real_port_tcp_receive(tcp, buffer, capacity);
 }
 
+WRAP(bool, port_multicast_open, (port_multicast_t * multicast))
+{
+  return !IS("multicast_none") && __real_port_multicast_open(multicast);
+}
+
+WRAP(
+  bool, port_multicast_send,
+  (port_multicast_t * multicast, const char * group, uint16_t port, const uint8_t * data, size_t size))
+{
+  if (IS("multicast_takes_all") || IS("multicast_refuses")) {
+    return IS("multicast_takes_all");
+  }
+  return __real_port_multicast_send(multicast, group, port, data, size);
+}
+
+WRAP(
+  size_t, port_multicast_receive,
+  (port_multicast_t * multicast, uint8_t * buffer, size_t capacity, uint8_t * sender))
+{
+  if (IS("multicast_waits")) {
+    __real_port_sleep_ms(50);
+  }
+  return IS("multicast_invents") ? capacity : __real_port_multicast_receive(multicast, buffer, capacity, sender);
+}
+
 WRAP(bool, port_serial_open, (port_serial_t * serial, const char * device, uint32_t baud))
 {
   static uint32_t calls;
