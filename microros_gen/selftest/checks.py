@@ -40,6 +40,7 @@ CHECKS = (
     Check("tcp", ("tcp",)),
     Check("multicast", ("multicast",)),
     Check("serial", ("serial",), _LENGTHS),
+    Check("storage", ("storage",)),
 )
 
 

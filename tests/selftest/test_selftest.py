@@ -154,6 +154,11 @@ MULTICAST_FAULTS = {
     "multicast_invents": "multicast_receive_nothing",
     "multicast_waits": "multicast_receive_never_waits",
 }
+STORAGE_FAULTS = {
+    "storage_none": "storage_works",
+    "storage_cuts": "storage_keeps",
+    "storage_not_erased": "storage_erases",
+}
 BOARD_FAULTS = {
     "us_back": "microseconds_never_backwards",
     "us_coarse": "microseconds_resolution",
@@ -168,6 +173,7 @@ NAMES = re.compile(
 TRIES = 6
 DECODER = ("-DHAS_DECODER",)
 TASKS = ("-DHAS_TASKS", *DECODER)
+STORAGE = ("-DHAS_STORAGE", *DECODER)
 UNSEEN = {"lock_is_recursive"}
 """A check that does not fail but stops the program: `test_a_lock_that_is_not_recursive_stops_the_program`."""
 
@@ -328,6 +334,20 @@ def test_multicast(outputs: Path) -> None:
     check_faults(program, MULTICAST_FAULTS)
 
 
+def test_storage_is_tested_where_a_slot_is_free(outputs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    parameters = SMALL.replace("name: device,", "name: device, parameters: [{name: on, type: bool}],")
+    out = generated(outputs / "storage", f"{HEAD}components: [+parameter_storage]\n{parameters}")
+    monkeypatch.setenv("MICROROS_STORAGE", str(out))
+    program = link(["gcc", "-O1", "-DSELFTEST_STORAGE_SLOT=9"], out, out / "faulty", STORAGE)
+    assert results(all_pass(program))["storage_erases"] == ("PASS", "")
+    assert (out / "microros_storage.9").stat().st_size == 24
+    check_faults(program, STORAGE_FAULTS)
+    shutil.rmtree(out / "objects-gcc")
+    program = link(["gcc", "-O1"], out, out / "without", STORAGE)
+    word, why = results(all_pass(program))["storage"]
+    assert (word, "SELFTEST_STORAGE_SLOT" in why) == ("SKIP", True)
+
+
 def run_on(name: str, image: Path, *arguments: str) -> str:
     """Return what a self-test prints in the emulator of a target."""
     emulator = target(name).emulator
@@ -400,7 +420,7 @@ def test_a_serial_line_of_a_board_that_is_looped(outputs: Path) -> None:
 
 def test_every_check_has_a_fault() -> None:
     """Each name in the C files is one that some fault makes fail."""
-    faults = (HOST_FAULTS, SERIAL_FAULTS, TCP_FAULTS, MULTICAST_FAULTS, BOARD_FAULTS)
+    faults = (HOST_FAULTS, SERIAL_FAULTS, TCP_FAULTS, MULTICAST_FAULTS, STORAGE_FAULTS, BOARD_FAULTS)
     wanted = [checks for group in faults for checks in group.values()]
     tested = {name for checks in wanted if ": " not in checks for name in checks.split()}
     folder = Path(checks_module.__file__).parent / "c"

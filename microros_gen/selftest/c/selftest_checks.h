@@ -27,6 +27,7 @@ void selftest_udp_loop(void);
 void selftest_tcp(void);
 void selftest_multicast(void);
 void selftest_serial(void);
+void selftest_storage(void);
 
 /* Round trips of the message types (selftest_types.c). */
 void selftest_types(void);

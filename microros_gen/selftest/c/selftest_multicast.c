@@ -35,8 +35,8 @@ void selftest_multicast(void)
     "multicast_send", port_multicast_send(&multicast, "127.0.0.1", NOBODY, bytes, sizeof(bytes)),
     "a datagram that was not sent", "one to this device itself");
   selftest_equal(
-    "multicast_receive_nothing",
-    (int64_t)port_multicast_receive(&multicast, buffer, sizeof(buffer), sender), 0, "bytes");
+    "multicast_receive_nothing", (int64_t)port_multicast_receive(&multicast, buffer, sizeof(buffer), sender),
+    0, "bytes");
   selftest_at_most(
     "multicast_receive_never_waits", (int64_t)selftest_shortest_ms(receive), (int64_t)ZERO_MS, "ms");
   port_multicast_close(&multicast);

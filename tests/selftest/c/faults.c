@@ -6,6 +6,9 @@
 #define _GNU_SOURCE
 #include "microros/message_type.h"
 #include "microros/port.h"
+#ifdef HAS_STORAGE
+#include "microros/port_storage.h"
+#endif
 #ifdef HAS_TASKS
 #include "microros/port_tasks.h"
 #include <pthread.h>
@@ -230,6 +233,24 @@ WRAP(
   }
   return IS("multicast_invents") ? capacity : __real_port_multicast_receive(multicast, buffer, capacity, sender);
 }
+
+#ifdef HAS_STORAGE
+WRAP(bool, port_storage_erase, (uint32_t slot))
+{
+  return !IS("storage_none") && __real_port_storage_erase(slot);
+}
+
+WRAP(bool, port_storage_write, (uint32_t slot, uint32_t offset, const uint8_t * bytes, uint32_t size))
+{
+  static uint32_t calls;
+
+  ++calls;
+  if (IS("storage_not_erased") && calls > 2u) {
+    return true; /* the bits that were cleared stay */
+  }
+  return __real_port_storage_write(slot, offset, bytes, IS("storage_cuts") && offset != 0u ? 8u : size);
+}
+#endif
 
 WRAP(bool, port_serial_open, (port_serial_t * serial, const char * device, uint32_t baud))
 {

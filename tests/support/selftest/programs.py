@@ -17,7 +17,7 @@ from tests.support.patience import seconds
 
 FAULTS_FILE = TESTS / "selftest" / "c" / "faults.c"
 _WRAPPED = tuple(re.findall(r"^WRAP\(\s*[^,]*,\s*(\w+)", FAULTS_FILE.read_text(), re.MULTILINE))
-_LIBRARY = re.compile(r"src/(port_\w+|rosidl_runtime|cdr|cdr_decode|\w+_msgs)/")
+_LIBRARY = re.compile(r"src/(port_\w+|rosidl_runtime|cdr|cdr_decode|\w+_msgs|\w+_interfaces)/")
 _LINE = re.compile(r"(PASS|FAIL|SKIP) ([\w/]+)(?:: (.*))?")
 _LAST = re.compile(r"(PASS|FAIL) (\d+) of (\d+)")
 WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Werror")
