@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Programs that together have every component that tasks can use, driven by several tasks (tests/e2e/c/races.c).
+"""Programs that together have all components but those in ELSEWHERE, driven by several tasks (tests/e2e/c/races.c).
 
 A program is the generated example of an application. What a new component adds to examples is in it when the component
 is named below.
@@ -171,14 +171,14 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
 
 ELSEWHERE: Mapping[str, str] = MappingProxyType(
     {
-        "discovery": "searches for an agent before there are tasks; tests/runtime/test_threads.py",
-        "entities_preconfigured": "in place of entities_xml and _binary; it keeps nothing that tasks share",
-        "entities_reference": "in place of entities_xml and _binary; it only encodes",
-        "framing": "of serial lines and custom transports; tests/runtime/test_threads.py has it",
-        "sleep_cycles": "the whole device sleeps, and no task runs meanwhile",
-        "transport_canfd": "needs a CAN bus of the system",
+        "discovery": "in place of addresses of agents; not run under ThreadSanitizer",
+        "entities_preconfigured": "in place of entities_xml and _binary; not run under ThreadSanitizer",
+        "entities_reference": "in place of entities_xml and _binary; not run under ThreadSanitizer",
+        "framing": "of serial lines and custom transports; tests/runtime/test_threads.py",
+        "sleep_cycles": "no task runs while the device sleeps",
+        "transport_canfd": "needs a CAN bus of the system; not run under ThreadSanitizer",
         "transport_custom": "its functions are the application's; tests/runtime/test_threads.py",
-        "transport_serial": "needs a line",
+        "transport_serial": "needs a line; not run under ThreadSanitizer",
     }
 )
 """Components in none of them, and why."""
