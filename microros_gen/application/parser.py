@@ -53,6 +53,7 @@ _BLOCK = re.compile(r"block ([0-9]{1,12}) ?(ms|s)")
 _POOLS_BESIDE_NODES = (
     "history",
     "input_history",
+    "best_effort_history",
     "slot_size",
     "timers",
     "executors",

@@ -165,8 +165,9 @@ def _stream_rows(streams: StreamSizes) -> list[tuple[str, str, str]]:
         ),
         (
             "best-effort output",
-            f"{streams.best_effort_size} bytes",
-            "the largest CREATE or best-effort message",
+            f"{streams.best_effort_shown} bytes",
+            "the largest CREATE or best-effort message"
+            + (", times those that wait" if streams.best_effort_slots else ""),
         ),
         ("input", f"{streams.input_size} bytes", f"the largest message of the agent{arriving}"),
     ]

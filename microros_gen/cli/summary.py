@@ -36,7 +36,7 @@ def plan_summary(planned: Planned) -> str:
         (
             "streams",
             f"reliable {runtime.streams.reliable_slots} x {runtime.streams.reliable_slot_size} bytes,"
-            f" best effort {runtime.streams.best_effort_size}, input {runtime.input.size}",
+            f" best effort {project.streams.best_effort_shown}, input {runtime.input.size}",
         ),
     ]
     if project.line:

@@ -236,6 +236,11 @@ def _pools(project: Project) -> dict[str, int]:
         "reliable_slots": runtime.streams.reliable_slots,
         "reliable_slot_size": runtime.streams.reliable_slot_size,
         "best_effort_size": runtime.streams.best_effort_size,
+        **(
+            {"best_effort_slots": runtime.streams.best_effort_slots}
+            if runtime.streams.queues_best_effort
+            else {}
+        ),
         "input_size": runtime.input.size,
         **({"input_buffer": runtime.input.buffer_size} if runtime.input.lends else {}),
         "arena": runtime.memory.arena_size,

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from microros_gen.application.model import Application
+from microros_gen.application.task_decl import TaskDecl
 from microros_gen.application.transport_decl import Transport
 from microros_gen.client.plan.streams import (
     LARGEST_BODY,
@@ -262,6 +263,29 @@ def test_an_input_history_without_a_reliable_input_stream_has_no_effect() -> Non
     (line,) = found_warnings
     assert "'pools.input_history' has no effect" in line
     assert streams.reliable_input_slots == 0
+
+
+def test_best_effort_messages_wait_for_the_task_of_the_session() -> None:
+    """One for each writer, at least two, or as many as the file says; one more place is for what creates entities."""
+    tasks = (TaskDecl("control", Named("a")),)
+    many = [replace(INT32, best_effort=True) for _ in range(5)]
+    streams, _ = plan(*many, application=Application(tasks=tasks))
+    assert (streams.best_effort_slots, streams.best_effort_places) == (5, 6)
+    assert streams.best_effort_shown == f"6 x {streams.best_effort_size}"
+    assert streams.ram == plan(*many)[0].ram + 5 * streams.best_effort_size
+    streams, _ = plan(many[0], application=Application(tasks=tasks), create=0)
+    assert (streams.best_effort_slots, streams.best_effort_places) == (2, 2)
+    application = Application(tasks=tasks, pools={"best_effort_history": 1})
+    streams, warnings = plan(*many, application=application)
+    assert (streams.best_effort_slots, streams.best_effort_places, warnings) == (1, 2, [])
+
+
+def test_a_best_effort_history_without_tasks_has_no_effect() -> None:
+    streams, found_warnings = plan(INT32, application=Application(pools={"best_effort_history": 3}))
+    (line,) = found_warnings
+    assert "'pools.best_effort_history' has no effect" in line
+    assert (streams.best_effort_slots, streams.best_effort_places) == (0, 1)
+    assert streams.best_effort_shown == str(streams.best_effort_size)
 
 
 def test_drop_oldest_with_fragments_needs_two_slots() -> None:

@@ -238,5 +238,5 @@ def test_each_pool_is_of_a_component() -> None:
     """Those of streams and of the bytes of queues are checked where the plan has their sizes."""
     keys = set(load_schema(APPLICATION_SCHEMA)["properties"]["pools"]["properties"])
     owned = {key for component in load_catalogue().values() for key in component.pools}
-    assert keys - owned == {"history", "input_history", "slot_size", "queue_bytes"}
+    assert keys - owned == {"history", "input_history", "best_effort_history", "slot_size", "queue_bytes"}
     assert owned - keys == set()

@@ -104,6 +104,11 @@ def _output(plan: OutputPlan) -> _Record:
     return {
         "mtu": plan.mtu,
         "best_effort": plan.best_effort_size,
+        **(
+            {"best_effort_queue": [plan.best_effort_slots, plan.best_effort_places]}
+            if plan.best_effort_slots or plan.best_effort_places > 1
+            else {}
+        ),
         "reliable": [plan.reliable_slots, plan.reliable_slot_size],
         "full": [plan.on_full, plan.on_full_block_ms],
         "fragments": plan.fragments,

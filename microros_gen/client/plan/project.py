@@ -259,6 +259,8 @@ def _output(application: Application, streams: StreamSizes) -> OutputPlan:
         on_full=application.on_full,
         on_full_block_ms=application.on_full_block_ms,
         fragments=streams.fragments,
+        best_effort_slots=streams.best_effort_slots,
+        best_effort_places=streams.best_effort_places,
     )
 
 

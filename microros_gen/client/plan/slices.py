@@ -148,6 +148,8 @@ class OutputPlan:
 
     `best_effort_size` 0 or `reliable_slots` 0: the stream does not exist. `fragments`: some reliable message is larger
     than the MTU, `reliable_slot_size` holds it whole. `on_full`: what a write does when no slot is free.
+    `best_effort_slots`: messages that wait until a task sends them; 0: they are sent at once. `best_effort_places`: how
+    many messages its storage holds, one of them of the session itself where that creates entities on the stream.
     """
 
     mtu: int
@@ -157,6 +159,18 @@ class OutputPlan:
     on_full: str
     on_full_block_ms: int
     fragments: bool = False
+    best_effort_slots: int = 0
+    best_effort_places: int = 1
+
+    @property
+    def queues_best_effort(self) -> bool:
+        """Whether best-effort messages wait until a task sends them."""
+        return self.best_effort_slots != 0
+
+    @property
+    def best_effort_bytes(self) -> int:
+        """Bytes of the storage of the best-effort stream."""
+        return self.best_effort_size * self.best_effort_places
 
     @property
     def reliable_front(self) -> int:

@@ -62,7 +62,7 @@ def check_stream_budget(
     message = (
         f"the streams alone take {now} bytes of RAM and memory.ram_budget is {budget}"
         f" (reliable {streams.reliable_slots} x {streams.reliable_slot_size}, best effort"
-        f" {streams.best_effort_size}, input {streams.input_size}{f', queues {queues}' if queues else ''})"
+        f" {streams.best_effort_shown}, input {streams.input_size}{f', queues {queues}' if queues else ''})"
     )
     hint, block = _proposal(project, capacities, _Trial(plan, budget), now)
     diagnostics.add(Diagnostic(message, application.memory.ram_span, hint, block=block, id="MG-7022"))

@@ -11,6 +11,7 @@ from collections.abc import Iterable
 
 from microros_gen.application.model import Application
 from microros_gen.client.plan.creation import MESSAGE_HEADER, SUBMESSAGE_HEADER, most_in_fragments
+from microros_gen.client.plan.history import default_history, input_slots, output_slots
 from microros_gen.client.plan.transport_sizes import FRAGMENTS_PER_SAMPLE, default_mtu, largest_mtu, mtu_is
 from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.records import dataclass
@@ -19,10 +20,6 @@ OBJECT_PREFIX = 4  # request id and object id
 WRITE_DATA_OVERHEAD = MESSAGE_HEADER + SUBMESSAGE_HEADER + OBJECT_PREFIX
 # The largest message of the agent to a client that only writes is INFO with two locators (52 bytes).
 WRITE_SIDE_INPUT = 64
-DEFAULT_HISTORY = 4
-LEAST_DEFAULT_HISTORY = 2
-DEFAULT_HISTORY_BYTES = 1024
-DEFAULT_INPUT_HISTORY = 1
 # A frame around a message on a serial line: flag, addresses, length, CRC; all but the flag may be stuffed, and are
 # then twice as long (OMG DDS-XRCE 1.0, annex C). Of random bytes one in 128 is.
 _FRAME_FLAG = 1
@@ -90,6 +87,8 @@ class StreamSizes:
     """Bytes of each stream's storage; 0 or no slots where a stream is not needed.
 
     `mtu`: the largest message that is sent. `fragments`: some reliable message is larger and is sent in fragments.
+    `best_effort_slots`: messages that wait for the task of the session; 0: they are sent at once. `best_effort_places`:
+    those, and one of the session itself where it creates entities on that stream.
     `creation_size`: of a request to create on the reliable stream, which goes in fragments (`creation_fragments`) where
     it is larger than the MTU. `reliable_input_slots`: messages of the agent's
     reliable stream that are held at a time; the one that is being handled is in the input buffer.
@@ -107,6 +106,8 @@ class StreamSizes:
     reliable_slots: int
     reliable_slot_size: int
     input_size: int
+    best_effort_slots: int = 0
+    best_effort_places: int = 1
     creation_size: int = 0
     creation_fragments: bool = False
     fragments: bool = False
@@ -120,6 +121,12 @@ class StreamSizes:
     input_slot: int = 0
 
     @property
+    def best_effort_shown(self) -> str:
+        """What reports say of the best-effort stream: its bytes, with a queue as `3 x 24`."""
+        times = f"{self.best_effort_places} x " if self.best_effort_slots else ""
+        return f"{times}{self.best_effort_size}"
+
+    @property
     def input_buffer(self) -> int:
         """Bytes of the buffer that messages are received in."""
         return max(self.input_size, self.input_free + self.input_slot)
@@ -129,15 +136,8 @@ class StreamSizes:
         """Bytes of all buffers together."""
         reliable = self.reliable_slots * self.reliable_slot_size
         inputs = max(0, self.reliable_input_slots - 1) * self.input_size + self.input_buffer
-        return self.best_effort_size + reliable + inputs + self.creation_size
-
-
-def default_history(slot_size: int) -> int:
-    """Return how many reliable messages are kept unless the application file says it: of large ones fewer.
-
-    While one is under way a second can be written; more of them are worth their memory where they are small.
-    """
-    return min(DEFAULT_HISTORY, max(LEAST_DEFAULT_HISTORY, DEFAULT_HISTORY_BYTES // slot_size))
+        best_effort = self.best_effort_size * self.best_effort_places
+        return best_effort + reliable + inputs + self.creation_size
 
 
 def plan_streams(
@@ -193,6 +193,7 @@ def plan_streams(
     if (creation or reliable_output) and not reliable:
         slots, reliable = 1, WRITE_DATA_OVERHEAD
     best_effort = max(best_effort, least, WRITE_DATA_OVERHEAD) if best_effort or best_effort_output else 0
+    queued = output_slots(application, sum(m.best_effort for m in messages), best_effort, diagnostics)
     input_size = max(
         min(WRITE_SIDE_INPUT, ceiling),
         least,
@@ -218,13 +219,15 @@ def plan_streams(
     return StreamSizes(
         mtu=ceiling if fragments or request_in_fragments else max(best_effort, reliable, create),
         best_effort_size=best_effort,
+        best_effort_slots=queued,
+        best_effort_places=queued + (1 if create and not creation else 0) if queued else 1,
         reliable_slots=slots,
         reliable_slot_size=_align4(reliable + FRAGMENT_HEADER) if fragments else reliable,
         input_size=input_size,
         creation_size=creation + (FRAGMENT_HEADER if request_in_fragments else 0),
         creation_fragments=request_in_fragments,
         fragments=fragments,
-        reliable_input_slots=_input_slots(application, reliable_input, diagnostics),
+        reliable_input_slots=input_slots(application, reliable_input, diagnostics),
         arrives_in_fragments=any(sample.streamed or sample.whole > input_size for sample in samples),
         input_reader=in_input_buffer[0] if in_input_buffer else None,
         input_free=in_input_buffer[1] if in_input_buffer else 0,
@@ -304,20 +307,6 @@ def _lent(samples: tuple[Received, ...], least: int, ceiling: int, fragments: in
 def slot_of(size: int) -> int:
     """Return the bytes of a slot: a body, padded as some writers do."""
     return _align4(max(size, 1))
-
-
-def _input_slots(application: Application, reliable_input: bool, diagnostics: Diagnostics) -> int:
-    requested = application.pools.get("input_history")
-    if reliable_input:
-        return requested or DEFAULT_INPUT_HISTORY
-    if requested is not None:
-        diagnostics.warning(
-            "'pools.input_history' has no effect: no selected component receives on a reliable stream",
-            application.spans.get("pools.input_history"),
-            "Remove it",
-            id="MG-7025",
-        )
-    return 0
 
 
 def _check_create(

@@ -212,7 +212,7 @@ def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectVi
         agent_file=next((path for path in rendered if path.startswith("agent/")), ""),
         memory=(
             _Bytes("reliable output", runtime.streams.reliable_slots * runtime.streams.reliable_slot_size),
-            _Bytes("best-effort output", runtime.streams.best_effort_size),
+            _Bytes("best-effort output", runtime.streams.best_effort_bytes),
             _Bytes("input", runtime.input.buffer_size),
             *((_Bytes("serial line, both directions", _line(project)),) if _line(project) else ()),
             *((_Bytes("queues", runtime.input.queues_size),) if runtime.input.queues else ()),

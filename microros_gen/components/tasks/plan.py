@@ -37,6 +37,8 @@ _FEED = (
     "}",
     "",
 )
+_OUTBOX_BESIDES = 72
+"""Bytes beside the largest message: its size, and a message of the session itself (CREATE_CLIENT and smaller ones)."""
 _WAIT_MOST_US = 1_000_000
 """Longest wait of a task without a period: RCLC_TASKS_WAIT_MOST_MS of rclc_tasks_state.h."""
 
@@ -91,6 +93,7 @@ class TasksPlan:
     `stack_context` is what the system puts on each stack, bytes.
     `responses` is the analysis of their deadlines, by priority; empty where it cannot be made, because of `gaps`.
     `margin_us`: time after a deadline from which on the watchdog is not fed; 0: without one.
+    `outbox_size`: bytes for messages that wait for the write function of the application.
     """
 
     tasks: tuple[TaskPlan, ...]
@@ -100,6 +103,7 @@ class TasksPlan:
     responses: tuple[Response, ...] = ()
     margin_us: int = 0
     gaps: tuple[str, ...] = ()
+    outbox_size: int = 0
 
     @property
     def count(self) -> int:
@@ -240,6 +244,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> TasksPlan:
         responses=() if open_gaps else analyze_tasks(tasks, diagnostics, context.target.instructions_per_us),
         margin_us=application.watchdog.margin_us if application.watchdog is not None else 0,
         gaps=open_gaps,
+        outbox_size=context.runtime.streams.mtu + _OUTBOX_BESIDES,
     )
 
 

@@ -538,6 +538,7 @@ _TOP = {
             "parameters": 251,
             "history": 17,
             "input_history": 0,
+            "best_effort_history": 65,
             "queue": 251,
             "name_size": 7,
         }.items()

@@ -339,6 +339,15 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "components: [+subscribe, +executor, +timers, +diagnosis]\n"
         + "tasks:\n  - {name: control, executor: fast, rate: 20 Hz, overrun: call}\n"
         + "  - {name: work, executor: slow, interval: 5 ms}\nwatchdog: {margin: 10 ms}\n",
+        "tasks_custom": _BOTH
+        + "    executors: [{name: fast}]\n"
+        + "components: [+executor, +services]\non_full: drop_oldest\ntransport: {type: custom}\n"
+        + "tasks: [{name: control, executor: fast, rate: 20 Hz}]\n",
+        "tasks_preconfigured": _NODES
+        + _BEST
+        + "    executors: [{name: fast}]\n"
+        + "components: [+executor]\non_full: block 10 ms\nentities: preconfigured\n"
+        + "tasks: [{name: control, executor: fast, rate: 20 Hz}]\n",
         "transforms": _NODES.replace("    publishers:\n", "")
         + "components: [+tf_broadcaster, +multithread]\n",
         "executor_events": _BOTH + "components: [+qos_events, +clock_stamp]\n",

@@ -4,7 +4,7 @@
  * exists. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
-#include "microros/xrce_stream_best_effort.h"
+#include "microros/xrce_stream_best_effort_spare.h"
 
 bool xrce_creation_begin(xrce_client_t * client, uint32_t now)
 {
@@ -16,12 +16,12 @@ bool xrce_creation_begin(xrce_client_t * client, uint32_t now)
 uint8_t * xrce_creation_room(xrce_client_t * client)
 {
   (void)client;
-  return xrce_stream_best_effort_reserve();
+  return xrce_stream_best_effort_spare();
 }
 
 void xrce_creation_send(xrce_client_t * client, size_t size)
 {
-  (void)xrce_stream_best_effort_commit(&client->session, size);
+  xrce_stream_best_effort_send_spare(&client->session, size);
 }
 
 void xrce_creation_end(xrce_client_t * client)

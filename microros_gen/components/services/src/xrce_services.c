@@ -23,7 +23,9 @@ xrce_write_t xrce_service_write(
   uint8_t * room;
   size_t size;
 
-  xrce_session_pump(endpoint->client);
+  if (xrce_turn_begin(endpoint->client)) {
+    xrce_session_pump(endpoint->client);
+  }
   room = xrce_write_reserve(endpoint);
   if (room == NULL) {
     outcome = xrce_write_on_full(endpoint, &room);

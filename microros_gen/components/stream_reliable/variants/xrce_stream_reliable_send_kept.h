@@ -18,7 +18,9 @@ extern "C" {
  * again. */
 static inline bool xrce_stream_reliable_send(xrce_session_t * session, const uint8_t * message, size_t size)
 {
-  if (!session->transport_open || !xrce_transport_send_kept(&session->transport, message, size)) {
+  if (
+    !xrce_turn_is_mine() || !session->transport_open ||
+    !xrce_transport_send_kept(&session->transport, message, size)) {
     return false;
   }
   ++session->statistics.sent;

@@ -12,16 +12,27 @@
 #include <stddef.h>
 #include <string.h>
 
-static bool tasks_run;
+static bool tasks_run;    /* the lock guards both */
+static bool tasks_change; /* a call starts or ends some of them */
 
-bool rclc_tasks_continue(void)
+bool rclc_tasks_continue(uint8_t task)
 {
-  bool is_running;
+  bool continues;
 
   microros_lock();
-  is_running = tasks_run;
+  continues = rclc_task_states[task].continues;
   microros_unlock();
-  return is_running;
+  return continues;
+}
+
+static bool tasks_are_running(void)
+{
+  bool are_running;
+
+  microros_lock();
+  are_running = tasks_run;
+  microros_unlock();
+  return are_running;
 }
 
 static rcl_ret_t tasks_refuse(const char * why)
@@ -39,7 +50,7 @@ rcl_ret_t rclc_task_set_executor(uint8_t task, rclc_executor_t * executor, rclc_
   if (!has_executor(task) || executor == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "task or executor");
   }
-  if (rclc_tasks_continue()) {
+  if (tasks_are_running()) {
     return tasks_refuse("they run");
   }
   rclc_task_states[task].executor = executor;
@@ -52,7 +63,7 @@ rcl_ret_t rclc_task_set_overrun(uint8_t task, rclc_task_overrun_callback_t callb
   if (!has_executor(task) || rclc_task_plans[task].overrun != RCLC_TASK_CALL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "task");
   }
-  if (rclc_tasks_continue()) {
+  if (tasks_are_running()) {
     return tasks_refuse("they run");
   }
   rclc_task_states[task].on_overrun = callback;
@@ -87,20 +98,56 @@ static void task_join(uint8_t task)
   microros_unlock();
 }
 
-/* Ends the first `count` tasks. */
-static void tasks_end(uint8_t count)
+/* Says that a task is to end. The caller holds the lock. */
+static void task_notify(uint8_t task)
+{
+  rclc_task_states[task].continues = false;
+  rmw_tasks_end(task);
+}
+
+/* Ends a task that was told. It is watched until it has ended. */
+static void task_end(uint8_t task)
+{
+  if (rclc_task_states[task].is_made) {
+    port_task_set(task);
+    task_join(task);
+  }
+  microros_lock();
+  rclc_tasks_watch_end(task);
+  microros_unlock();
+}
+
+static void tasks_end(void)
 {
   microros_lock();
   tasks_run = false;
-  rmw_tasks_set_running(false);
-  microros_unlock();
+  for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS; ++task) {
+    task_notify(task);
+  }
   microros_wake(); /* the session waits for the line; what is about to wait looks again */
-  for (uint8_t task = 0; task < count; ++task) {
-    port_task_set(task);
+  microros_unlock();
+  for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS; ++task) {
+    if (rclc_task_states[task].is_made) {
+      port_task_set(task); /* all first, so that they end at once */
+    }
   }
-  for (uint8_t task = 0; task < count; ++task) {
-    task_join(task);
+  for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS; ++task) {
+    task_end(task);
   }
+}
+
+/* Nothing of a start before is left; a task with a period has its first release now. The caller holds the lock. */
+static void task_prepare(uint8_t task)
+{
+  rclc_task_state_t * state = &rclc_task_states[task];
+
+  state->next_us = port_task_time_us();
+  state->stack_peak = 0;
+  state->has_run = false;
+  state->is_in_round = false;
+  state->continues = true;
+  rmw_tasks_begin(task);
+  rclc_tasks_watch_begin(task);
 }
 
 /* The task may have a higher priority than the caller, so it must not run before it counts as made. */
@@ -115,43 +162,109 @@ static bool task_make(uint8_t task)
   return is_made;
 }
 
+/* Begins to start or end tasks, if the tasks run or not, as wanted, and no other call does so. */
+static bool change_begin(bool while_they_run)
+{
+  bool begins;
+
+  microros_lock();
+  begins = !tasks_change && tasks_run == while_they_run;
+  tasks_change = tasks_change || begins;
+  microros_unlock();
+  return begins;
+}
+
+static rcl_ret_t change_end(rcl_ret_t result)
+{
+  microros_lock();
+  tasks_change = false;
+  microros_unlock();
+  return result;
+}
+
+static bool tasks_are_ready(void)
+{
+  bool are_ready = true;
+
+  for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS - 1u; ++task) {
+    are_ready = are_ready && task_is_ready(task);
+  }
+  return are_ready;
+}
+
 rcl_ret_t rclc_tasks_start(void)
 {
-  if (rclc_tasks_continue()) {
+  if (!change_begin(false)) {
     return tasks_refuse("they run");
   }
-  for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS - 1u; ++task) {
-    if (!task_is_ready(task)) {
-      return tasks_refuse("a task has no executor, or no function for its overruns");
-    }
-    rclc_task_states[task].next_us = port_task_time_us();
+  if (!tasks_are_ready()) {
+    return change_end(tasks_refuse("a task has no executor, or no function for its overruns"));
   }
   microros_lock();
   for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS; ++task) {
     (void)memset(&rclc_task_states[task].counters, 0, sizeof(rclc_task_states[task].counters));
-    (void)rmw_tasks_released(task, 0); /* of a start before */
-    rclc_task_states[task].stack_peak = 0;
+    task_prepare(task);
   }
-  rclc_tasks_watch_begin();
   tasks_run = true;
-  rmw_tasks_set_running(true);
   microros_unlock();
   for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS; ++task) {
     if (!task_make(task)) {
-      tasks_end(task);
-      return tasks_refuse("the system makes no task");
+      tasks_end();
+      return change_end(tasks_refuse("the system makes no task"));
     }
   }
-  return RCL_RET_OK;
+  return change_end(RCL_RET_OK);
 }
 
 rcl_ret_t rclc_tasks_stop(void)
 {
-  if (!rclc_tasks_continue() || port_task_self() != (uint8_t)PORT_TASK_NONE) {
+  if (port_task_self() != (uint8_t)PORT_TASK_NONE || !change_begin(true)) {
     return tasks_refuse("they do not run, or one of them is the caller");
   }
-  tasks_end((uint8_t)MICROROS_TASKS);
-  return RCL_RET_OK;
+  tasks_end();
+  return change_end(RCL_RET_OK);
+}
+
+rcl_ret_t rclc_task_stop(uint8_t task)
+{
+  if (!has_executor(task)) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "task");
+  }
+  if (port_task_self() == task || !change_begin(true)) {
+    return tasks_refuse("they do not run, another call stops one, or it is the caller");
+  }
+  if (!rclc_task_states[task].is_made) {
+    return change_end(tasks_refuse("it is stopped"));
+  }
+  microros_lock();
+  task_notify(task);
+  microros_unlock();
+  task_end(task);
+  return change_end(RCL_RET_OK);
+}
+
+rcl_ret_t rclc_task_start(uint8_t task)
+{
+  if (!has_executor(task)) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "task");
+  }
+  if (!change_begin(true)) {
+    return tasks_refuse("they do not run, or another call stops one");
+  }
+  if (rclc_task_states[task].is_made) {
+    return change_end(tasks_refuse("it runs"));
+  }
+  microros_lock();
+  task_prepare(task);
+  microros_unlock();
+  if (!task_make(task)) {
+    microros_lock();
+    task_notify(task);
+    rclc_tasks_watch_end(task);
+    microros_unlock();
+    return change_end(tasks_refuse("the system makes no task"));
+  }
+  return change_end(RCL_RET_OK);
 }
 
 bool rclc_tasks_are_prioritized(void)

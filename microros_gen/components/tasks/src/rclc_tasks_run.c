@@ -12,6 +12,7 @@
 #include "microros/rmw_tasks.h"
 #include "microros/wake.h"
 #include "microros/xrce_client.h"
+#include "microros/xrce_turn.h"
 
 #include <stddef.h>
 
@@ -79,10 +80,10 @@ void rclc_tasks_run_period(uint8_t task)
 {
   rclc_task_state_t * state = &rclc_task_states[task];
 
-  while (rclc_tasks_continue()) {
+  while (rclc_tasks_continue(task)) {
     port_task_sleep_until(state->next_us);
-    if (!rclc_tasks_continue()) {
-      break; /* they were stopped meanwhile */
+    if (!rclc_tasks_continue(task)) {
+      break; /* it was stopped meanwhile */
     }
     state->released_us = state->next_us;
     state->began_us = port_task_time_us();
@@ -161,7 +162,7 @@ void rclc_tasks_run_events(uint8_t task)
   const uint64_t wait_most_ns = (uint64_t)RCLC_TASKS_WAIT_MOST_MS * 1000000u;
   rclc_task_state_t * state = &rclc_task_states[task];
 
-  while (rclc_tasks_continue()) {
+  while (rclc_tasks_continue(task)) {
     if (rclc_executor_spin_some(state->executor, wait_most_ns) != RCL_RET_OK) {
       task_count_error(task);
       port_sleep_ms(1); /* an error that stays must not keep the processor from tasks of lower priority */
@@ -236,24 +237,35 @@ static void session_release_tasks(void)
   microros_lock_silence(false);
 }
 
+/* Returns whether something is due since the session was run: it does not wait then. */
+static bool session_has_news(void)
+{
+  return session_is_due || xrce_turn_is_requested();
+}
+
 void rclc_tasks_run_session(uint8_t task)
 {
   uint32_t news;
 
-  while (rclc_tasks_continue()) {
+  rmw_tasks_take_line();
+  while (rclc_tasks_continue(task)) {
     rclc_tasks_watch_run(task);
     rclc_task_states[task].began_us = port_task_time_us();
     rclc_task_states[task].released_us = rclc_task_states[task].began_us; /* nothing knows the release */
     microros_lock();
     session_is_due = false;
+    xrce_turn_see();
     microros_unlock();
     rcl_waiting_receive();
     microros_lock();
-    news = microros_news() - (session_is_due ? 1u : 0u); /* due since it was run: it does not wait */
+    news = microros_news() - (session_has_news() ? 1u : 0u);
     session_release_tasks();
     microros_unlock();
     task_count(task);
     rclc_tasks_watch_rest(task);
-    rmw_client_wait_news((uint32_t)RCLC_TASKS_WAIT_MOST_MS, &news);
+    if (!rmw_tasks_write()) { /* a transport that waits for its line does so in its rest */
+      rmw_client_wait_news((uint32_t)RCLC_TASKS_WAIT_MOST_MS, &news);
+    }
   }
+  rmw_tasks_leave_line();
 }

@@ -14,6 +14,7 @@ typedef struct watched_task_t {
   uint32_t since_us; /* may be to come */
   uint32_t limit_us; /* time from then until it says something again */
   bool is_late;      /* kept until then: a count of microseconds wraps while a task is away for good */
+  bool is_off;       /* it does not run */
 } watched_task_t;
 
 static watched_task_t watched_tasks[MICROROS_TASKS]; /* the lock guards them */
@@ -48,24 +49,26 @@ static void watch_feed(uint32_t now_us)
 
   for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS; ++task) {
     watch_look(&watched_tasks[task], now_us);
-    is_late = is_late || watched_tasks[task].is_late;
+    is_late = is_late || (watched_tasks[task].is_late && !watched_tasks[task].is_off);
   }
   if (!is_late) {
     port_watchdog_feed();
   }
 }
 
-void rclc_tasks_watch_begin(void)
+void rclc_tasks_watch_begin(uint8_t task)
 {
-  const uint32_t now_us = port_task_time_us();
-
-  for (uint8_t task = 0; task < (uint8_t)MICROROS_TASKS; ++task) {
-    if (rclc_task_plans[task].period_us != 0u) {
-      watch_set(task, rclc_task_states[task].next_us, 0);
-    } else {
-      watch_set(task, now_us, watch_rest_us(task));
-    }
+  if (rclc_task_plans[task].period_us != 0u) {
+    watch_set(task, rclc_task_states[task].next_us, 0);
+  } else {
+    watch_set(task, port_task_time_us(), watch_rest_us(task));
   }
+  watched_tasks[task].is_off = false;
+}
+
+void rclc_tasks_watch_end(uint8_t task)
+{
+  watched_tasks[task].is_off = true;
 }
 
 void rclc_tasks_watch_release(uint8_t task, uint32_t released_us)

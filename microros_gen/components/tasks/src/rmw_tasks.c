@@ -4,8 +4,11 @@
 #include "microros/lock.h"
 #include "microros/port.h"
 #include "microros/port_tasks.h"
+#include "microros/rmw_client.h"
 #include "microros/rmw_turn.h"
 #include "microros/wake.h"
+#include "microros/xrce_client.h"
+#include "microros/xrce_turn.h"
 #include "microros_config.h"
 
 typedef struct waiting_task_t {
@@ -13,10 +16,10 @@ typedef struct waiting_task_t {
   uint32_t until_ms; /* end of the wait */
   bool waits;
   bool is_released;
+  bool is_over; /* it is to end */
 } waiting_task_t;
 
-static waiting_task_t waiting_tasks[MICROROS_TASKS];
-static bool tasks_are_over; /* the lock guards it */
+static waiting_task_t waiting_tasks[MICROROS_TASKS]; /* the lock guards them */
 
 /* The last task is that of the session, and runs it as every other task of the application does. */
 static bool runs_an_executor(uint8_t task)
@@ -26,16 +29,24 @@ static bool runs_an_executor(uint8_t task)
 
 bool rmw_turn_pumps(void)
 {
-  return !runs_an_executor(port_task_self());
+  bool pumps;
+
+  microros_lock();
+  pumps = !runs_an_executor(port_task_self()) && xrce_turn_is_mine();
+  microros_unlock();
+  return pumps;
 }
 
 bool rmw_turn_is_over(void)
 {
-  bool is_over;
+  const uint8_t task = port_task_self();
+  bool is_over = false;
 
-  microros_lock();
-  is_over = tasks_are_over && runs_an_executor(port_task_self());
-  microros_unlock();
+  if (runs_an_executor(task)) {
+    microros_lock();
+    is_over = waiting_tasks[task].is_over;
+    microros_unlock();
+  }
   return is_over;
 }
 
@@ -51,7 +62,7 @@ bool rmw_turn_waits(uint32_t timeout_ms, uint32_t * news)
     return false;
   }
   microros_lock();
-  waits = *news == microros_news();
+  waits = *news == microros_news() && !waiting_tasks[task].is_over;
   waiting_tasks[task].waits = waits;
   waiting_tasks[task].is_released = false;
   waiting_tasks[task].until_ms = port_time_ms() + timeout_ms;
@@ -67,9 +78,42 @@ bool rmw_turn_waits(uint32_t timeout_ms, uint32_t * news)
   return true;
 }
 
-void rmw_tasks_set_running(bool is_running)
+void rmw_tasks_begin(uint8_t task)
 {
-  tasks_are_over = !is_running;
+  waiting_tasks[task].is_over = false;
+  waiting_tasks[task].is_released = false;
+}
+
+void rmw_tasks_end(uint8_t task)
+{
+  waiting_tasks[task].is_over = true;
+  waiting_tasks[task].waits = false;
+}
+
+void rmw_tasks_take_line(void)
+{
+  microros_lock();
+  xrce_turn_take();
+  microros_unlock();
+}
+
+/* What the transport does not take now is dropped, and other tasks send from then on. */
+void rmw_tasks_leave_line(void)
+{
+  xrce_client_t * client = rmw_client_instance();
+
+  while (xrce_turn_write(client)) {
+    /* until all is written, or refused */
+  }
+  microros_lock();
+  client->session.statistics.dropped += xrce_turn_close();
+  xrce_turn_leave();
+  microros_unlock();
+}
+
+bool rmw_tasks_write(void)
+{
+  return xrce_turn_write(rmw_client_instance());
 }
 
 bool rmw_tasks_waits(uint8_t task)

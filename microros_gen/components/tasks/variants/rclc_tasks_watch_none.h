@@ -9,8 +9,14 @@
 extern "C" {
 #endif
 
-static inline void rclc_tasks_watch_begin(void)
+static inline void rclc_tasks_watch_begin(uint8_t task)
 {
+  (void)task;
+}
+
+static inline void rclc_tasks_watch_end(uint8_t task)
+{
+  (void)task;
 }
 
 static inline void rclc_tasks_watch_release(uint8_t task, uint32_t released_us)

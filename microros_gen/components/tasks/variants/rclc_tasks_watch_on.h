@@ -9,8 +9,11 @@
 extern "C" {
 #endif
 
-/* The tasks are about to start. The caller holds the lock of the library. */
-void rclc_tasks_watch_begin(void);
+/* The task is about to start: from now on it may be late. The caller holds the lock of the library. */
+void rclc_tasks_watch_begin(uint8_t task);
+
+/* The task has ended: it is not late until it is started again. The caller holds the lock. */
+void rclc_tasks_watch_end(uint8_t task);
 
 /* The task has something to do since then, and is late when it has not ended within its deadline. The caller holds the lock. */
 void rclc_tasks_watch_release(uint8_t task, uint32_t released_us);

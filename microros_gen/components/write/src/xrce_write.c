@@ -42,18 +42,24 @@ uint8_t * xrce_write_reserve(const xrce_endpoint_t * writer)
 
 xrce_write_t xrce_write_failure(const xrce_endpoint_t * writer)
 {
-  return write_has_session(writer) ? XRCE_WRITE_FULL : XRCE_WRITE_NO_SESSION;
+  if (!write_has_session(writer)) {
+    return XRCE_WRITE_NO_SESSION;
+  }
+  return xrce_output_queue_exists() && !write_is_reliable(writer) ? XRCE_WRITE_NOT_SENT : XRCE_WRITE_FULL;
 }
 
 /*
- * Pumps. A waiting read function of the application is skipped for a while if there is room: a publish
- * does not wait.
+ * Pumps, if it is the turn of the calling task. A waiting read function of the application is skipped for a while if there
+ * is room: a publish does not wait.
  */
 static uint8_t * write_pump(const xrce_endpoint_t * writer)
 {
   xrce_session_t * session = &writer->client->session;
   const uint32_t pause_ms = session->state == XRCE_READY ? PAUSE_MS : PAUSE_CONNECTING_MS;
 
+  if (!xrce_turn_begin(writer->client)) {
+    return xrce_write_reserve(writer);
+  }
   if (xrce_transport_may_skip_reading(&session->transport, pause_ms)) {
     uint8_t * room;
 

@@ -10,10 +10,12 @@
 extern "C" {
 #endif
 
-/* A message is about to be stored: a waiting task must learn that a HEARTBEAT may be due. */
+/* A message is about to be stored: a waiting task must learn that a HEARTBEAT may be due, unless it sends the message. */
 static inline void xrce_tasks_commit(const xrce_client_t * client, bool reliable)
 {
-  if (reliable && client->waiting != 0u && xrce_stream_reliable_is_idle(&client->reliable)) {
+  if (
+    reliable && xrce_turn_is_mine() && client->waiting != 0u &&
+    xrce_stream_reliable_is_idle(&client->reliable)) {
     port_wake();
   }
 }

@@ -13,7 +13,9 @@
 #include <stdint.h>
 
 #include "microros/xrce_forward.h"
+#include "microros/xrce_output_queue.h"
 #include "microros/xrce_transport.h"
+#include "microros/xrce_turn.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -67,19 +69,20 @@ bool xrce_session_drain(xrce_client_t * client);
 /* Marks the session as lost and connects again. */
 void xrce_session_mark_lost(xrce_client_t * client, uint32_t now);
 
-/* Receives and runs all work that is due. Never blocks. */
+/* Receives and runs all work that is due, or asks the task whose turn it is to do so (xrce_turn.h). Never blocks. */
 void xrce_session_pump(xrce_client_t * client);
 
-/* Runs all work that is due, without receiving. */
+/* The same without receiving. */
 void xrce_session_step_all(xrce_client_t * client);
 
-/* Sends one whole message. Returns false if the transport refused it. */
+/* Sends one whole message. Returns false if the transport refused it, or it is another task's turn. */
 bool xrce_session_send(xrce_session_t * session, const uint8_t * message, size_t size);
 
 /* Returns whether the line has sent everything. */
 static inline bool xrce_session_is_sent(xrce_session_t * session)
 {
-  return !session->transport_open || xrce_transport_is_idle(&session->transport);
+  return !session->transport_open ||
+         (xrce_output_queue_is_empty() && xrce_turn_is_sent() && xrce_transport_is_idle(&session->transport));
 }
 
 /*

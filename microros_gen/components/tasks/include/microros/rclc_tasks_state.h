@@ -17,7 +17,7 @@ extern "C" {
 enum { RCLC_TASKS_WAIT_MOST_MS = 1000 };
 
 /* Only the task itself uses its state while it runs; the lock of the library guards the counters,
- * `is_in_round`, `is_made` and `stack_peak`. */
+ * `is_in_round`, `continues`, `is_made` and `stack_peak`. */
 typedef struct rclc_task_state_t {
   rclc_executor_t * executor;
   rclc_task_callback_t callback;
@@ -29,13 +29,14 @@ typedef struct rclc_task_state_t {
   uint32_t stack_peak; /* of a task that was joined, bytes */
   bool has_run;        /* a round since the last look; tasks without a period */
   bool is_in_round;    /* a callback may wait for anything; tasks without a period */
+  bool continues;      /* it is not to end */
   bool is_made;        /* and not joined: the port may be asked */
 } rclc_task_state_t;
 
 extern rclc_task_state_t rclc_task_states[MICROROS_TASKS];
 
-/* Returns whether the tasks go on. */
-bool rclc_tasks_continue(void);
+/* Returns whether the task goes on. */
+bool rclc_tasks_continue(uint8_t task);
 
 #ifdef __cplusplus
 }

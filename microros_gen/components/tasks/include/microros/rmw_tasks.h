@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Which tasks of executors wait, and what released them. The caller holds the lock of the library. Internal. */
+/* Which tasks of executors wait, and what released them, and which task has the line. The caller holds the lock of the
+ * library, except for the last three functions. Internal. */
 #ifndef MICROROS_RMW_TASKS_H
 #define MICROROS_RMW_TASKS_H
 
@@ -10,8 +11,11 @@
 extern "C" {
 #endif
 
-/* Says whether tasks of executors go on, or are to end. */
-void rmw_tasks_set_running(bool is_running);
+/* Says that a task goes on; nothing has released it yet. */
+void rmw_tasks_begin(uint8_t task);
+
+/* Says that a task is to end: it does not wait any more, and nobody ends its wait but the caller. */
+void rmw_tasks_end(uint8_t task);
 
 /* Returns whether the task waits for its event. While the caller holds the lock, the task stays in that wait and so does
  * not change its executor. */
@@ -28,6 +32,13 @@ void rmw_tasks_release(uint8_t task, uint32_t now_us);
 
 /* Returns when the task was released, and forgets it; `now_us` if nobody released it since the last call. */
 uint32_t rmw_tasks_released(uint8_t task, uint32_t now_us);
+
+/* The calling task, that of the session, begins and ends to be the only one that receives and sends. */
+void rmw_tasks_take_line(void);
+void rmw_tasks_leave_line(void);
+
+/* Writes a message whose transport may wait; only the task of the session calls it. Returns whether there was one. */
+bool rmw_tasks_write(void);
 
 #ifdef __cplusplus
 }

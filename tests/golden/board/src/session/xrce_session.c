@@ -44,7 +44,9 @@ uint16_t xrce_session_next_request(xrce_session_t * session)
 
 bool xrce_session_send(xrce_session_t * session, const uint8_t * message, size_t size)
 {
-  if (!session->transport_open || !xrce_transport_send(&session->transport, message, size)) {
+  if (
+    !xrce_turn_is_mine() || !session->transport_open ||
+    !xrce_turn_send(&session->transport, message, size)) {
     return false;
   }
   ++session->statistics.sent;
@@ -54,6 +56,7 @@ bool xrce_session_send(xrce_session_t * session, const uint8_t * message, size_t
 static void session_close_transport(xrce_session_t * session)
 {
   if (session->transport_open) {
+    session->statistics.dropped += xrce_turn_close();
     xrce_transport_close(&session->transport);
     session->transport_open = false;
   }
@@ -186,13 +189,26 @@ static void session_receive(xrce_client_t * client, uint32_t now)
   }
 }
 
+/* Returns whether the calling task receives and sends; otherwise asks the one that does. */
+static bool session_has_turn(const xrce_client_t * client)
+{
+  const bool has_turn = xrce_turn_is_mine();
+
+  if (!has_turn) {
+    xrce_turn_request(client);
+  }
+  return has_turn;
+}
+
 void xrce_session_step_all(xrce_client_t * client)
 {
   const uint32_t now = port_time_ms();
 
   client->session.now_ms = now;
-  xrce_transport_begin_turn(&client->session.transport);
-  xrce_route_step(client, now);
+  if (session_has_turn(client)) {
+    xrce_transport_begin_turn(&client->session.transport);
+    xrce_route_step(client, now);
+  }
 }
 
 void xrce_session_pump(xrce_client_t * client)
@@ -200,9 +216,11 @@ void xrce_session_pump(xrce_client_t * client)
   const uint32_t now = port_time_ms();
 
   client->session.now_ms = now;
-  xrce_transport_begin_turn(&client->session.transport);
-  session_receive(client, now);
-  xrce_route_step(client, now);
+  if (session_has_turn(client)) {
+    xrce_transport_begin_turn(&client->session.transport);
+    session_receive(client, now);
+    xrce_route_step(client, now);
+  }
 }
 
 bool xrce_session_await(xrce_client_t * client, uint32_t timeout_ms)

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Which task receives and sends: every one that calls the library. A component with a task for the session replaces this
+ * header. The caller holds the lock of the library. Internal. */
+#ifndef MICROROS_XRCE_TURN_H
+#define MICROROS_XRCE_TURN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "microros/xrce_forward.h"
+#include "microros/xrce_transport.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Returns whether the calling task may receive and send. */
+static inline bool xrce_turn_is_mine(void)
+{
+  return true;
+}
+
+/* The same; if it is another task's turn, the time of the session is now, for what the caller stores. */
+static inline bool xrce_turn_begin(const xrce_client_t * client)
+{
+  (void)client;
+  return true;
+}
+
+/* Asks the task whose turn it is to receive and send. */
+static inline void xrce_turn_request(const xrce_client_t * client)
+{
+  (void)client;
+}
+
+/* Hands a message to the transport. Returns false if it was not accepted. */
+static inline bool xrce_turn_send(xrce_transport_t * transport, const uint8_t * message, size_t size)
+{
+  return xrce_transport_send(transport, message, size);
+}
+
+/* Returns whether the transport has every message. */
+static inline bool xrce_turn_is_sent(void)
+{
+  return true;
+}
+
+/* Called before the transport is closed. Returns the number of best-effort messages that are dropped. */
+static inline uint32_t xrce_turn_close(void)
+{
+  return 0;
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_XRCE_TURN_H */

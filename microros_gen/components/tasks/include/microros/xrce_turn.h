@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* While the task of the session runs, it alone receives and sends; others store messages, and ask it to send them. The
+ * caller holds the lock of the library. Replaces the header of component `session`. Internal. */
+#ifndef MICROROS_XRCE_TURN_H
+#define MICROROS_XRCE_TURN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "microros/xrce_forward.h"
+#include "microros/xrce_transport.h"
+#include "microros/xrce_turn_send.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Returns whether the calling task may receive and send: the task of the session, and each task while that does not run. */
+bool xrce_turn_is_mine(void);
+
+/* The same; if it is another task's turn, the time of the session is now, for what the caller stores. */
+bool xrce_turn_begin(xrce_client_t * client);
+
+/* Asks the task of the session to receive and send, and ends its wait. */
+void xrce_turn_request(const xrce_client_t * client);
+
+/* Returns whether the task of the session runs. */
+bool xrce_turn_is_taken(void);
+
+/* Hook: a message is about to be stored. */
+void xrce_turn_commit(const xrce_client_t * client);
+
+/* The calling task, that of the session, begins or ends to be the one that receives and sends. */
+void xrce_turn_take(void);
+void xrce_turn_leave(void);
+
+/* Called before the task of the session receives and sends: it has seen what it was asked for. */
+void xrce_turn_see(void);
+
+/* Returns whether it was asked since. */
+bool xrce_turn_is_requested(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_XRCE_TURN_H */
