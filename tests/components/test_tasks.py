@@ -159,12 +159,17 @@ def test_whatever_happens_ends_the_wait_of_a_task(tmp_path: Path) -> None:
         run(program_of(out, "task_waits.c", more=("-pthread",)))
 
 
+def test_a_task_is_stopped_and_started_again_while_the_others_run(tmp_path: Path) -> None:
+    run(program_of(rendered(tmp_path, HEAD + NODES + OTHER + THREADS), "task_restart.c", more=("-pthread",)))
+
+
 @pytest.mark.system
 @pytest.mark.parametrize("flags", [SANITIZE, THREAD_SANITIZER], ids=["memory", "threads"])
-def test_tasks_do_not_race(tmp_path: Path, flags: tuple[str, ...]) -> None:
+@pytest.mark.parametrize("source", ["task_threads.c", "task_restart.c"])
+def test_tasks_do_not_race(tmp_path: Path, source: str, flags: tuple[str, ...]) -> None:
     out = rendered(tmp_path, HEAD + NODES + OTHER + THREADS)
     sources = sorted((out / "src").rglob("*.c"))
-    objects = compile_merged(Tree(out, ()), sources, [UNITS / "task_threads.c"], SANITIZER, flags)
+    objects = compile_merged(Tree(out, ()), sources, [UNITS / source], SANITIZER, flags)
     program = link(objects, SANITIZER, (*flags, "-pthread"), out / "unit")
     done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(120), check=False)
     assert (done.returncode, done.stderr) == (0, "")

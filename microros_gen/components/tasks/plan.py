@@ -40,7 +40,7 @@ _FEED = (
 _OUTBOX_BESIDES = 72
 """Bytes beside the largest message: its size, and a message of the session itself (CREATE_CLIENT and smaller ones)."""
 _WAIT_MOST_US = 1_000_000
-"""Longest wait of a task without a period: RCLC_TASKS_WAIT_MOST_MS of rclc_tasks_state.h."""
+"""Longest wait of a task without a period, with a watchdog: RCLC_TASKS_WAIT_MOST_MS of rclc_tasks_watch_on.h."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -16,6 +16,7 @@ enum {
   RETURNS = 200,
   TRIES = 3
 };
+enum { LIVES = 3, TURNS = 2 };
 enum { RELEASES = 40, HALF = 20, PERIOD_US = 5000, LATE_US = 10000, GROWTH_US = 1000, US_PER_MS = 1000 };
 
 /* Written by the task, read when it was joined. */
@@ -28,6 +29,14 @@ static struct {
   uint32_t past_ms;
   uint8_t self;
 } seen;
+
+/* Of the tasks of check_restart; the first two belong to the one that is made several times. */
+static struct {
+  uint32_t lives;
+  uint8_t self;
+  volatile uint32_t turns;
+  volatile bool ends;
+} restart;
 
 static uint64_t now_us(void)
 {
@@ -136,6 +145,51 @@ static void check_stack(void)
   selftest_at_most("task_stack_peak_fits", (int64_t)peak, (int64_t)SELFTEST_TASK_STACK - 1, "bytes");
 }
 
+static void lives(uint8_t task)
+{
+  restart.self = port_task_self();
+  ++restart.lives;
+  port_task_wait(task, (uint32_t)LONG_MS);
+}
+
+static void turns(uint8_t task)
+{
+  uint32_t due_us = port_task_time_us();
+
+  (void)task;
+  while (!restart.ends) {
+    due_us += (uint32_t)PERIOD_US;
+    port_task_sleep_until(due_us);
+    ++restart.turns;
+  }
+}
+
+/* A task ends and is made again while another one goes on. */
+static void check_restart(void)
+{
+  uint32_t passed;
+  bool is_made = true;
+
+  if (!selftest_start(SELFTEST_MIDDLE, turns)) {
+    return;
+  }
+  for (int i = 0; i < (int)LIVES && is_made; ++i) {
+    is_made = selftest_start(SELFTEST_LOW, lives);
+    if (is_made) {
+      port_task_set(SELFTEST_LOW);
+      port_task_join(SELFTEST_LOW);
+    }
+  }
+  passed = restart.turns;
+  port_sleep_ms((uint32_t)REST_MS);
+  passed = restart.turns - passed;
+  restart.ends = true;
+  port_task_join(SELFTEST_MIDDLE);
+  selftest_equal("task_restart", (int64_t)restart.lives, (int64_t)LIVES, "lives of a task");
+  selftest_equal("task_restart_self", (int64_t)restart.self, (int64_t)SELFTEST_LOW, "in the task");
+  selftest_at_least("task_restart_others", (int64_t)passed, (int64_t)TURNS, "releases of another task");
+}
+
 static int64_t least_late_us(uint32_t first)
 {
   int64_t least = INT64_MAX;
@@ -179,5 +233,6 @@ void selftest_tasks(void)
   selftest_clock_agrees(&clock);
   check_events();
   check_stack();
+  check_restart();
   check_releases();
 }

@@ -14,7 +14,7 @@
 #include <rmw_microros/rmw_microros.h>
 #include <std_msgs/msg/int32.h>
 
-enum { TASKS = 2, SOME = 10, LIMIT_US = 150000 };
+enum { TASKS = 2, SOME = 10, LIMIT_US = 150000, LONGEST_REST_MS = 1300 };
 
 static rcl_publisher_t publisher;
 static uint32_t feeds; /* the lock of the port guards these */
@@ -131,6 +131,17 @@ static void test_stuck(uint8_t task, uint8_t other)
   wait_for_feeds(SOME);
 }
 
+/* A task that is stopped is not late, however long; when it runs again, it can be. */
+static void test_restart(void)
+{
+  CHECK(rclc_task_stop(RCLC_TASK_WORKER) == RCL_RET_OK);
+  port_sleep_ms(LONGEST_REST_MS);
+  wait_for_feeds(SOME);
+  CHECK(rclc_task_start(RCLC_TASK_WORKER) == RCL_RET_OK);
+  wait_for_feeds(SOME);
+  test_stuck(RCLC_TASK_WORKER, RCLC_TASK_CONTROL);
+}
+
 int main(void)
 {
   rcl_allocator_t allocator = rcl_get_default_allocator();
@@ -160,6 +171,7 @@ int main(void)
   wait_for_feeds(SOME); /* the agent is gone */
   test_stuck(RCLC_TASK_CONTROL, RCLC_TASK_WORKER);
   test_stuck(RCLC_TASK_WORKER, RCLC_TASK_CONTROL);
+  test_restart();
   CHECK(rclc_tasks_stop() == RCL_RET_OK);
   return 0;
 }

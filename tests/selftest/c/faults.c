@@ -325,16 +325,26 @@ WRAP(void, port_unlock, (void))
   }
 }
 
+static bool has_other;
+static uint32_t restarts; /* of a task, while there is another one */
+
 WRAP(bool, port_task_create, (uint8_t task, const port_task_t * setting))
 {
-  return !IS("task_none") && __real_port_task_create(task, setting);
+  if (task == 1u) {
+    has_other = true;
+  } else if (task == 0u && has_other) {
+    ++restarts;
+  } else {
+    /* of other checks */
+  }
+  return !IS("task_none") && !(IS("restart_refused") && restarts == 2u) && __real_port_task_create(task, setting);
 }
 
 WRAP(uint8_t, port_task_self, (void))
 {
   const uint8_t self = __real_port_task_self();
 
-  if (IS("self_wrong")) {
+  if (IS("self_wrong") || (IS("restart_self") && restarts == 3u && self == 0u)) {
     return 9;
   }
   return IS("self_everywhere") && self == (uint8_t)PORT_TASK_NONE ? 0u : self;
@@ -378,6 +388,9 @@ WRAP(void, port_task_sleep_until, (uint32_t time_us))
   const uint32_t left_us = time_us - port_task_time_us();
 
   ++calls;
+  if (IS("restart_stalls") && restarts == 3u) {
+    __real_port_sleep_ms(300);
+  }
   if (IS("release_early")) {
     time_us -= 500u;
   }

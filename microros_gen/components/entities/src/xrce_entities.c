@@ -309,6 +309,7 @@ void xrce_entities_add(xrce_client_t * client, uint16_t place)
   if (NOTES_ONE && (entities->pending | state->level) == 0u) {
     entities->cursor = place; /* nothing else is due, and creating it makes no work for another place */
     entities->pending = XRCE_PENDING_ONE;
+    xrce_turn_change(client);
     return;
   }
   /* Also if the request of a former owner is still outstanding: its result is no longer wanted. */
@@ -316,6 +317,7 @@ void xrce_entities_add(xrce_client_t * client, uint16_t place)
     state->stale = true;
   }
   entities_wake(entities);
+  xrce_turn_change(client);
 }
 
 void xrce_entities_remove(xrce_client_t * client, uint16_t place)
@@ -327,6 +329,7 @@ void xrce_entities_remove(xrce_client_t * client, uint16_t place)
     }
   }
   entities_wake(&client->entities);
+  xrce_turn_change(client);
 }
 
 static bool entities_is_done(const xrce_client_t * client, uint16_t place)

@@ -5,9 +5,24 @@
 #include "microros/xrce_wait.h"
 #include "microros/xrce_wait_left.h"
 
-/* Another task may take or close an entity and so give the session work without a wake-up; writes do wake
- * (xrce_tasks.h). This limits the delay. */
-enum { WAIT_MOST_MS = 1000 };
+/* Returns the time that a wait may take. Another task may take or close an entity and so give the session work without a
+ * wake-up; writes do wake (xrce_tasks.h). This limits the delay. What the session has to do is not for a task that does not
+ * run it. */
+static uint32_t wait_left(const xrce_client_t * client, uint32_t timeout_ms)
+{
+  const uint32_t longest_ms = xrce_turn_longest_ms();
+  const uint32_t most_ms = timeout_ms < longest_ms ? timeout_ms : longest_ms;
+
+  return xrce_turn_is_mine() ? xrce_wait_left(client, most_ms) : most_ms;
+}
+
+/* Returns what ends the wait of a task that runs the session; -1: nothing but a wake-up. */
+static intptr_t wait_handle(const xrce_client_t * client)
+{
+  return xrce_turn_is_mine() && client->session.transport_open
+           ? xrce_transport_handle(&client->session.transport)
+           : -1;
+}
 
 /* Enters the wait, with the time and the handle for it; false: something may be ready. */
 static bool wait_enter(
@@ -15,9 +30,8 @@ static bool wait_enter(
 {
   const bool enters = *news == microros_news() && !client->wakes;
 
-  *left_ms =
-    xrce_wait_left(client, timeout_ms < (uint32_t)WAIT_MOST_MS ? timeout_ms : (uint32_t)WAIT_MOST_MS);
-  *handle = client->session.transport_open ? xrce_transport_handle(&client->session.transport) : -1;
+  *left_ms = wait_left(client, timeout_ms);
+  *handle = wait_handle(client);
   client->waiting = (uint8_t)(client->waiting + (enters ? 1u : 0u));
   return enters;
 }

@@ -269,7 +269,12 @@ rcl_ret_t rclc_task_start(uint8_t task)
 
 bool rclc_tasks_are_prioritized(void)
 {
-  return port_task_has_priorities();
+  bool are_prioritized;
+
+  microros_lock();
+  are_prioritized = port_task_has_priorities();
+  microros_unlock();
+  return are_prioritized;
 }
 
 rcl_ret_t rclc_task_get_counters(uint8_t task, rclc_task_counters_t * counters)

@@ -21,6 +21,8 @@ rclc_task_state_t rclc_task_states[MICROROS_TASKS];
 /* A round may have taken samples since the session was last run; the lock guards it. */
 static bool session_is_due;
 
+enum { RCLC_TASKS_TRIGGER_MS = 1000 };
+
 static uint32_t larger(uint32_t a, uint32_t b)
 {
   return a > b ? a : b;
@@ -117,6 +119,9 @@ void rclc_tasks_round_begins(const rclc_executor_t * executor)
 {
   const uint8_t task = task_of(executor);
 
+  microros_lock();
+  xrce_turn_set_round(true);
+  microros_unlock();
   if (task < (uint8_t)MICROROS_TASKS) {
     rclc_task_state_t * state = &rclc_task_states[task];
 
@@ -134,6 +139,7 @@ void rclc_tasks_round_begins(const rclc_executor_t * executor)
 static void session_ask(void)
 {
   microros_lock();
+  xrce_turn_set_round(false);
   session_is_due = true;
   microros_note();
   if (rmw_client_instance()->waiting != 0u) {
@@ -157,13 +163,22 @@ void rclc_tasks_round_ends(const rclc_executor_t * executor)
   }
 }
 
+/* A trigger function of the application may look at what ends no wait. */
+static uint64_t events_wait_most_ns(const rclc_executor_t * executor)
+{
+  const uint32_t most_ms = executor->trigger_function == rclc_executor_trigger_any
+                             ? (uint32_t)RCLC_TASKS_WAIT_MOST_MS
+                             : (uint32_t)RCLC_TASKS_TRIGGER_MS;
+
+  return (uint64_t)most_ms * 1000000u;
+}
+
 void rclc_tasks_run_events(uint8_t task)
 {
-  const uint64_t wait_most_ns = (uint64_t)RCLC_TASKS_WAIT_MOST_MS * 1000000u;
   rclc_task_state_t * state = &rclc_task_states[task];
 
   while (rclc_tasks_continue(task)) {
-    if (rclc_executor_spin_some(state->executor, wait_most_ns) != RCL_RET_OK) {
+    if (rclc_executor_spin_some(state->executor, events_wait_most_ns(state->executor)) != RCL_RET_OK) {
       task_count_error(task);
       port_sleep_ms(1); /* an error that stays must not keep the processor from tasks of lower priority */
     }

@@ -7,8 +7,11 @@
 #include "microros/xrce_client.h"
 #include "microros_config.h"
 
-static bool turn_is_taken;     /* the task of the session runs */
-static bool turn_is_requested; /* once is enough until it looks */
+enum { TURN_LONGEST_MS = 3600000 };
+
+static bool turn_rounds[MICROROS_TASKS]; /* tasks in a round of their executor */
+static bool turn_is_taken;               /* the task of the session runs */
+static bool turn_is_requested;           /* once is enough until it looks */
 
 bool xrce_turn_is_mine(void)
 {
@@ -41,6 +44,29 @@ void xrce_turn_request(const xrce_client_t * client)
       port_wake();
     }
   }
+}
+
+void xrce_turn_change(const xrce_client_t * client)
+{
+  const uint8_t task = port_task_self();
+
+  if (!xrce_turn_is_mine() && !(task < (uint8_t)MICROROS_TASKS && turn_rounds[task])) {
+    xrce_turn_request(client);
+  }
+}
+
+void xrce_turn_set_round(bool is_in_round)
+{
+  const uint8_t task = port_task_self();
+
+  if (task < (uint8_t)MICROROS_TASKS) {
+    turn_rounds[task] = is_in_round;
+  }
+}
+
+uint32_t xrce_turn_longest_ms(void)
+{
+  return turn_is_taken ? (uint32_t)TURN_LONGEST_MS : (uint32_t)XRCE_TURN_POLL_MS;
 }
 
 void xrce_turn_commit(const xrce_client_t * client)

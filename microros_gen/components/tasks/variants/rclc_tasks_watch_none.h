@@ -9,6 +9,9 @@
 extern "C" {
 #endif
 
+/* Longest wait of a task without a period. What it waits for ends it. */
+enum { RCLC_TASKS_WAIT_MOST_MS = 3600000 };
+
 static inline void rclc_tasks_watch_begin(uint8_t task)
 {
   (void)task;

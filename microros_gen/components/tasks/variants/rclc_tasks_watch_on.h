@@ -9,6 +9,9 @@
 extern "C" {
 #endif
 
+/* Longest wait of a task without a period: each of them says that it goes on. */
+enum { RCLC_TASKS_WAIT_MOST_MS = 1000 };
+
 /* The task is about to start: from now on it may be late. The caller holds the lock of the library. */
 void rclc_tasks_watch_begin(uint8_t task);
 

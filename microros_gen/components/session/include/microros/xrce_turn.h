@@ -34,6 +34,24 @@ static inline void xrce_turn_request(const xrce_client_t * client)
   (void)client;
 }
 
+/* Called when another task may have given the session something to do that no message shows. */
+static inline void xrce_turn_change(const xrce_client_t * client)
+{
+  (void)client;
+}
+
+/* Returns the longest wait for the line, milliseconds: not everything that gives the session something to do ends it. */
+static inline uint32_t xrce_turn_longest_ms(void)
+{
+  return 1000;
+}
+
+/* Returns the time until a component looks at what may be stored without a wake-up, at most `left`, milliseconds. */
+static inline uint32_t xrce_turn_poll(uint32_t left)
+{
+  return left;
+}
+
 /* Hands a message to the transport. Returns false if it was not accepted. */
 static inline bool xrce_turn_send(xrce_transport_t * transport, const uint8_t * message, size_t size)
 {

@@ -13,9 +13,6 @@
 extern "C" {
 #endif
 
-/* Longest wait of a task without a period: only trigger functions that look at other state depend on it. */
-enum { RCLC_TASKS_WAIT_MOST_MS = 1000 };
-
 /* Only the task itself uses its state while it runs; the lock of the library guards the counters,
  * `is_in_round`, `continues`, `is_made` and `stack_peak`. */
 typedef struct rclc_task_state_t {

@@ -16,6 +16,8 @@
 extern "C" {
 #endif
 
+enum { XRCE_TURN_POLL_MS = 1000 };
+
 /* Returns whether the calling task may receive and send: the task of the session, and each task while that does not run. */
 bool xrce_turn_is_mine(void);
 
@@ -24,6 +26,23 @@ bool xrce_turn_begin(xrce_client_t * client);
 
 /* Asks the task of the session to receive and send, and ends its wait. */
 void xrce_turn_request(const xrce_client_t * client);
+
+/* Called when another task may have given the session something to do that no message shows. In a round of an executor, its
+ * end asks the session instead. */
+void xrce_turn_change(const xrce_client_t * client);
+
+/* The calling task begins and ends a round of its executor. */
+void xrce_turn_set_round(bool is_in_round);
+
+/* Returns the longest wait for the line, milliseconds. While the task of the session runs, all that concerns it ends its
+ * wait. */
+uint32_t xrce_turn_longest_ms(void);
+
+/* Returns the time until a component looks at what may be stored without a wake-up, at most `left`, milliseconds. */
+static inline uint32_t xrce_turn_poll(uint32_t left)
+{
+  return left < (uint32_t)XRCE_TURN_POLL_MS ? left : (uint32_t)XRCE_TURN_POLL_MS;
+}
 
 /* Returns whether the task of the session runs. */
 bool xrce_turn_is_taken(void);

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Wake-ups of tasks that have nothing to do, as the system counts them: task_quiet MS. Prints how often threads of the process
+ * went to sleep within that time. The application file is that of test_task_wakes.py; its agent sends a sample before and
+ * after.
+ */
+#define _POSIX_C_SOURCE 200809L
+#include "unit.h"
+
+#include <dirent.h>
+#include <microros/port.h>
+#include <microros/tasks.h>
+#include <rcl/rcl.h>
+#include <rclc/executor.h>
+#include <rclc/rclc.h>
+#include <std_msgs/msg/int32.h>
+
+#include <stdbool.h>
+#include <string.h>
+
+enum { EXECUTORS = 3, SETTLED_MS = 1500, PATH_SIZE = 300, LINE_SIZE = 200 };
+
+static rcl_publisher_t publisher;
+static uint32_t heard; /* the lock of the port guards it */
+
+static void on_sample(const void * sample)
+{
+  (void)sample;
+  port_lock();
+  ++heard;
+  port_unlock();
+}
+
+static uint32_t heard_now(void)
+{
+  uint32_t value;
+
+  port_lock();
+  value = heard;
+  port_unlock();
+  return value;
+}
+
+static unsigned long sleeps_of(const char * thread)
+{
+  static const char name[] = "voluntary_ctxt_switches:";
+  char path[PATH_SIZE];
+  char line[LINE_SIZE];
+  unsigned long count = 0;
+  FILE * file;
+
+  (void)snprintf(path, sizeof(path), "/proc/self/task/%s/status", thread);
+  file = fopen(path, "r");
+  CHECK(file != NULL);
+  while (fgets(line, sizeof(line), file) != NULL) {
+    if (strncmp(line, name, strlen(name)) == 0) {
+      count = strtoul(&line[strlen(name)], NULL, 10);
+    }
+  }
+  CHECK(fclose(file) == 0);
+  return count;
+}
+
+static unsigned long sleeps(void)
+{
+  DIR * threads = opendir("/proc/self/task");
+  const struct dirent * thread;
+  unsigned long count = 0;
+
+  CHECK(threads != NULL);
+  while ((thread = readdir(threads)) != NULL) {
+    if (thread->d_name[0] != '.') {
+      count += sleeps_of(thread->d_name);
+    }
+  }
+  CHECK(closedir(threads) == 0);
+  return count;
+}
+
+/* The agent answers each message with a sample. */
+static void exchange(void)
+{
+  const std_msgs__msg__Int32 message = {.data = 1};
+  const uint32_t before = heard_now();
+
+  CHECK(rcl_publish(&publisher, &message, NULL) == RCL_RET_OK);
+  while (heard_now() == before) {
+    port_sleep_ms(1);
+  }
+}
+
+int main(int count, char * arguments[])
+{
+  static std_msgs__msg__Int32 sample;
+  const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
+  rcl_allocator_t allocator = rcl_get_default_allocator();
+  rclc_support_t support;
+  rcl_node_t node = rcl_get_zero_initialized_node();
+  rcl_subscription_t subscription;
+  rclc_executor_t executors[EXECUTORS];
+  unsigned long before;
+
+  CHECK(count == 2);
+  CHECK(rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK);
+  CHECK(rclc_node_init_default(&node, "device", "", &support) == RCL_RET_OK);
+  CHECK(rclc_publisher_init_default(&publisher, &node, type, "count") == RCL_RET_OK);
+  CHECK(rclc_subscription_init_default(&subscription, &node, type, "target") == RCL_RET_OK);
+  for (uint8_t i = 0; i < (uint8_t)EXECUTORS; ++i) {
+    executors[i] = rclc_executor_get_zero_initialized_executor();
+    CHECK(rclc_executor_init(&executors[i], &support.context, 1, &allocator) == RCL_RET_OK);
+    CHECK(rclc_task_set_executor(i, &executors[i], NULL) == RCL_RET_OK);
+  }
+  CHECK(
+    rclc_executor_add_subscription(&executors[0], &subscription, &sample, on_sample, ON_NEW_DATA) ==
+    RCL_RET_OK);
+  CHECK(rclc_tasks_start() == RCL_RET_OK);
+  exchange();
+  port_sleep_ms(SETTLED_MS);
+  before = sleeps();
+  port_sleep_ms((uint32_t)strtoul(arguments[1], NULL, 10));
+  (void)printf("%lu\n", sleeps() - before);
+  exchange();
+  CHECK(rclc_tasks_stop() == RCL_RET_OK);
+  return 0;
+}
