@@ -38,7 +38,7 @@ _IMAGE_KEYS = ("entry", "first", "first_section", "uart_handler")
 _TABLE_KEYS = ("words", "least")
 _DRIVER_KEYS = ("divisor", "fraction", "tx_irq", "stdio")
 _BAUD_KEYS = {"divisor": ("by", "least", "most"), "fraction": ("of_hz", "bits", "unused")}
-_OS_KEYS = ("hosted", "linker_script", "tick", "task_stack", "parts", "device")
+_OS_KEYS = ("hosted", "linker_script", "tick", "task_stack", "parts", "device", "waits_for_room")
 
 
 @dataclass(frozen=True)
@@ -205,6 +205,7 @@ def _with_facts(part: Part, path: Path, diagnostics: Diagnostics) -> Part:
             tuple((entry.key, text_of(entry.value) or "") for entry in entries(node.get("parts"))),
             text_at(node, "device", diagnostics),
             context or Os.task_stack_context,
+            bool_of(node.get("waits_for_room")) or False,
         ),
     )
 

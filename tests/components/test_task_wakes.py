@@ -11,6 +11,7 @@ from pathlib import Path
 from tests.support.components.rendered import program_of, rendered
 from tests.support.patience import seconds
 from tests.support.runtime.reading_agent import ReadingAgent
+from tests.support.runtime.tcp import TcpAgent
 
 QUIET = """\
 version: 1
@@ -26,9 +27,30 @@ nodes:
     executors: [{{name: a, handles: [target]}}, {{name: b}}, {{name: c}}]
 tasks: [{{name: reader, executor: a}}, {{name: idle, executor: b}}, {{name: other, executor: c}}]
 """
+FULL = """\
+version: 1
+profiles: [pure_sender]
+components: [+executor]
+session: {{key: 7}}
+liveliness: none
+pools: {{best_effort_history: 64}}
+transport: {{type: tcp, agent: "127.0.0.1:{port}"}}
+nodes:
+  - name: device
+    publishers:
+      - {{topic: kept, type: std_msgs/msg/Int32}}
+      - {{topic: fast, type: std_msgs/msg/Int32, qos: {{reliability: best_effort}}}}
+    executors: [{{name: a}}]
+tasks: [{{name: idle, executor: a}}]
+"""
 QUIET_MS = 3500
+FULL_MS = 1500
+READ = 100
+"""Messages that the agent reads before it stops."""
 TIMER = 1
 """The main thread sleeps once."""
+SOME_ROOM = 20
+"""The system may find some room in its buffers still; a task that tries each millisecond sleeps 1500 times."""
 
 
 def serve(agent: ReadingAgent, served: socket.socket) -> None:
@@ -57,3 +79,21 @@ def test_tasks_without_work_do_not_wake(tmp_path: Path) -> None:
         done = subprocess.run(command, capture_output=True, text=True, timeout=seconds(60), check=False)
     assert (done.returncode, done.stderr) == (0, "")
     assert int(done.stdout) <= TIMER
+
+
+def test_a_line_without_room_wakes_its_task_when_it_has_some(tmp_path: Path) -> None:
+    """Without that, the task tries once each millisecond."""
+    agent, reads_on = TcpAgent(), threading.Event()
+
+    def before(count: int) -> bool:
+        return count < READ or reads_on.wait(seconds(60))
+
+    agent.before = before
+    agent.start()
+    program = program_of(rendered(tmp_path, FULL.format(port=agent.port)), "task_full.c", more=("-pthread",))
+    with subprocess.Popen([program, str(FULL_MS)], stdout=subprocess.PIPE, text=True) as running:
+        assert running.stdout is not None
+        sleeps = int(running.stdout.readline())
+        reads_on.set()
+        assert running.wait(seconds(60)) == 0
+    assert sleeps <= SOME_ROOM

@@ -72,6 +72,7 @@ class TransportPlan:
     line_input: int = 64
     line_chunk: int = LINE_CHUNK
     own_line: bool = False
+    wakes_for_room: bool = False
 
     @property
     def has_handle(self) -> bool:

@@ -34,7 +34,14 @@ def plan_transport(
         line_input=streams.line_input,
         line_chunk=RING_CHUNK if own_driver else LINE_CHUNK,
         read_polls=requested.read_polls,
+        wakes_for_room=_wakes_for_room(application, selection, target),
     )
+
+
+def _wakes_for_room(application: Application, selection: Selection, target: Target) -> bool:
+    """Return whether room in the line ends the wait of the session's task."""
+    line = selection.transport == "tcp" or (selection.transport == "serial" and target.names_lines)
+    return bool(application.tasks) and target.os.waits_for_room and line
 
 
 def _device(transport: Transport, target: Target) -> str:

@@ -6,8 +6,8 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "unit.h"
+#include "unit_sleeps.h"
 
-#include <dirent.h>
 #include <microros/port.h>
 #include <microros/tasks.h>
 #include <rcl/rcl.h>
@@ -15,10 +15,7 @@
 #include <rclc/rclc.h>
 #include <std_msgs/msg/int32.h>
 
-#include <stdbool.h>
-#include <string.h>
-
-enum { EXECUTORS = 3, SETTLED_MS = 1500, PATH_SIZE = 300, LINE_SIZE = 200 };
+enum { EXECUTORS = 3, SETTLED_MS = 1500 };
 
 static rcl_publisher_t publisher;
 static uint32_t heard; /* the lock of the port guards it */
@@ -39,42 +36,6 @@ static uint32_t heard_now(void)
   value = heard;
   port_unlock();
   return value;
-}
-
-static unsigned long sleeps_of(const char * thread)
-{
-  static const char name[] = "voluntary_ctxt_switches:";
-  char path[PATH_SIZE];
-  char line[LINE_SIZE];
-  unsigned long count = 0;
-  FILE * file;
-
-  (void)snprintf(path, sizeof(path), "/proc/self/task/%s/status", thread);
-  file = fopen(path, "r");
-  CHECK(file != NULL);
-  while (fgets(line, sizeof(line), file) != NULL) {
-    if (strncmp(line, name, strlen(name)) == 0) {
-      count = strtoul(&line[strlen(name)], NULL, 10);
-    }
-  }
-  CHECK(fclose(file) == 0);
-  return count;
-}
-
-static unsigned long sleeps(void)
-{
-  DIR * threads = opendir("/proc/self/task");
-  const struct dirent * thread;
-  unsigned long count = 0;
-
-  CHECK(threads != NULL);
-  while ((thread = readdir(threads)) != NULL) {
-    if (thread->d_name[0] != '.') {
-      count += sleeps_of(thread->d_name);
-    }
-  }
-  CHECK(closedir(threads) == 0);
-  return count;
 }
 
 /* The agent answers each message with a sample. */

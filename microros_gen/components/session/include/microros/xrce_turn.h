@@ -10,6 +10,7 @@
 
 #include "microros/xrce_forward.h"
 #include "microros/xrce_transport.h"
+#include "microros/xrce_wire.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -50,6 +51,12 @@ static inline uint32_t xrce_turn_longest_ms(void)
 static inline uint32_t xrce_turn_poll(uint32_t left)
 {
   return left;
+}
+
+/* Returns the time until a stream tries once more to send what the transport has refused, at most `left`, milliseconds. */
+static inline uint32_t xrce_turn_blocked(uint32_t left, uint32_t now)
+{
+  return xrce_sooner(left, now, now);
 }
 
 /* Hands a message to the transport. Returns false if it was not accepted. */

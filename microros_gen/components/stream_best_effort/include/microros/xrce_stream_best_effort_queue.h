@@ -6,7 +6,6 @@
 #include <stdint.h>
 
 #include "microros/xrce_client.h"
-#include "microros/xrce_wire.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -21,7 +20,7 @@ void xrce_stream_best_effort_step(xrce_session_t * session);
 /* Returns the time until there is something to send, at most `left`. */
 static inline uint32_t xrce_stream_best_effort_left(uint32_t left, uint32_t now)
 {
-  return xrce_output_queue_is_empty() ? left : xrce_sooner(left, now, now);
+  return xrce_output_queue_is_empty() ? left : xrce_turn_blocked(left, now);
 }
 
 #ifdef __cplusplus

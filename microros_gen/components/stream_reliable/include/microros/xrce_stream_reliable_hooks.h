@@ -37,7 +37,7 @@ static inline uint32_t xrce_stream_reliable_left(const xrce_client_t * client, u
     return xrce_sooner(left, stream->due_ms, now);
   }
   if (xrce_stream_reliable_is_blocked(stream)) {
-    return xrce_sooner(left, now, now);
+    return xrce_turn_blocked(left, now);
   }
   return xrce_stream_reliable_is_idle(stream) ? left : xrce_sooner(left, stream->due_ms, now);
 }

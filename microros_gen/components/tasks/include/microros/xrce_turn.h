@@ -10,6 +10,7 @@
 
 #include "microros/xrce_forward.h"
 #include "microros/xrce_transport.h"
+#include "microros/xrce_turn_room.h"
 #include "microros/xrce_turn_send.h"
 
 #ifdef __cplusplus

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #define _POSIX_C_SOURCE 200809L
 #include "microros/port.h"
+#include "microros/port_posix_room.h"
 #include "microros/port_posix_socket.h"
 
 #include <errno.h>
@@ -24,6 +25,7 @@ bool port_tcp_open(port_tcp_t * tcp, const char * host, uint16_t port)
 
 void port_tcp_close(port_tcp_t * tcp)
 {
+  port_posix_room_note((int)tcp->handle, false);
   (void)close((int)tcp->handle);
   tcp->handle = -1;
 }
@@ -47,6 +49,7 @@ int32_t port_tcp_send(port_tcp_t * tcp, const uint8_t * data, size_t size)
 {
   const ssize_t taken = send((int)tcp->handle, data, size, MSG_NOSIGNAL);
 
+  port_posix_room_note((int)tcp->handle, taken != (ssize_t)size);
   if (taken >= 0) {
     return (int32_t)taken;
   }

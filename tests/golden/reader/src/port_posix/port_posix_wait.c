@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "microros/links.h"
 #include "microros/port.h"
+#include "microros/port_posix_room.h"
 
 #include <fcntl.h>
 #include <limits.h>
@@ -74,6 +75,7 @@ void port_wait(intptr_t handle, uint32_t timeout_ms)
   for (size_t i = 0; i < sizeof(ends) / sizeof(ends[0]); ++i) {
     ends[i].events = POLLIN;
   }
+  port_posix_room_watch(&ends[1]);
   /* a signal may end it early */
   (void)poll(ends, sizeof(ends) / sizeof(ends[0]), left_ms > (uint32_t)INT_MAX ? INT_MAX : (int)left_ms);
   if (wake >= 0) {

@@ -104,4 +104,5 @@ void xrce_read_pop(const xrce_endpoint_t * endpoint, bool refused)
     ++endpoint->client->session.statistics.dropped;
   }
   queue_drop_oldest(receiver, xrce_read_queue(endpoint->client, receiver));
+  xrce_turn_change(endpoint->client);
 }
