@@ -59,7 +59,7 @@ def ran(folder: Path, text: str, *flags: str) -> Seen:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as served:
         served.bind(("127.0.0.1", 0))
         threading.Thread(target=serve, args=(agent, served), daemon=True).start()
-        command = [program, str(served.getsockname()[1])]
+        command = [str(program), str(served.getsockname()[1])]
         done = subprocess.run(command, capture_output=True, text=True, timeout=seconds(120), check=False)
     assert (done.returncode, done.stderr) == (0, "")
     runs, missed, writes, most, longest_us, dropped = map(int, done.stdout.split())

@@ -75,7 +75,7 @@ def test_tasks_without_work_do_not_wake(tmp_path: Path) -> None:
         threading.Thread(target=serve, args=(ReadingAgent(), served), daemon=True).start()
         out = rendered(tmp_path, QUIET.format(port=served.getsockname()[1]))
         program = program_of(out, "task_quiet.c", more=("-pthread",))
-        command = [program, str(QUIET_MS)]
+        command = [str(program), str(QUIET_MS)]
         done = subprocess.run(command, capture_output=True, text=True, timeout=seconds(60), check=False)
     assert (done.returncode, done.stderr) == (0, "")
     assert int(done.stdout) <= TIMER

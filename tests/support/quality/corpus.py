@@ -341,7 +341,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "  - {name: work, executor: slow, interval: 5 ms}\nwatchdog: {margin: 10 ms}\n",
         "tasks_custom": _BOTH
         + "    executors: [{name: fast}]\n"
-        + "components: [+executor, +services]\non_full: drop_oldest\ntransport: {type: custom}\n"
+        + "components: [+executor]\non_full: drop_oldest\ntransport: {type: custom}\n"
         + "tasks: [{name: control, executor: fast, rate: 20 Hz}]\n",
         "tasks_preconfigured": _NODES
         + _BEST

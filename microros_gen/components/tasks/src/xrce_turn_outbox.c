@@ -11,11 +11,7 @@
 
 #include <string.h>
 
-enum {
-  OUTBOX_SIZE_BYTES = 2,
-  OUTBOX_STREAM_AT = OUTBOX_SIZE_BYTES + 1,
-  OUTBOX_SUBMESSAGE_AT = OUTBOX_SIZE_BYTES + XRCE_MESSAGE_HEADER
-};
+enum { OUTBOX_SIZE_BYTES = 2, OUTBOX_STREAM_AT = OUTBOX_SIZE_BYTES + 1 };
 
 static struct {
   size_t used; /* bytes */
@@ -63,7 +59,7 @@ bool xrce_turn_is_sent(void)
 static bool outbox_oldest_is_lost(void)
 {
   return outbox.messages[OUTBOX_STREAM_AT] == (uint8_t)XRCE_STREAM_BEST_EFFORT &&
-         outbox.messages[OUTBOX_SUBMESSAGE_AT] == (uint8_t)XRCE_WRITE_DATA;
+         outbox.messages[(size_t)OUTBOX_SIZE_BYTES + (size_t)XRCE_MESSAGE_HEADER] == (uint8_t)XRCE_WRITE_DATA;
 }
 
 uint32_t xrce_turn_close(void)
