@@ -35,10 +35,10 @@ def with_system(
     if reference is None:
         return application, {}
     path = near / reference.file.name
-    source = _read(path, "system file", reference.file.span, diagnostics)
-    system = parse_system(source, diagnostics) if source else None
-    if source is None or system is None:
+    found = read_system(path, reference.file.span, diagnostics)
+    if found is None:
         return application, {}
+    system, source = found
     own = config or near / APPLICATION_FILE
     if not _is_board(system, reference, own, path, diagnostics):
         return application, {}
@@ -55,6 +55,22 @@ def with_system(
     if image is not None:
         files[f"{image[0].board}: {Path(image[1].name).name}"] = image[1]
     return replace(application, links=tuple(links), chip=image[0] if image else None), files
+
+
+def read_system(path: Path, span: Span | None, diagnostics: Diagnostics) -> tuple[SystemFile, Source] | None:
+    """Return the system of a file, and the file; None where `diagnostics` got errors. `span`: where it is named."""
+    source = _read(path, "system file", span, diagnostics)
+    system = parse_system(source, diagnostics) if source else None
+    return None if source is None or system is None else (system, source)
+
+
+def read_board(board: str, system: SystemFile, path: Path, diagnostics: Diagnostics) -> Application | None:
+    """Return the application of a board of the system file `path`; None where it cannot be read.
+
+    An application that does not name this system and its board is an error, too.
+    """
+    found = _other(board, system, path, diagnostics)
+    return None if found is None else found[0]
 
 
 def system_paths(application: Application, near: Path) -> Iterator[Path]:
@@ -232,6 +248,6 @@ def _read(path: Path, what: str, span: Span | None, diagnostics: Diagnostics) ->
         return Source(shown, read_text(path))
     except (OSError, UnicodeDecodeError) as error:
         message = f"cannot read the {what} '{shown}': {reason_of(error)}"
-        hint = "Its path is relative to the folder of the file that names it"
+        hint = "Its path is relative to the folder of the file that names it" if span else None
         diagnostics.error(message, span, hint, id="MG-3190")
         return None

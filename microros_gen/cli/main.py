@@ -31,6 +31,7 @@ _COMMANDS = {
     "targets": "List the targets, or show one of them.",
     "init": "Write a new application folder, from a profile or from existing sources.",
     "run": "Start a built image together with an agent.",
+    "system": "Check the boards of a system file together.",
     "modes": "Check, simulate, draw and manage systems of nodes with modes.",
     "agent": "Connect XRCE clients to ROS 2.",
     "graph-server": "Answer queries of the ROS graph for firmware.",

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
@@ -88,6 +89,15 @@ def output_option(function: F) -> F:
     )(function)
 
 
+format_option = click.option(
+    "--format",
+    "kind",
+    type=click.Choice(("table", "json")),
+    default="table",
+    show_default=True,
+    help="Lines for people, or JSON for programs.",
+)
+
 file_option = click.option(
     "-o",
     "--output",
@@ -124,3 +134,8 @@ def check_map(image: Path | None, linker_map: Path | None) -> None:
     """Refuse a map without the image that it is of."""
     if linker_map is not None and image is None:
         raise click.UsageError("--map needs the --image that it belongs to.")
+
+
+def json_text(data: dict[str, Any]) -> str:
+    """Return data as JSON with a line end."""
+    return json.dumps(data, indent=2, ensure_ascii=False) + "\n"

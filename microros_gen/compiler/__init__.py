@@ -32,11 +32,14 @@ if TYPE_CHECKING:
     from microros_gen.compiler.options import Options
     from microros_gen.compiler.pipeline import DEFAULT_INTERFACE, Planned, Resolved, read_paths
     from microros_gen.compiler.request import Request
+    from microros_gen.compiler.system import CheckedBoard, CheckedSystem, check_system
     from microros_gen.diagnostics import Diagnostic, UserError
 
 __all__ = [
     "DEFAULT_INTERFACE",
     "Built",
+    "CheckedBoard",
+    "CheckedSystem",
     "Diagnostic",
     "Generated",
     "Options",
@@ -46,6 +49,7 @@ __all__ = [
     "UserError",
     "check_manifest",
     "check_plan",
+    "check_system",
     "compile",
     "differences",
     "generate",
@@ -62,6 +66,8 @@ __all__ = [
 
 _ELSEWHERE = {
     "DEFAULT_INTERFACE": "microros_gen.compiler.pipeline",
+    "CheckedBoard": "microros_gen.compiler.system",
+    "CheckedSystem": "microros_gen.compiler.system",
     "Diagnostic": "microros_gen.diagnostics",
     "Options": "microros_gen.compiler.options",
     "Planned": "microros_gen.compiler.pipeline",
@@ -70,6 +76,7 @@ _ELSEWHERE = {
     "UserError": "microros_gen.diagnostics",
     "check_manifest": "microros_gen.compiler.budgets",
     "check_plan": "microros_gen.compiler.budgets",
+    "check_system": "microros_gen.compiler.system",
     "read_paths": "microros_gen.compiler.pipeline",
 }
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from microros_gen.diagnostics import Diagnostic, Severity
+from microros_gen.diagnostics.data import diagnostic_data
 from microros_gen.records import dataclass
 
 PROVEN, REFUTED, OPEN = "proven", "refuted", "not proven"
@@ -54,20 +55,10 @@ class Report:
             "model": self.model,
             "result": self.result,
             "properties": [{"name": p.name, "result": p.result, "detail": p.detail} for p in self.properties],
-            "findings": [diagnostic_data(d) for d in self.diagnostics],
+            "findings": [finding_data(d) for d in self.diagnostics],
         }
 
 
-def diagnostic_data(diagnostic: Diagnostic) -> dict[str, Any]:
+def finding_data(diagnostic: Diagnostic) -> dict[str, Any]:
     """Return a diagnostic as data for JSON; `trace` has the lines of its counterexample."""
-    span = diagnostic.span
-    return {
-        "id": diagnostic.id,
-        "severity": diagnostic.severity.value,
-        "message": diagnostic.message,
-        "hint": diagnostic.hint or "",
-        "file": span.source.name if span else "",
-        "line": span.line if span else 0,
-        "column": span.column if span else 0,
-        "trace": [line.strip() for line in diagnostic.block],
-    }
+    return {**diagnostic_data(diagnostic), "trace": [line.strip() for line in diagnostic.block]}

@@ -16,7 +16,7 @@ from tests.support.paths import ROOT
 from tests.support.selection.profiles import ALL_PROFILES, BUILTIN_PROFILES
 
 IDL = str(ROOT / "microros_gen" / "idl")
-ALL_COMMANDS = [*_COMMANDS, "agent udp4", "modes check", "modes simulate", "modes graph"]
+ALL_COMMANDS = [*_COMMANDS, "agent udp4", "system check", "modes check", "modes simulate", "modes graph"]
 
 
 def data_of(run: Runner, *arguments: str) -> Any:

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import click
 
-from microros_gen.cli.modes.options import format_option, json_text, model_argument
+from microros_gen.cli.modes.options import model_argument
+from microros_gen.cli.options import format_option, json_text
 from microros_gen.modes.stability import MOST_COMBINATIONS
 from microros_gen.modes.verification import check
 

@@ -5,28 +5,16 @@ from __future__ import annotations
 
 import click
 
+from microros_gen.cli.groups import CommandGroup
 from microros_gen.cli.modes.check import check_command
 from microros_gen.cli.modes.graph import graph_command
 from microros_gen.cli.modes.manage import manage_command
 from microros_gen.cli.modes.mine import mine_command
 from microros_gen.cli.modes.monitor import monitor_command
 from microros_gen.cli.modes.simulate import simulate_command
-from microros_gen.diagnostics import nearest
 
 
-class _Commands(click.Group):
-    """Commands of which a wrong name gets the nearest one."""
-
-    def resolve_command(
-        self, ctx: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        if args and not args[0].startswith("-") and args[0] not in self.commands:
-            hint = nearest(args[0], self.commands) or f"Available: {', '.join(self.commands)}"
-            raise click.UsageError(f"unknown command '{args[0]}'. {hint}", ctx)
-        return super().resolve_command(ctx, args)
-
-
-@click.group(cls=_Commands)
+@click.group(cls=CommandGroup)
 def command() -> None:
     """Check, simulate, draw, manage and monitor a system of nodes with modes.
 

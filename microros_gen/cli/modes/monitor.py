@@ -12,7 +12,8 @@ from pathlib import Path
 import click
 
 from microros_gen.agent.server import stopped_by_signals
-from microros_gen.cli.modes.options import domain_option, format_option, json_text, model_argument, modes_peer
+from microros_gen.cli.modes.options import domain_option, model_argument, modes_peer
+from microros_gen.cli.options import format_option, json_text
 from microros_gen.mode_manager.diagnosis import OK
 from microros_gen.mode_manager.monitor import Monitor, Overview
 from microros_gen.mode_manager.page import check_place, served_page

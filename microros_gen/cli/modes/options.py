@@ -3,9 +3,7 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -15,15 +13,6 @@ from microros_gen.mode_manager.calls import Settings
 from microros_gen.ros.peer import Peer
 
 model_argument = click.argument("model", metavar="SYSTEM.yaml", type=click.Path(path_type=Path))
-
-format_option = click.option(
-    "--format",
-    "kind",
-    type=click.Choice(("table", "json")),
-    default="table",
-    show_default=True,
-    help="Lines for people, or JSON for programs.",
-)
 
 reconfigure_option = click.option(
     "--reconfigure",
@@ -41,11 +30,6 @@ timeout_option = click.option(
     metavar="S",
     help="Seconds after which a response is late.",
 )
-
-
-def json_text(data: dict[str, Any]) -> str:
-    """Return data as JSON with a line end."""
-    return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
 
 
 domain_option = click.option(

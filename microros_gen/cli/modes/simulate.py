@@ -8,12 +8,11 @@ from pathlib import Path
 import click
 
 from microros_gen.cli.modes.options import (
-    format_option,
-    json_text,
     model_argument,
     reconfigure_option,
     timeout_option,
 )
+from microros_gen.cli.options import format_option, json_text
 from microros_gen.mode_manager.calls import Settings
 from microros_gen.mode_manager.scope import select_nodes, select_scope
 from microros_gen.mode_manager.simulation import simulate
