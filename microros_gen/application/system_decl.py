@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from pathlib import Path
 
 from microros_gen.application.limit_rule import LimitRule
@@ -24,7 +25,8 @@ class PeerEnd:
     """An endpoint of another board. `topic` is fully qualified; of a service or client it is the service's name.
 
     `type_hash` is what its own interface files give; None: they are looked for where those of this board are. `limits`
-    are its own. `queue`: requests or replies that wait; None: as many as without the key.
+    are its own. `queue`: requests or replies that wait; None: as many as without the key. `interval_us`: a publisher
+    publishes at most once in that time.
     """
 
     kind: str
@@ -37,6 +39,7 @@ class PeerEnd:
     type_hash: str | None = None
     limits: tuple[LimitRule, ...] = ()
     queue: int | None = None
+    interval_us: Fraction | None = None
 
 
 @dataclass(frozen=True)
@@ -46,7 +49,8 @@ class Link:
     `kind` is udp or serial. `own` and `other` are the addresses of the two ends, or the names of their devices.
     `mtu`: largest message, bytes; `history`: messages that wait until they are acknowledged. `baud` of the other
     board's line. `files` were read for it. `limits` are those of the other application, `client_key` is what it
-    declares for the session with its agent; None: it has none, or declares none.
+    declares for the session with its agent; None: it has none, or declares none. `round_trip` and
+    `heartbeat` are what its `session:` says, milliseconds; None: nothing.
     """
 
     kind: str
@@ -63,3 +67,5 @@ class Link:
     span: Span | None = None
     limits: tuple[LimitRule, ...] = ()
     client_key: int | None = None
+    round_trip: int | None = None
+    heartbeat: int | None = None

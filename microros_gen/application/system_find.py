@@ -109,6 +109,7 @@ def _end(node: NodeDecl, endpoint: EndpointDecl) -> PeerEnd:
         span=endpoint.span,
         limits=endpoint.limits,
         queue=endpoint.queue,
+        interval_us=endpoint.interval_us,
     )
 
 
@@ -162,6 +163,8 @@ def _link(
         span=link.span,
         limits=other.limits,
         client_key=client_key(other),
+        round_trip=other.times.round_trip,
+        heartbeat=other.times.heartbeat,
     )
     return linked, source
 

@@ -53,13 +53,15 @@ class RatedPublisher:
 class LineLoad:
     """`publishers` have a rate, `others` publishers none. The unit of loads is that of the medium.
 
-    `heartbeat_ms`: the shortest time between two HEARTBEAT messages, which the reliable stream sends.
+    `heartbeat_ms`: the shortest time between two HEARTBEAT messages, which the reliable stream sends. `answers`:
+    ACKNACK messages in a second that go the same way, to the other end.
     """
 
     publishers: tuple[RatedPublisher, ...]
     others: int
     medium: Medium
     heartbeat_ms: int
+    answers: Fraction = Fraction(0)
 
     @property
     def heartbeats(self) -> Fraction:
@@ -70,9 +72,21 @@ class LineLoad:
         return Fraction(each * 1000, self.heartbeat_ms)
 
     @property
+    def acknowledgments(self) -> Fraction:
+        """Load of ACKNACK messages to the other end."""
+        return self.medium.usual(HEARTBEAT_SIZE) * self.answers
+
+    @property
     def load(self) -> Fraction:
         """Load of all of them."""
-        return sum((p.load(self.medium) for p in self.publishers), self.heartbeats)
+        return sum((p.load(self.medium) for p in self.publishers), self.heartbeats + self.acknowledgments)
+
+    @property
+    def parts(self) -> str:
+        """What each publisher, HEARTBEAT and ACKNACK messages need."""
+        loads = [(p.topic, p.load(self.medium)) for p in self.publishers]
+        loads += [("HEARTBEAT", self.heartbeats), ("ACKNACK", self.acknowledgments)]
+        return ", ".join(f"{name} {math.ceil(load)}" for name, load in loads if load)
 
     @property
     def most(self) -> Fraction:
@@ -127,12 +141,13 @@ def plan_line_load(
             continue
         _check_deadline(endpoint, topic, diagnostics)
         if not endpoint.exists_at_agent:
-            diagnostics.warning(
-                f"'rate' of {topic} has no effect: its messages do not use the line to the agent",
-                endpoint.rate_span,
-                "Remove it",
-                id="MG-7131",
-            )
+            if endpoint.peer == "never":
+                diagnostics.warning(
+                    f"'rate' of {topic} has no effect: its messages use no line",
+                    endpoint.rate_span,
+                    "Remove it",
+                    id="MG-7131",
+                )
             continue
         sizes = message_sizes(message.max_encoded_size, mtu)
         publishers.append(RatedPublisher(topic, message.reliable, endpoint.interval_us, sizes, endpoint))
@@ -186,11 +201,9 @@ def _check_capacity(
     if load.fits or medium.capacity is None:
         return
     largest = max(load.publishers, key=lambda publisher: publisher.load(medium))
-    parts = [f"{p.topic} {math.ceil(p.load(medium))}" for p in load.publishers]
-    parts += [f"HEARTBEAT {math.ceil(load.heartbeats)}"] if load.heartbeats else []
     diagnostics.error(
         f"the publishers with a rate need {math.ceil(load.load)} {medium.unit}, and the line carries"
-        f" {math.floor(medium.capacity)} with `{medium.key}: {medium.rate}` ({', '.join(parts)})",
+        f" {math.floor(medium.capacity)} with `{medium.key}: {medium.rate}` ({load.parts})",
         largest.endpoint.rate_span,
         _hint(load, largest, fitting_rate_of_line(load, heartbeat_ms)),
         id="MG-7130",
@@ -218,15 +231,20 @@ def fitting_rate(load: LineLoad, publisher: RatedPublisher) -> str | None:
     return rate_text(rate) if rate * 1000 >= 1 else None
 
 
-def fitting_rate_of_line(load: LineLoad, heartbeat_ms: Callable[[int | None], int]) -> int:
+def fitting_rate_of_line(
+    load: LineLoad,
+    heartbeat_ms: Callable[[int | None], int],
+    answers: Callable[[int | None], Fraction] = lambda rate: Fraction(0),
+) -> int:
     """Return the least bit rate of the line that carries all: a usual one, or the number itself above them.
 
-    `heartbeat_ms`: the time between two HEARTBEAT messages at a rate, which is longer on a slow serial line.
+    `heartbeat_ms`: the time between two HEARTBEAT messages at a rate, which is longer on a slow serial line. `answers`:
+    ACKNACK messages in a second at a rate.
     """
 
     def at(rate: int) -> LineLoad:
         medium = replace(load.medium, rate=rate)
-        return replace(load, medium=medium, heartbeat_ms=heartbeat_ms(rate))
+        return replace(load, medium=medium, heartbeat_ms=heartbeat_ms(rate), answers=answers(rate))
 
     for rate in load.medium.rates:
         if at(rate).fits:

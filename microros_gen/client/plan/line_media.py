@@ -34,11 +34,12 @@ class Medium:
     """The line of a transport `kind`; `rate` in bits per second, None: nothing is known of it.
 
     Loads are bits on CAN, and bytes on other lines. The agent sends on the same bus where it is `shared`; on a serial
-    line each direction has its own wire.
+    line each direction has its own wire. `stuffed`: each byte of a frame on a serial line counts as stuffed.
     """
 
     kind: str
     rate: int | None
+    stuffed: bool = False
 
     @property
     def unit(self) -> str:
@@ -68,9 +69,9 @@ class Medium:
         return BAUD_RATES if self.kind == "serial" else BIT_RATES
 
     def usual(self, size: int) -> int:
-        """Return what a message of `size` bytes takes: on a serial line usually, on CAN at most."""
+        """Return what a message of `size` bytes takes: usually, at most where each byte is stuffed, and on CAN."""
         if self.kind == "serial":
-            return usual_frame(size)
+            return longest_frame(size) if self.stuffed else usual_frame(size)
         return can_frame_bits(size) if self.kind == "canfd" else size
 
     def most(self, size: int) -> int:

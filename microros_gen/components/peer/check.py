@@ -63,6 +63,11 @@ class OwnEnd:
         sends = (sent for _, sent in KIND[self.end.kind].parts)
         return tuple(zip(exchanged(self.type), sends, strict=True))
 
+    @property
+    def sends(self) -> bool:
+        """Return whether it sends anything on a link."""
+        return any(sends for _, sends in self.parts)
+
     def sent_size(self, context: PlanContext) -> int:
         """Return the bytes of the largest message that it sends on a link; 0: it sends none.
 
@@ -162,7 +167,7 @@ def _check_end(own: OwnEnd, context: PlanContext, diagnostics: Diagnostics) -> N
     _check_qos(own, diagnostics)
     for link, end in found:
         _check_pair(own, end, link, context, diagnostics)
-    if any(sends for _, sends in own.parts):
+    if own.sends:
         _check_output(own, [link for link, _ in found], context, diagnostics)
 
 

@@ -23,6 +23,7 @@ from microros_gen.components.peer.check import (
     own_ends,
 )
 from microros_gen.components.peer.check_services import check_services, requests_of
+from microros_gen.components.peer.load import LinkLoad, plan_loads
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
@@ -89,13 +90,17 @@ class PeerLinkPlan:
 
 @dataclass(frozen=True, kw_only=True)
 class PeerPlan:
-    """`mtu`: the largest of all links, bytes; `slots` of `slot_size` bytes each hold reliable messages of a link."""
+    """`mtu`: the largest of all links, bytes; `slots` of `slot_size` bytes each hold reliable messages of a link.
+
+    `loads`: of the links on which publishers have a rate.
+    """
 
     links: tuple[PeerLinkPlan, ...]
     mtu: int
     slots: int
     slot_size: int
     alone: bool
+    loads: tuple[LinkLoad, ...] = ()
 
     @property
     def count(self) -> int:
@@ -156,6 +161,16 @@ class PeerPlan:
         ]
         return ", ".join(words) + ("; no agent is needed" if self.alone else "")
 
+    @property
+    def rated(self) -> bool:
+        """Return whether a publisher on a link has a rate."""
+        return bool(self.loads)
+
+    @property
+    def loads_shown(self) -> str:
+        """Return what a report says of the loads."""
+        return "; ".join(load.shown for load in self.loads)
+
 
 def plan(context: PlanContext, diagnostics: Diagnostics) -> PeerPlan:
     """Return the links; ends of a topic that do not agree are reported."""
@@ -171,6 +186,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> PeerPlan:
         slots=max((link.history for link in context.application.links), default=1) if largest else 1,
         slot_size=(max(largest, MESSAGE_OVERHEAD) + 3) & ~3,
         alone=is_alone(context.application),
+        loads=plan_loads(context, ends, diagnostics),
     )
 
 
