@@ -17,6 +17,8 @@ from microros_gen.records import dataclass
 
 SCHEMA = Path(__file__).with_name("system.schema.json")
 DEFAULT_MTU, DEFAULT_HISTORY = 512, 4
+LARGEST_MTU = 16384
+"""Of a link, bytes; system.schema.json says it too."""
 UART = "uart"
 """What a serial link calls the line of a board without an operating system."""
 

@@ -87,9 +87,15 @@ def test_the_plan_was_made_from_all_files(tmp_path: Path) -> None:
         ("peer: only, qos: {deadline: 1 s}", "peer: only", "has a deadline"),
         ("peer: only, qos: {lifespan: 1 s}", "peer: only", "has a lifespan"),
         (
-            "peer: only, limits: {string: 600}",
-            "peer: only",
-            "a message of '/a' takes 617 bytes on the link, which has an MTU of 512",
+            "peer: only, limits: {string: 600}, qos: {reliability: best_effort}",
+            "peer: only, limits: {string: 600}, qos: {reliability: best_effort}",
+            "a message of '/a' takes 617 bytes on the link, which has an MTU of 512, and only reliable messages go in "
+            "fragments. Set mtu: 617 at the link, make it reliable, or lower limits",
+        ),
+        (
+            "peer: only, limits: {string: 66000}",
+            "peer: only, limits: {string: 66000}",
+            "a message of '/a' takes 66017 bytes, and fragments of a link carry 65539. Lower its limits",
         ),
     ],
 )

@@ -137,9 +137,9 @@ def test_another_service_gives_another_key(tmp_path: Path) -> None:
         ),
         (
             "sensor",
-            "peer: only, limits: {string: 600}",
-            "peer: only, limits: {string: 600}",
-            "a message of '/set' takes 645 bytes on the link, which has an MTU of 512. Set mtu: 645",
+            "peer: only, limits: {string: 66000}",
+            "peer: only, limits: {string: 66000}",
+            "a message of '/set' takes 66045 bytes, and fragments of a link carry 65539. Lower its limits",
         ),
         (
             "motor",

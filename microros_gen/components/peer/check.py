@@ -8,19 +8,23 @@ from collections.abc import Iterator
 from microros_gen.application.kinds import KIND, NAMES, other_end
 from microros_gen.application.model import EndpointDecl
 from microros_gen.application.system_decl import Link, PeerEnd
-from microros_gen.application.system_file import UART
+from microros_gen.application.system_file import LARGEST_MTU, UART
 from microros_gen.application.system_find import exchanged, peer_ends
+from microros_gen.client.plan.creation import MESSAGE_HEADER
 from microros_gen.client.plan.declared import type_name
 from microros_gen.client.plan.features import PlanContext
 from microros_gen.client.plan.serving import IDENTITY_SIZE
 from microros_gen.components.agentless.plan import is_alone
-from microros_gen.components.peer.check_limits import LimitedEnds, check_client_keys, check_limits
+from microros_gen.components.peer.check_limits import LimitedEnds, check_client_keys, check_limits, sent_body
 from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
 
 MESSAGE_OVERHEAD = 12
 """Bytes before the body of WRITE_DATA: headers of message and submessage, request and object."""
+
+LARGEST_MESSAGE = MESSAGE_HEADER + 0xFFFF
+"""Bytes of a message whose submessages have a size of 16 bits, as the client stores it, before it goes in fragments."""
 
 Key = tuple[int, str]
 """Domain and name of a topic or service."""
@@ -69,15 +73,24 @@ class OwnEnd:
         return any(sends for _, sends in self.parts)
 
     def sent_size(self, context: PlanContext) -> int:
-        """Return the bytes of the largest message that it sends on a link; 0: it sends none.
-
-        A reply has the identity of its request in front.
-        """
-        head = MESSAGE_OVERHEAD + (IDENTITY_SIZE if self.end.kind == "service" else 0)
+        """Return the bytes of the largest message that it sends on a link; 0: it sends none."""
         sizes = (
             context.types[part].largest(self.end.kind, self.index) for part, sends in self.parts if sends
         )
-        return max((size + head for size in sizes), default=0)
+        return max((size + head_of(self.end.kind) for size in sizes), default=0)
+
+    def taken_size(self, end: PeerEnd, link: Link, context: PlanContext) -> int:
+        """Return the bytes of the largest message that an end of the other board sends to it; 0: it sends none."""
+        if end.type != self.end.type:
+            return 0  # reported
+        messages = {known: plan.message for known, plan in context.types.items()}
+        sizes = (sent_body(end, link, part, messages) for part, sends in self.parts if not sends)
+        return max((size + head_of(end.kind) for size in sizes), default=0)
+
+
+def head_of(kind: str) -> int:
+    """Return the bytes before the body of what an endpoint sends on a link: a reply has an identity there."""
+    return MESSAGE_OVERHEAD + (IDENTITY_SIZE if kind == "service" else 0)
 
 
 def own_ends(context: PlanContext) -> tuple[OwnEnd, ...]:
@@ -217,13 +230,20 @@ def _check_pair(
 
 def _check_output(own: OwnEnd, links: list[Link], context: PlanContext, diagnostics: Diagnostics) -> None:
     """Report messages that are too large for a link, and what happens to reliable ones that have no room."""
-    size = own.sent_size(context)
+    size, reliable = own.sent_size(context), own.end.reliability == "reliable"
+    if reliable and size > LARGEST_MESSAGE:
+        message = f"a message of '{own.end.topic}' takes {size} bytes, and fragments of a link carry {LARGEST_MESSAGE}"
+        diagnostics.error(message, own.endpoint.span, "Lower its limits", id="MG-7209")
     for link in links:
-        if size > link.mtu:
-            message = f"a message of '{own.end.topic}' takes {size} bytes on the link, which has an MTU of {link.mtu}"
-            hint = f"Set mtu: {size} at the link, or lower limits"
-            diagnostics.error(message, own.endpoint.span, hint, id="MG-7204")
-    if own.end.reliability == "reliable" and context.application.on_full != "error":
+        if size > link.mtu and not reliable:
+            message = (
+                f"a message of '{own.end.topic}' takes {size} bytes on the link, which has an MTU of {link.mtu}, and "
+                "only reliable messages go in fragments"
+            )
+            ways = [f"set mtu: {size} at the link"] if size <= LARGEST_MTU else []
+            hint = ", ".join([*ways, "make it reliable, or lower limits"])
+            diagnostics.error(message, own.endpoint.span, hint[0].upper() + hint[1:], id="MG-7204")
+    if reliable and context.application.on_full != "error":
         message = f"`on_full: {context.application.on_full}` is not for links, and '{own.end.topic}' is reliable there"
         span = context.application.spans.get("on_full")
         diagnostics.error(message, span, "Write `on_full: error`, or make it best effort", id="MG-7205")

@@ -16,7 +16,7 @@ from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import Message, NamedType, TypeName, element_of
 from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.capacity import Defaults, Root, plan_capacities
-from microros_gen.typesupport.plan.size import TypeLimits
+from microros_gen.typesupport.plan.size import TypeLimits, WireSizes
 
 _NONE, _ANY = Defaults(0, 0), Defaults(1 << 31, 1 << 31)
 """Where nothing says how long a field of the other board is: its own build reports that."""
@@ -51,7 +51,8 @@ def check_limits(ends: LimitedEnds, context: PlanContext, diagnostics: Diagnosti
     """Report the fields that the sender of a message fills further than the other end has room for."""
     end, kind = ends.end, ends.endpoint.kind
     messages = {known: plan.message for known, plan in context.types.items()}
-    own, other = context.types[ends.message].limits_of(kind, ends.index), _limits_of(ends, messages)
+    own = context.types[ends.message].limits_of(kind, ends.index)
+    other = _limits_of(end, ends.link, ends.message, messages, _ANY if ends.sends else _NONE)
     sent, taken = (own, other) if ends.sends else (other, own)
     for longer in _longer(ends.message, sent, taken, messages, ""):
         place = f" ({end.span.source.name}:{end.span.line})" if end.span else ""
@@ -79,14 +80,22 @@ def check_client_keys(application: Application, diagnostics: Diagnostics) -> Non
             )
 
 
-def _limits_of(ends: LimitedEnds, messages: dict[TypeName, Message]) -> TypeLimits | None:
-    """Return the limits of the other board's endpoint; faults of its application are reported where it is built."""
-    end, name = ends.end, ends.message
+def sent_body(end: PeerEnd, link: Link, name: TypeName, messages: dict[TypeName, Message]) -> int:
+    """Return the bytes of the largest body of a message that an endpoint of the board of `link` sends."""
+    return WireSizes(messages).largest(name, _limits_of(end, link, name, messages, _NONE))
+
+
+def _limits_of(
+    end: PeerEnd, link: Link, name: TypeName, messages: dict[TypeName, Message], defaults: Defaults
+) -> TypeLimits | None:
+    """Return the limits of an endpoint of the other board; faults of its application are reported where it is built.
+
+    `defaults`: for what has no limit there.
+    """
     rules = end.limits
     if KIND[end.kind].service_type:
         rules = part_rules(rules, type_name(end.type, "srv"), name.name.rpartition("_")[2], messages)
-    defaults = _ANY if ends.sends else _NONE
-    found = plan_capacities(messages, (Root(name, rules),), ends.link.limits, defaults, Diagnostics())
+    found = plan_capacities(messages, (Root(name, rules),), link.limits, defaults, Diagnostics())
     return found.limits[name]
 
 

@@ -19,6 +19,7 @@ from microros_gen.client.plan.line_media import MOST_RATE, Medium
 from microros_gen.client.plan.session_times import plan_times
 from microros_gen.client.plan.streams import WRITE_DATA_OVERHEAD, WRITE_SIDE_INPUT
 from microros_gen.components.peer.check import OwnEnd, matches
+from microros_gen.components.peer.fragments import sent_messages
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass
 
@@ -63,35 +64,32 @@ def _load(link: Link, context: PlanContext, ends: tuple[OwnEnd, ...]) -> tuple[L
         if own.endpoint.interval_us is None:
             others += 1
             continue
-        sizes, reliable = (own.sent_size(context),), own.end.reliability == "reliable"
+        sizes, reliable = sent_messages(own.sent_size(context), link), own.end.reliability == "reliable"
         rated.append(RatedPublisher(own.end.topic, reliable, own.endpoint.interval_us, sizes, own.endpoint))
     baud = context.application.transport.baud if link.kind == "serial" else None
     medium = Medium(link.kind, baud, stuffed=True)
-    answers = _answers(link, ends)
+    answers = _answers(link, context, ends)
     beat = context.runtime.times.heartbeat_period_ms
     return LineLoad(tuple(rated), others, medium, beat, answers(baud)), answers
 
 
-def _answers(link: Link, ends: tuple[OwnEnd, ...]) -> Answers:
-    """Return how many ACKNACK messages the messages with a rate of the other board need.
+def _answers(link: Link, context: PlanContext, ends: tuple[OwnEnd, ...]) -> Answers:
+    """Return how many ACKNACK messages the messages with a rate of the other board need, one for each fragment.
 
     The time between its HEARTBEAT messages is at least that of the smallest message and input buffer on a line.
     """
-    subscribed = {own.key for own in ends if own.end.kind == "subscription"}
-    intervals = [
-        end.interval_us
-        for end in link.ends
-        if end.kind == "publisher"
-        and end.reliability == "reliable"
-        and (end.domain_id, end.topic) in subscribed
-        if end.interval_us is not None
-    ]
-    samples = sum((Fraction(_SECOND_US) / interval for interval in intervals), Fraction(0))
+    subscribed = {own.key: own for own in ends if own.end.kind == "subscription"}
+    messages = Fraction(0)
+    for end in link.ends:
+        own = subscribed.get((end.domain_id, end.topic))
+        if own is not None and end.kind == "publisher" and end.reliability == "reliable" and end.interval_us:
+            count = len(sent_messages(own.taken_size(end, link, context), link))
+            messages += count * _SECOND_US / end.interval_us
     settings = SessionTimes(round_trip=link.round_trip, heartbeat=link.heartbeat)
 
     def at(baud: int | None) -> Fraction:
         beat = plan_times(settings, baud, WRITE_DATA_OVERHEAD, WRITE_SIDE_INPUT).heartbeat_period_ms
-        return samples + Fraction(_SECOND_MS, beat) if intervals else Fraction(0)
+        return messages + Fraction(_SECOND_MS, beat) if messages else Fraction(0)
 
     return at
 

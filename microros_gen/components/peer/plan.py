@@ -23,6 +23,7 @@ from microros_gen.components.peer.check import (
     own_ends,
 )
 from microros_gen.components.peer.check_services import check_services, requests_of
+from microros_gen.components.peer.fragments import FragmentsPlan, plan_fragments
 from microros_gen.components.peer.load import LinkLoad, plan_loads
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import TypeName
@@ -92,7 +93,7 @@ class PeerLinkPlan:
 class PeerPlan:
     """`mtu`: the largest of all links, bytes; `slots` of `slot_size` bytes each hold reliable messages of a link.
 
-    `loads`: of the links on which publishers have a rate.
+    `loads`: of the links on which publishers have a rate. `in_fragments`: messages that are larger than an MTU.
     """
 
     links: tuple[PeerLinkPlan, ...]
@@ -101,6 +102,7 @@ class PeerPlan:
     slot_size: int
     alone: bool
     loads: tuple[LinkLoad, ...] = ()
+    in_fragments: FragmentsPlan = FragmentsPlan()
 
     @property
     def count(self) -> int:
@@ -162,6 +164,31 @@ class PeerPlan:
         return ", ".join(words) + ("; no agent is needed" if self.alone else "")
 
     @property
+    def fragments(self) -> bool:
+        """Return whether a message is sent in fragments."""
+        return self.in_fragments.sends
+
+    @property
+    def joins(self) -> bool:
+        """Return whether a message arrives in fragments."""
+        return self.in_fragments.joined > 0
+
+    @property
+    def joined(self) -> int:
+        """Return the bytes of the largest message that arrives in fragments."""
+        return self.in_fragments.joined
+
+    @property
+    def largest_table(self) -> tuple[str, ...]:
+        """The largest reliable message on each link as lines of C, where some are sent in fragments."""
+        values = ", ".join(map(str, self.in_fragments.largest))
+        return (
+            ("", f"const uint32_t xrce_peer_largest[MICROROS_PEERS] = {{{values}}};")
+            if self.fragments
+            else ()
+        )
+
+    @property
     def rated(self) -> bool:
         """Return whether a publisher on a link has a rate."""
         return bool(self.loads)
@@ -180,13 +207,15 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> PeerPlan:
     links = tuple(_link(index, link, ends, context) for index, link in enumerate(context.application.links))
     reliable = [own.sent_size(context) for own in ends if own.end.reliability == "reliable"]
     largest = max(reliable, default=0)
+    fragments = plan_fragments(context, ends)
     return PeerPlan(
         links=links,
         mtu=max((link.mtu for link in links), default=0),
         slots=max((link.history for link in context.application.links), default=1) if largest else 1,
-        slot_size=(max(largest, MESSAGE_OVERHEAD) + 3) & ~3,
+        slot_size=(max(largest, MESSAGE_OVERHEAD) + fragments.head + 3) & ~3,
         alone=is_alone(context.application),
         loads=plan_loads(context, ends, diagnostics),
+        in_fragments=fragments,
     )
 
 
@@ -204,6 +233,7 @@ def record(part: PeerPlan) -> object:
             [list(map(list, link.repliers)), list(map(list, link.requesters))] for link in part.links
         ],
         "storage": [part.mtu, part.slots, part.slot_size],
+        **({"fragments": [*part.in_fragments.largest, part.joined]} if part.fragments or part.joins else {}),
     }
 
 

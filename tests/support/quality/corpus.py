@@ -107,6 +107,11 @@ _PEER_SERVICES = (
     + "    clients: [{name: /reset, type: std_srvs/srv/Trigger, peer: only}]\n"
     + "components: [+services, +executor]\nlimits: {'*': {string: 12}}\n"
 )
+_PEER_LARGE = _PEER_SERVICES.replace("string: 12", "string: 200")
+_PEER_JOINED = (
+    _PEER.replace("UInt8, peer: only, qos: {reliability: best_effort}, queue: 1", "String, peer: only")
+    + "limits: {'*': {string: 200}}\n"
+)
 _CHIP = (
     "version: 1\nprofiles: [pure_sender, pure_reader]\nsystem: {file: system.yaml, board: own}\n"
     "limits: {'*': {string: 12, sequence: 3}}\nnodes:\n  - name: probe\n    publishers:\n"
@@ -147,6 +152,11 @@ SYSTEMS: Mapping[str, str] = MappingProxyType(
         "peer_board": SYSTEM + "  - {type: serial, ends: {own: uart, other: uart}}\n",
         "peer_services": SYSTEM + '  - {type: udp, ends: {own: "10.0.0.1:7500", other: "10.0.0.2:7500"}}\n',
         "peer_serving": SYSTEM + "  - {type: serial, ends: {own: uart, other: uart}}\n",
+        "peer_fragments": SYSTEM
+        + '  - {type: udp, mtu: 64, ends: {own: "10.0.0.1:7500", other: "10.0.0.2:7500"}}\n',
+        "peer_fragments_joined": SYSTEM
+        + '  - {type: udp, mtu: 64, ends: {other: "10.0.0.1:7500", own: "10.0.0.2:7500"}}\n',
+        "peer_fragments_serving": SYSTEM + "  - {type: serial, mtu: 64, ends: {own: uart, other: uart}}\n",
         "local_chip": SYSTEM.replace("links:", "chips: [[own, other]]"),
         "local_chip_tasks": SYSTEM.replace("links:", "chips: [[other, own]]"),
     }
@@ -160,6 +170,9 @@ OTHERS: Mapping[str, str] = MappingProxyType(
             for name in SYSTEMS
             if name.startswith("peer")
         },
+        "peer_fragments": _other(_PEER_LARGE),
+        "peer_fragments_joined": _other(_PEER_JOINED),
+        "peer_fragments_serving": _other(_PEER_LARGE),
         "local_chip": _other(_CHIP),
         "local_chip_tasks": _other(_CHIP_CALLS),
     }
@@ -365,6 +378,12 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "peer_board": _PEER + "transport: {type: serial}\ntarget: qemu-mps2-an386\n",
         "peer_services": _PEER_SERVICES,
         "peer_serving": _PEER_SERVICES.replace("peer: also", "peer: only").replace(
+            "    clients: [{name: /reset, type: std_srvs/srv/Trigger, peer: only}]\n", ""
+        )
+        + "transport: {type: serial}\ntarget: qemu-mps2-an386\n",
+        "peer_fragments": _PEER_LARGE,
+        "peer_fragments_joined": _PEER_JOINED,
+        "peer_fragments_serving": _PEER_LARGE.replace("peer: also", "peer: only").replace(
             "    clients: [{name: /reset, type: std_srvs/srv/Trigger, peer: only}]\n", ""
         )
         + "transport: {type: serial}\ntarget: qemu-mps2-an386\n",

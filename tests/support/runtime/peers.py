@@ -78,16 +78,19 @@ def board_program(
     text: str = APPLICATION,
     others: str = APPLICATION,
     waits_here: bool = False,
+    source: str = "peer_board.c",
 ) -> Path:
     """Build the program of a board, with a separate system file: the relay may be the other end of its link.
 
-    `others`: what the other board has. `waits_here`: without the wait of the port, for `Board.wakes`.
+    `others`: what the other board has. `waits_here`: without the wait of the port, for `Board.wakes`. `source`: a
+    file of tests/runtime/c.
     """
     home = written(folder / f"of_{own}", system_text, others)
     out = rendered(home / own, application(own, text))
     flags = (f'-DOWN="{own}"', f'-DOTHER="{PAIR[1 - PAIR.index(own)]}"')
-    without = ("port_posix_time.c", *(("port_posix_wait.c",) if waits_here else ()))
-    return program_of(out, "peer_board.c", without, (*flags, *(("-DWAITS_HERE",) if waits_here else ())))
+    own_time = ("port_posix_time.c",) if source == "peer_board.c" else ()
+    without = (*own_time, *(("port_posix_wait.c",) if waits_here else ()))
+    return program_of(out, source, without, (*flags, *(("-DWAITS_HERE",) if waits_here else ())))
 
 
 class Board(CommandedProgram):

@@ -91,14 +91,14 @@ static void peer_reconnect(xrce_peer_t * peer, uint32_t now)
 }
 
 /* Handles an answer to CREATE_CLIENT. */
-static void peer_on_status(xrce_peer_t * peer, uint8_t status, uint32_t now)
+static void peer_on_status(xrce_peer_t * peer, uint8_t index, uint8_t status, uint32_t now)
 {
   if (peer->ready) {
     return; /* answer to a repetition */
   }
   if (status <= XRCE_STATUS_OK_MATCHED) {
     peer->ready = true;
-    xrce_peer_renumber(peer, now);
+    xrce_peer_renumber(peer, index, now);
   } else if (status == XRCE_STATUS_ALREADY_EXISTS) {
     peer->key = peer_next_key(peer->key);
     peer->due_ms = now;
@@ -116,9 +116,9 @@ static void peer_take_answer(xrce_client_t * client, uint8_t index, const uint8_
   const size_t size = xrce_get_le16(&submessage[2]);
 
   if (submessage[0] == XRCE_STATUS_AGENT && size >= 2u) {
-    peer_on_status(peer, xrce_payload_of(submessage)[0], now);
+    peer_on_status(peer, index, xrce_payload_of(submessage)[0], now);
   } else if (submessage[0] == XRCE_ACKNACK) {
-    xrce_peer_acknowledged(peer, xrce_payload_of(submessage), size, xrce_flags_of(submessage), now);
+    xrce_peer_acknowledged(peer, index, xrce_payload_of(submessage), size, xrce_flags_of(submessage), now);
   } else if (submessage[0] == XRCE_RESET && peer->ready) {
     peer_reconnect(peer, now);
     xrce_peer_calling_renew(client, index);
@@ -183,12 +183,11 @@ static void peer_take_client(xrce_client_t * client, uint8_t index, const uint8_
       xrce_peer_heartbeat(client, index); /* has it restarted, and forgotten the own session? */
     }
   }
-  xrce_peer_in_reset(peer);
+  xrce_peer_in_reset(peer, index);
   peer_send_status(client, index, key, XRCE_STATUS_OK);
 }
 
-/* Returns whether the submessages fill the message. */
-static bool peer_is_whole(const uint8_t * message, size_t size)
+bool xrce_peer_is_whole(const uint8_t * message, size_t size)
 {
   size_t at = XRCE_MESSAGE_HEADER;
   size_t end = at;
@@ -205,7 +204,7 @@ static void peer_take(
 {
   const xrce_peer_line_t * line = &xrce_peer_lines[index];
 
-  if (!peer_is_whole(message, size)) {
+  if (!xrce_peer_is_whole(message, size)) {
     ++client->session.statistics.malformed;
   } else if (message[0] == XRCE_SESSION_NONE) {
     peer_take_client(client, index, message, size);

@@ -65,13 +65,13 @@ static void calling_keep(
   xrce_peer_services_keep(client, (uint16_t)(place - XRCE_READERS_AT), data, now);
 }
 
-bool xrce_peer_calling_take(xrce_client_t * client, uint8_t index, size_t at, uint32_t now)
+bool xrce_peer_calling_take(xrce_client_t * client, uint8_t index, uint8_t * input, size_t at, uint32_t now)
 {
   bool is_reply = false;
   xrce_peer_data_t data;
   uint16_t number;
 
-  if (!xrce_peer_services_read(&data, index, at)) {
+  if (!xrce_peer_services_read(&data, input, at)) {
     return false;
   }
   number = calling_number(client, index, &data);

@@ -3,6 +3,7 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_peer.h"
 #include "microros/xrce_peer_calling.h"
+#include "microros/xrce_peer_fragments.h"
 #include "microros/xrce_peer_serving.h"
 #include "microros/xrce_read.h"
 #include "microros/xrce_wire.h"
@@ -15,8 +16,9 @@ enum {
 /* An ACKNACK has this many bits, and nobody sends more messages ahead. Numbers from half of 2^16 on are old. */
 enum { WINDOW = 16, HALF = 0x8000, OLD = 64 };
 
-void xrce_peer_in_reset(xrce_peer_t * peer)
+void xrce_peer_in_reset(xrce_peer_t * peer, uint8_t index)
 {
+  xrce_peer_fragments_reset(index);
   peer->next = 0;
   peer->newest = UINT16_MAX; /* 0 is newer */
   peer->received = false;
@@ -110,10 +112,10 @@ static void in_heartbeat(xrce_client_t * client, uint8_t index, const uint8_t * 
   in_acknowledge(client, index, known < HALF ? known : 0u);
 }
 
-/* Takes the submessages of a message, in order. */
-static void in_deliver(
-  xrce_client_t * client, uint8_t index, const uint8_t * message, size_t size, uint32_t now)
+/* Takes the submessages of the message at MICROROS_PEER_HEAD of a buffer, in order. */
+static void in_deliver(xrce_client_t * client, uint8_t index, uint8_t * input, size_t size, uint32_t now)
 {
+  const uint8_t * message = &input[MICROROS_PEER_HEAD];
   size_t at = XRCE_MESSAGE_HEADER;
 
   while (at < size) {
@@ -122,7 +124,8 @@ static void in_deliver(
 
     if (submessage[0] == XRCE_WRITE_DATA) {
       if (
-        !xrce_peer_serving_take(client, index, at, now) && !xrce_peer_calling_take(client, index, at, now)) {
+        !xrce_peer_serving_take(client, index, input, at, now) &&
+        !xrce_peer_calling_take(client, index, input, at, now)) {
         in_write_data(client, index, submessage, length, now);
       }
     } else if (submessage[0] == XRCE_HEARTBEAT) {
@@ -141,8 +144,13 @@ static void in_take_reliable(
   const uint16_t ahead = (uint16_t)(xrce_get_le16(&message[2]) - peer->next);
 
   if (ahead == 0u) {
+    size_t whole = size;
+    uint8_t * input = xrce_peer_fragments_join(client, index, &whole);
+
     ++peer->next;
-    in_deliver(client, index, message, size, now);
+    if (input != NULL) {
+      in_deliver(client, index, input, whole, now);
+    }
   }
   if (ahead < WINDOW) {
     in_acknowledge(
@@ -168,12 +176,12 @@ void xrce_peer_in_take(
   if (message[1] == XRCE_STREAM_RELIABLE) {
     in_take_reliable(client, index, message, size, now);
   } else if (message[1] == XRCE_STREAM_NONE) {
-    in_deliver(client, index, message, size, now);
+    in_deliver(client, index, xrce_peer_input(index), size, now);
   } else if (message[1] == XRCE_STREAM_BEST_EFFORT) {
     /* A number further behind is a new one after a long silence: neither that nor a forged one may block half of them. */
     if ((uint16_t)(peer->newest - number) >= (uint16_t)OLD) {
       peer->newest = number;
-      in_deliver(client, index, message, size, now);
+      in_deliver(client, index, xrce_peer_input(index), size, now);
     }
   } else {
     ++client->session.statistics.malformed;

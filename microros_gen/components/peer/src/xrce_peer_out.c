@@ -1,25 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * What this board sends in the session in which it is the client. Reliable messages wait in a ring of slots until they
- * are acknowledged, each with one sequence number; they outlast a session and are sent again in the next one. The
+ * are acknowledged; they outlast a session and are sent again in the next one. The
  * streams of the agent's session have their storage once in the image, so these are separate. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_peer.h"
 #include "microros/xrce_peer_alert.h"
+#include "microros/xrce_peer_slots.h"
 #include "microros/xrce_wire.h"
 
 enum { HEARTBEAT_MESSAGE = XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER + XRCE_HEARTBEAT_SIZE };
 
-static uint8_t peer_slots[MICROROS_PEERS][MICROROS_PEER_SLOTS][MICROROS_PEER_SLOT_SIZE];
-static uint16_t peer_sizes[MICROROS_PEERS][MICROROS_PEER_SLOTS];
 static uint8_t peer_message[MICROROS_PEER_MTU]; /* best effort */
 
-/* Returns the slot of the i-th message that waits; the free ones follow. */
-static uint8_t peer_slot(const xrce_peer_t * peer, uint8_t i)
+/* Returns the bits of the first `count` numbers, at most 16. */
+static uint16_t peer_bits(uint8_t count)
 {
-  const uint32_t slot = (uint32_t)peer->head + i;
-
-  return (uint8_t)(slot < MICROROS_PEER_SLOTS ? slot : slot - MICROROS_PEER_SLOTS);
+  return (uint16_t)(((uint32_t)1u << count) - 1u);
 }
 
 bool xrce_peer_send(xrce_client_t * client, uint8_t index, const uint8_t * message, size_t size)
@@ -35,10 +32,8 @@ bool xrce_peer_send(xrce_client_t * client, uint8_t index, const uint8_t * messa
 
 size_t xrce_peer_capacity(uint8_t index, bool reliable)
 {
-  const size_t most = xrce_peer_lines[index].mtu;
-
-  return (reliable && most > MICROROS_PEER_SLOT_SIZE ? MICROROS_PEER_SLOT_SIZE : most) -
-         (size_t)XRCE_MESSAGE_HEADER;
+  return reliable ? xrce_peer_slots_capacity(index)
+                  : (size_t)xrce_peer_lines[index].mtu - (size_t)XRCE_MESSAGE_HEADER;
 }
 
 uint8_t * xrce_peer_reserve(const xrce_client_t * client, uint8_t index, bool reliable)
@@ -48,28 +43,32 @@ uint8_t * xrce_peer_reserve(const xrce_client_t * client, uint8_t index, bool re
   if (!reliable) {
     return &peer_message[XRCE_MESSAGE_HEADER];
   }
-  if (peer->count == MICROROS_PEER_SLOTS) {
-    return NULL;
-  }
-  return &peer_slots[index][peer_slot(peer, peer->count)][XRCE_MESSAGE_HEADER];
+  return peer->count == MICROROS_PEER_SLOTS ? NULL : xrce_peer_slots_room(peer, index);
 }
 
-/* Sends the i-th message that waits. */
-static bool peer_send_slot(xrce_client_t * client, uint8_t index, uint8_t i)
+/* Sends what has to be sent. Returns false if the line has no room for all of it. */
+static bool peer_send_unsent(xrce_client_t * client, uint8_t index)
 {
-  const xrce_peer_t * peer = &client->peers[index];
-  const uint8_t slot = peer_slot(peer, i);
-  uint8_t * message = peer_slots[index][slot];
+  xrce_peer_t * peer = &client->peers[index];
 
-  xrce_put_header(
-    message, xrce_peer_own(peer, &xrce_peer_lines[index]), XRCE_STREAM_RELIABLE, (uint16_t)(peer->first + i));
-  return xrce_peer_send(client, index, message, XRCE_MESSAGE_HEADER + (size_t)peer_sizes[index][slot]);
+  for (uint8_t i = 0; (uint32_t)peer->unsent >> i != 0u; ++i) {
+    const uint32_t bit = (uint32_t)1u << i;
+
+    if ((peer->unsent & bit) != 0u) {
+      if (!xrce_peer_slots_send(client, index, i)) {
+        return false;
+      }
+      peer->unsent = (uint16_t)(peer->unsent & ~bit);
+    }
+  }
+  return true;
 }
 
 bool xrce_peer_commit(xrce_client_t * client, uint8_t index, bool reliable, size_t size, uint32_t now)
 {
   xrce_peer_t * peer = &client->peers[index];
-  const uint8_t i = peer->count;
+  const bool is_blocked = peer->unsent != 0u; /* older ones go first, in the next pump */
+  uint8_t window;
 
   if (!reliable) {
     xrce_put_header(
@@ -77,25 +76,25 @@ bool xrce_peer_commit(xrce_client_t * client, uint8_t index, bool reliable, size
     ++peer->number;
     return xrce_peer_send(client, index, peer_message, XRCE_MESSAGE_HEADER + size);
   }
-  peer_sizes[index][peer_slot(peer, i)] = (uint16_t)size;
-  if (i == 0u) {
+  window = xrce_peer_slots_window(peer, index);
+  xrce_peer_slots_put(peer, index, size);
+  peer->unsent =
+    (uint16_t)(peer->unsent | (peer_bits(xrce_peer_slots_window(peer, index)) ^ peer_bits(window)));
+  if (window == 0u) {
     peer->due_ms = now + MICROROS_PEER_HEARTBEAT_MS;
   }
-  peer->count = (uint8_t)(i + 1u);
-  if (peer->unsent != 0u || !peer_send_slot(client, index, i)) {
-    peer->unsent = (uint16_t)(peer->unsent | (uint32_t)1u << i); /* for the next pump */
-  }
-  if (i == 0u || peer->unsent != 0u) {
+  if (is_blocked || !peer_send_unsent(client, index) || window == 0u) {
     xrce_peer_alert(client);
   }
   return true;
 }
 
-void xrce_peer_renumber(xrce_peer_t * peer, uint32_t now)
+void xrce_peer_renumber(xrce_peer_t * peer, uint8_t index, uint32_t now)
 {
   peer->number = 0;
   peer->first = 0;
-  peer->unsent = (uint16_t)(((uint32_t)1u << peer->count) - 1u);
+  peer->done = 0;
+  peer->unsent = peer_bits(xrce_peer_slots_window(peer, index));
   peer->due_ms = now + MICROROS_PEER_HEARTBEAT_MS;
 }
 
@@ -107,7 +106,7 @@ void xrce_peer_heartbeat(xrce_client_t * client, uint8_t index)
   xrce_put_header(message, xrce_peer_own(peer, &xrce_peer_lines[index]), XRCE_STREAM_NONE, 0);
   xrce_put_submessage(&message[4], XRCE_HEARTBEAT, XRCE_FLAG_LITTLE_ENDIAN, XRCE_HEARTBEAT_SIZE);
   xrce_put_le16(&message[8], peer->first);
-  xrce_put_le16(&message[10], (uint16_t)(peer->first + peer->count - 1u));
+  xrce_put_le16(&message[10], (uint16_t)(peer->first + xrce_peer_slots_window(peer, index) - 1u));
   message[12] = XRCE_STREAM_RELIABLE;
   (void)xrce_peer_send(client, index, message, sizeof(message)); /* it is repeated */
 }
@@ -119,42 +118,35 @@ void xrce_peer_flow(xrce_client_t * client, uint8_t index, uint32_t now)
   if (!peer->ready || peer->count == 0u) {
     return;
   }
-  for (uint8_t i = 0; (uint32_t)peer->unsent >> i != 0u; ++i) {
-    const uint32_t bit = (uint32_t)1u << i;
-
-    if ((peer->unsent & bit) != 0u) {
-      if (!peer_send_slot(client, index, i)) {
-        return;
-      }
-      peer->unsent = (uint16_t)(peer->unsent & ~bit);
-    }
-  }
-  if (xrce_is_due(now, peer->due_ms)) {
+  if (peer_send_unsent(client, index) && xrce_is_due(now, peer->due_ms)) {
     xrce_peer_heartbeat(client, index);
     peer->due_ms = now + MICROROS_PEER_HEARTBEAT_MS;
   }
 }
 
 void xrce_peer_acknowledged(
-  xrce_peer_t * peer, const uint8_t * payload, size_t size, uint8_t flags, uint32_t now)
+  xrce_peer_t * peer, uint8_t index, const uint8_t * payload, size_t size, uint8_t flags, uint32_t now)
 {
-  uint32_t missing;
+  uint8_t window = xrce_peer_slots_window(peer, index);
+  uint16_t missing;
   uint16_t freed;
 
   if (size < XRCE_ACKNACK_SIZE || payload[4] != XRCE_STREAM_RELIABLE || !peer->ready) {
     return;
   }
   freed = (uint16_t)(xrce_get_u16(&payload[0], flags) - peer->first);
-  if (freed > peer->count) {
+  if (freed > window) {
     return; /* overtaken by a later one */
   }
+  window = (uint8_t)(window - freed);
   if (freed != 0u) {
-    peer->head = peer_slot(peer, (uint8_t)freed);
+    xrce_peer_slots_free(peer, index, (uint8_t)freed);
     peer->first = (uint16_t)(peer->first + freed);
-    peer->count = (uint8_t)(peer->count - freed);
     peer->unsent = (uint16_t)((uint32_t)peer->unsent >> freed);
     peer->due_ms = now + MICROROS_PEER_HEARTBEAT_MS;
   }
-  missing = xrce_get_be16(&payload[2]) & (((uint32_t)1u << peer->count) - 1u);
+  missing = (uint16_t)(xrce_get_be16(&payload[2]) & peer_bits(window));
+  /* Fragments follow for those that are acknowledged. */
+  missing = (uint16_t)(missing | (peer_bits(xrce_peer_slots_window(peer, index)) ^ peer_bits(window)));
   peer->unsent = (uint16_t)(peer->unsent | missing);
 }

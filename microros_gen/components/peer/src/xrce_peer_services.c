@@ -5,9 +5,8 @@
 #include "microros/xrce_read.h"
 #include "microros/xrce_wire.h"
 
-bool xrce_peer_services_read(xrce_peer_data_t * data, uint8_t index, size_t at)
+bool xrce_peer_services_read(xrce_peer_data_t * data, uint8_t * input, size_t at)
 {
-  uint8_t * input = xrce_peer_input(index);
   const uint8_t * submessage = &input[MICROROS_PEER_HEAD + at];
   const uint8_t * payload = xrce_payload_of(submessage);
   const size_t size = xrce_get_le16(&submessage[2]);

@@ -97,11 +97,11 @@ static void serving_identify(const xrce_client_t * client, uint8_t index, const 
   }
 }
 
-bool xrce_peer_serving_take(xrce_client_t * client, uint8_t index, size_t at, uint32_t now)
+bool xrce_peer_serving_take(xrce_client_t * client, uint8_t index, uint8_t * input, size_t at, uint32_t now)
 {
   xrce_peer_data_t data;
 
-  if (!xrce_peer_services_read(&data, index, at)) {
+  if (!xrce_peer_services_read(&data, input, at)) {
     return false;
   }
   for (uint16_t i = 0; i < (uint16_t)MICROROS_PEER_REPLIERS; ++i) {

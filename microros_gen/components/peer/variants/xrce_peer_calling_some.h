@@ -18,8 +18,9 @@ extern "C" {
 /* The clients of this board that call others; from the plan. */
 extern const xrce_peer_service_t xrce_peer_requesters[MICROROS_PEER_REQUESTERS];
 
-/* Takes WRITE_DATA, at byte `at` of the message of a link, if it is a reply; otherwise returns false. */
-bool xrce_peer_calling_take(xrce_client_t * client, uint8_t index, size_t at, uint32_t now);
+/* Takes WRITE_DATA of a link, at byte `at` of the message at MICROROS_PEER_HEAD of a buffer, if it is a reply; otherwise
+ * returns false. */
+bool xrce_peer_calling_take(xrce_client_t * client, uint8_t index, uint8_t * input, size_t at, uint32_t now);
 
 /* Called when the other board of a link has forgotten the own session: requests may get no reply. */
 void xrce_peer_calling_renew(xrce_client_t * client, uint8_t index);

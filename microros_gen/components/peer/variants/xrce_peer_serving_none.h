@@ -10,11 +10,14 @@
 #include "microros/xrce_forward.h"
 #include "microros_config.h"
 
-/* Takes WRITE_DATA, at byte `at` of the message of a link, if it is a request; otherwise returns false. */
-static inline bool xrce_peer_serving_take(xrce_client_t * client, uint8_t index, size_t at, uint32_t now)
+/* Takes WRITE_DATA of a link, at byte `at` of the message at MICROROS_PEER_HEAD of a buffer, if it is a request; otherwise
+ * returns false. */
+static inline bool xrce_peer_serving_take(
+  xrce_client_t * client, uint8_t index, const uint8_t * input, size_t at, uint32_t now)
 {
   (void)client;
   (void)index;
+  (void)input;
   (void)at;
   (void)now;
   return false;

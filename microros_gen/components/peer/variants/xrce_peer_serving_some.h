@@ -19,8 +19,9 @@ extern "C" {
 /* The services of this board on links; from the plan. */
 extern const xrce_peer_service_t xrce_peer_repliers[MICROROS_PEER_REPLIERS];
 
-/* Takes WRITE_DATA, at byte `at` of the message of a link, if it is a request; otherwise returns false. */
-bool xrce_peer_serving_take(xrce_client_t * client, uint8_t index, size_t at, uint32_t now);
+/* Takes WRITE_DATA of a link, at byte `at` of the message at MICROROS_PEER_HEAD of a buffer, if it is a request; otherwise
+ * returns false. */
+bool xrce_peer_serving_take(xrce_client_t * client, uint8_t index, uint8_t * input, size_t at, uint32_t now);
 
 /* Called for a new session of the other board of a link. */
 void xrce_peer_serving_begin(uint8_t index);

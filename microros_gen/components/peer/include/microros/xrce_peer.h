@@ -58,6 +58,9 @@ typedef struct xrce_peer_line_t {
 
 extern const xrce_peer_line_t xrce_peer_lines[MICROROS_PEERS];
 
+/* With messages in fragments: the largest reliable message on each link, bytes; from the plan. */
+extern const uint32_t xrce_peer_largest[MICROROS_PEERS];
+
 /* The transport of a link. It stays open when a session with an agent is opened again, and does not survive a sleep. */
 typedef struct xrce_peer_port_t {
   xrce_transport_t transport;
@@ -78,8 +81,9 @@ typedef struct xrce_peer_t {
   uint16_t unsent;     /* which of these have to be sent, from the first on */
   uint16_t newest;     /* number of the newest best-effort message of the other board */
   uint16_t next;       /* of its next reliable message */
+  uint16_t done;       /* acknowledged fragments of the oldest message */
   uint8_t head;        /* slot of the oldest message */
-  uint8_t count;       /* messages that are not acknowledged */
+  uint8_t count;       /* messages that wait in a slot */
   bool ready : 1;      /* the own session */
   bool received : 1;   /* something arrived in the other board's session */
   bool lost : 1;       /* the device of the line is gone */
@@ -150,7 +154,7 @@ bool xrce_peer_commit(xrce_client_t * client, uint8_t index, bool reliable, size
 bool xrce_peer_send(xrce_client_t * client, uint8_t index, const uint8_t * message, size_t size);
 
 /* Called when the own session begins: all messages that wait are numbered from 0. */
-void xrce_peer_renumber(xrce_peer_t * peer, uint32_t now);
+void xrce_peer_renumber(xrce_peer_t * peer, uint8_t index, uint32_t now);
 
 /* Sends what has to be sent, and a HEARTBEAT when it is due. */
 void xrce_peer_flow(xrce_client_t * client, uint8_t index, uint32_t now);
@@ -160,12 +164,12 @@ void xrce_peer_heartbeat(xrce_client_t * client, uint8_t index);
 
 /* Takes the payload of an ACKNACK. */
 void xrce_peer_acknowledged(
-  xrce_peer_t * peer, const uint8_t * payload, size_t size, uint8_t flags, uint32_t now);
+  xrce_peer_t * peer, uint8_t index, const uint8_t * payload, size_t size, uint8_t flags, uint32_t now);
 
 /* --- input --- */
 
 /* Called for a new session of the other board. */
-void xrce_peer_in_reset(xrce_peer_t * peer);
+void xrce_peer_in_reset(xrce_peer_t * peer, uint8_t index);
 
 /* Takes a message of the other board's session, which is complete. */
 void xrce_peer_in_take(
@@ -173,6 +177,9 @@ void xrce_peer_in_take(
 
 /* Returns the buffer into which a link receives; a message begins at MICROROS_PEER_HEAD. */
 uint8_t * xrce_peer_input(uint8_t index);
+
+/* Returns whether the submessages fill the message. */
+bool xrce_peer_is_whole(const uint8_t * message, size_t size);
 
 /* Opens the transport of a link. Returns false without a network, or if the line does not exist. */
 bool xrce_peer_open(xrce_transport_t * transport, const xrce_peer_line_t * line);

@@ -31,7 +31,7 @@ enum {
 /* No object of the protocol has this id. */
 enum { XRCE_PEER_NO_OBJECT = 0 };
 
-/* WRITE_DATA in the buffer of its link. What precedes the body was taken already and may be overwritten. */
+/* WRITE_DATA in the buffer of its message. What precedes the body was taken already and may be overwritten. */
 typedef struct xrce_peer_data_t {
   uint8_t * input;
   size_t at;   /* of the body in `input`: at least XRCE_IDENTITY_SIZE */
@@ -41,8 +41,8 @@ typedef struct xrce_peer_data_t {
   uint8_t flags;
 } xrce_peer_data_t;
 
-/* Reads WRITE_DATA, at byte `at` of the message of a link. Returns false if it is malformed. */
-bool xrce_peer_services_read(xrce_peer_data_t * data, uint8_t index, size_t at);
+/* Reads WRITE_DATA, at byte `at` of the message at MICROROS_PEER_HEAD of a buffer. Returns false if it is malformed. */
+bool xrce_peer_services_read(xrce_peer_data_t * data, uint8_t * input, size_t at);
 
 /* Puts bytes of the buffer of a link into the queue of a receiver. A full queue, or a receiver that is not open, gets
  * none; they are counted. */

@@ -1,0 +1,313 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Messages between boards that are larger than the MTU of their link, over a bad network, restarts, and wrap."""
+
+from __future__ import annotations
+
+import subprocess
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from microros_gen.agent.wire.entity_messages import Fragment
+from tests.support.e2e.commanded import CommandedProgram
+from tests.support.patience import deadline
+from tests.support.runtime.peers import HOST, Fate, Relay, board_program, system, unreliable
+
+MTU, LONGEST = 128, 3000
+APPLICATION = """\
+version: 1
+profiles: [pure_sender, pure_reader]
+components: [+services]
+system: {file: ../system.yaml, board: OWN}
+session: {round_trip: 20 ms, heartbeat: 10 ms}
+nodes:
+  - name: board
+    publishers: [{topic: /OWN/text, type: std_msgs/msg/String, peer: only, limits: {data: 3000}}]
+    subscriptions: [{topic: /OTHER/text, type: std_msgs/msg/String, peer: only, queue: 9, limits: {data: 3000}}]
+    services:
+      - name: /OWN/check
+        type: diagnostic_msgs/srv/AddDiagnostics
+        peer: only
+        limits: {load_namespace: 450, message: 900}
+    clients:
+      - name: /OTHER/check
+        type: diagnostic_msgs/srv/AddDiagnostics
+        peer: only
+        limits: {load_namespace: 450, message: 900}
+"""
+PART = MTU - 8
+"""Bytes of a message in a fragment (OMG DDS-XRCE 1.0, 8.3.5.14)."""
+FRAGMENT, LAST = 0x0D, 0x02
+WRAPS = 0xFFFF - 20
+
+Text = tuple[int, int]
+"""Seed and length."""
+
+
+class TextBoard(CommandedProgram):
+    """A process that is a board; `received`, `served` and `replies` are what it has received."""
+
+    def __init__(self, program: Path) -> None:
+        pipe = subprocess.PIPE
+        self.process = subprocess.Popen([str(program)], stdin=pipe, stdout=pipe, text=True)
+        super().__init__(self.process)
+        self.received: list[Text] = []
+        self.served: list[Text] = []
+        self.replies: list[Text] = []
+        self.counts = (0, 0, 0)
+
+    def tell(self, command: str) -> str:
+        """Return the error of a command, empty for none."""
+        code, error, lines = self.call(command)
+        assert bool(code) == bool(error), (code, error)
+        for line in lines:
+            word, *numbers = line.split()
+            if word == "counts":
+                self.counts = (int(numbers[0]), int(numbers[1]), int(numbers[2]))
+            else:
+                lists = {"got": self.received, "served": self.served, "reply": self.replies}[word]
+                lists.append((int(numbers[0]), int(numbers[1])))
+        return error
+
+    def waiting(self) -> int:
+        """Return how many messages are not acknowledged."""
+        assert not self.tell("counts")
+        return self.counts[2]
+
+
+@pytest.fixture(scope="module")
+def relay() -> Iterator[Relay]:
+    with Relay() as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def programs(tmp_path_factory: pytest.TempPathFactory, relay: Relay) -> tuple[Path, Path]:
+    """The programs of both boards, each of which sees the relay as the other one."""
+    folder = tmp_path_factory.mktemp("fragments")
+    with Relay() as unused:
+        own = unused.ports
+    ends = (
+        system(f"{HOST}:{own[0]}", f"{HOST}:{relay.ports[0]}"),
+        system(f"{HOST}:{relay.ports[1]}", f"{HOST}:{own[1]}"),
+    )
+    texts = [text.replace("type: udp", f"type: udp, mtu: {MTU}") for text in ends]
+    first, second = (
+        board_program(folder, own, text, APPLICATION, APPLICATION, source="peer_fragments_board.c")
+        for own, text in zip("ab", texts, strict=True)
+    )
+    return first, second
+
+
+@pytest.fixture(autouse=True)
+def fresh(relay: Relay) -> Iterator[None]:
+    relay.fate = lambda data: (data,)
+    relay.seen.clear()
+    yield
+    assert not relay.faults
+
+
+@contextmanager
+def running(program: Path) -> Iterator[TextBoard]:
+    """Start a board, and wait until it has opened everything: what arrives before is for nobody."""
+    board = TextBoard(program)
+    try:
+        assert not board.tell("counts")
+        yield board
+    finally:
+        board.process.kill()
+        board.process.communicate()
+
+
+@contextmanager
+def pair(programs: tuple[Path, Path]) -> Iterator[tuple[TextBoard, TextBoard]]:
+    """Start both boards and wait until each has received from the other."""
+    with running(programs[0]) as first, running(programs[1]) as second:
+        meet(first, second)
+        yield first, second
+
+
+def meet(first: TextBoard, second: TextBoard) -> None:
+    for sender, receiver in ((first, second), (second, first)):
+        until(lambda sender=sender: not sender.tell("publish 1 1"), first, second)  # type: ignore[misc]
+        until(lambda receiver=receiver: receiver.received, first, second)  # type: ignore[misc]
+    until(lambda: not first.waiting() and not second.waiting(), first, second)
+    for board in (first, second):
+        board.received.clear()
+
+
+def until(seen: Callable[[], object], *boards: TextBoard) -> None:
+    """Let boards run until something is true."""
+    end = deadline(20)
+    while not seen():
+        assert time.monotonic() < end, [(board.received, board.replies, board.counts) for board in boards]
+        for board in boards:
+            board.tell("spin 1")
+
+
+def publish(board: TextBoard, other: TextBoard, texts: Sequence[Text]) -> None:
+    """Publish each text; repeat a call that finds no room."""
+    for seed, size in texts:
+        until(lambda seed=seed, size=size: not board.tell(f"publish {seed} {size}"), board, other)  # type: ignore[misc]
+
+
+def lengths(count: int) -> list[Text]:
+    """Return texts around the boundaries of fragments, and some of the longest."""
+    edges = [MTU - 17, MTU - 16, 2 * PART - 13, 2 * PART - 12, 16 * PART - 13, 17 * PART, LONGEST, 1]
+    return [(i % 26, edges[i % len(edges)]) for i in range(count)]
+
+
+def test_messages_around_each_boundary(programs: tuple[Path, Path], relay: Relay) -> None:
+    """The lengths of messages and fragments, as a decoder of the standard sees them."""
+    with pair(programs) as (first, second):
+        relay.seen.clear()
+        for size in (MTU - 17, MTU - 16, 2 * PART - 13, 2 * PART - 12):
+            before = len(second.received)
+            publish(first, second, [(3, size)])
+            until(lambda: len(second.received) > before, first, second)  # noqa: B023
+        until(lambda: not first.waiting(), first, second)
+        assert second.received == [(3, MTU - 17), (3, MTU - 16), (3, 2 * PART - 13), (3, 2 * PART - 12)]
+    parts = [sub for sender, _, sub in relay.seen if sender == 0 and isinstance(sub, Fragment)]
+    # headers of submessage and object, length and end of the string: 13 bytes besides the text
+    assert [(len(bytes(sub.data)), sub.last) for sub in parts] == [
+        (PART, False),
+        (MTU - 16 + 13 - PART, True),
+        (PART, False),
+        (PART, True),
+        (PART, False),
+        (PART, False),
+        (1, True),
+    ]
+
+
+def test_a_message_of_more_fragments_than_the_window(programs: tuple[Path, Path], relay: Relay) -> None:
+    with pair(programs) as (first, second):
+        publish(first, second, [(7, LONGEST)])
+        publish(second, first, [(9, LONGEST)])
+        until(lambda: first.received and second.received, first, second)
+        assert (first.received, second.received) == ([(9, LONGEST)], [(7, LONGEST)])
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_bad_network(programs: tuple[Path, Path], relay: Relay, seed: int) -> None:
+    """Loss, repetition and another order, while the numbers of fragments wrap within a message."""
+    texts = lengths(16)
+    with pair(programs) as (first, second):
+        for board in (first, second):
+            assert not board.tell(f"numbers {WRAPS} {WRAPS}")
+        relay.fate = unreliable(seed)
+        publish(first, second, texts)
+        publish(second, first, texts)
+        until(lambda: len(first.received) == len(second.received) == len(texts), first, second)
+        until(lambda: not first.waiting() and not second.waiting(), first, second)
+        for board in (first, second):
+            assert board.received == texts
+            assert (board.counts[0], board.counts[2]) == (0, 0)
+
+
+def test_services(programs: tuple[Path, Path], relay: Relay) -> None:
+    """Requests and replies in fragments, each once, over a bad network."""
+    requests = [(i, 20 + 53 * i) for i in range(8)]
+    with pair(programs) as (first, second):
+        relay.fate = unreliable(5)
+        for seed, size in requests:
+            for caller in (first, second):
+                until(lambda: not caller.tell(f"ask {seed} {size}"), first, second)  # noqa: B023
+            until(lambda: len(first.replies) == len(second.replies) == seed + 1, first, second)  # noqa: B023
+        for board in (first, second):
+            assert board.served == requests
+            assert board.replies == [(seed + 1, 2 * size) for seed, size in requests]
+
+
+def cut(relay: Relay, fragments: int) -> Callable[[], bool]:
+    """Let so many fragments pass, and nothing after them; return whether that is so."""
+    passed: list[bytes] = []
+
+    def fate(data: bytes) -> Sequence[bytes]:
+        if len(passed) >= fragments:
+            return ()
+        if data[4] == FRAGMENT:
+            passed.append(data)
+        return (data,)
+
+    relay.fate = fate
+    return lambda: len(passed) >= fragments
+
+
+def test_the_receiver_restarts_within_a_message(programs: tuple[Path, Path], relay: Relay) -> None:
+    with running(programs[0]) as first:
+        with running(programs[1]) as second:
+            meet(first, second)
+            is_cut = cut(relay, 5)
+            publish(first, second, [(4, LONGEST), (5, 600)])
+            until(is_cut, first, second)
+            second.tell("spin 5")
+            assert second.received == []
+        with running(programs[1]) as second:
+            relay.fate = unreliable(3)
+            until(lambda: len(second.received) == 2, first, second)
+            assert second.received == [(4, LONGEST), (5, 600)]
+
+
+def test_the_sender_restarts_within_a_message(programs: tuple[Path, Path], relay: Relay) -> None:
+    """What arrived of it is dropped, and does not become part of the next one."""
+    with running(programs[1]) as second:
+        with running(programs[0]) as first:
+            meet(first, second)
+            is_cut = cut(relay, 5)
+            publish(first, second, [(4, LONGEST)])
+            until(is_cut, first, second)
+            second.tell("spin 5")
+        relay.fate = lambda data: (data,)
+        with running(programs[0]) as first:
+            publish(first, second, [(6, 900)])
+            until(lambda: second.received, first, second)
+            assert second.received == [(6, 900)]
+            assert not second.waiting()
+            assert second.counts[:2] == (0, 0)
+
+
+def test_a_serialized_message_above_the_largest_one(programs: tuple[Path, Path], relay: Relay) -> None:
+    with pair(programs) as (first, _):
+        body = LONGEST + 5  # length and end of the string
+        assert not first.tell(f"serialized {4 + body}")
+        assert f"{body + 1} bytes above {body}" in first.tell(f"serialized {4 + body + 1}")
+
+
+def changed(wrong: Callable[[bytes], bytes]) -> Fate:
+    """Return a network that changes each last fragment once."""
+    known: set[bytes] = set()
+
+    def fate(data: bytes) -> Sequence[bytes]:
+        if data[4] == FRAGMENT and data[5] & LAST and data not in known:
+            known.add(data)
+            return (wrong(data),)
+        return (data,)
+
+    return fate
+
+
+@pytest.mark.parametrize(
+    ("wrong", "counted"),
+    [
+        (lambda data: data[:5] + bytes([data[5] & ~LAST]) + data[6:], 1),  # the next message follows it
+        (lambda data: data[:6] + b"\x08\x00" + data[8:16], 1),  # shorter than its submessage says
+    ],
+)
+def test_a_message_that_does_not_end_is_counted(
+    programs: tuple[Path, Path], relay: Relay, wrong: Callable[[bytes], bytes], counted: int
+) -> None:
+    """A wrong board: the message is lost, the next ones are not."""
+    with pair(programs) as (first, second):
+        relay.fate = changed(wrong)
+        publish(first, second, [(4, 300)])
+        until(lambda: not first.waiting(), first, second)
+        relay.fate = lambda data: (data,)
+        publish(first, second, [(8, 20), (9, 300)])
+        until(lambda: len(second.received) == 2, first, second)
+        assert second.received == [(8, 20), (9, 300)]
+        second.waiting()
+        assert second.counts[:2] == (0, counted)
