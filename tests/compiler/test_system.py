@@ -54,11 +54,15 @@ def test_boards_that_agree(tmp_path: Path) -> None:
 
 def test_everything_in_one_run(tmp_path: Path) -> None:
     publishers = (
-        "topic: /a, peer: only, limits: {string: 600}",
+        "topic: /a, peer: only, limits: {string: 600}, qos: {reliability: best_effort}",
         "topic: /b, peer: only",
         "topic: /c, peer: only",
     )
-    subscriptions = ("topic: /a, peer: only", "topic: /b, peer: only", "topic: /d, peer: only")
+    subscriptions = (
+        "topic: /a, peer: only, qos: {reliability: best_effort}",
+        "topic: /b, peer: only",
+        "topic: /d, peer: only",
+    )
     sensor = application("sensor", ends("publishers", *publishers))
     motor = application("motor", ends("subscriptions", *subscriptions)).replace(
         "type: std_msgs/msg/String, topic: /b", "type: std_msgs/msg/Int32, topic: /b"
