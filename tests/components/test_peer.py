@@ -225,7 +225,7 @@ LINE = "transport: {type: serial}\n"
             SERIAL,
             SENSOR.replace("peer: only", "peer: also"),
             "qemu-mps2-an386",
-            "has one line, which cannot have an agent besides",
+            "has one serial line, which a link cannot share with an agent. Write `peer: only` at all endpoints",
         ),
         (
             SERIAL.replace("uart", "/dev/ttyUSB0"),

@@ -154,7 +154,9 @@ def _check_line(context: PlanContext, link: Link, diagnostics: Diagnostics) -> N
         diagnostics.error(message, link.own.span, f"For this target, {what}", id="MG-7194")
     elif is_uart and (not is_alone(application) or len(application.links) > 1):
         others = "a second link" if len(application.links) > 1 else "an agent"
-        message = f"the target '{context.target.name}' has one line, which cannot have {others} besides"
+        message = (
+            f"the target '{context.target.name}' has one serial line, which a link cannot share with {others}"
+        )
         hint = "Write `peer: only` at all endpoints, with one link"
         diagnostics.error(message, link.own.span, hint, id="MG-7195")
     elif not is_uart and not is_alone(application) and link.own.name == application.transport.device:
