@@ -6,8 +6,8 @@
  * @file float64 members where a `double` has 4 bytes (binary32, as on AVR): on the wire they have 8 (binary64).
  *
  * To the wire every number is exact. From the wire it becomes the nearest binary32, ties to even (IEEE 754,
- * 4.3.1): about 7 decimal digits are kept; beyond 3.4028235e38 it is an infinity, below 1.4e-45 zero, each with
- * its sign. A NaN stays a NaN, quiet or signaling, with the upper 23 bits of its fraction.
+ * 4.3.1): about 7 decimal digits are kept; from 3.4028236e38 on it is an infinity, up to 7.0e-46
+ * zero, each with its sign. A NaN stays a NaN, quiet or signaling, with the upper 23 bits of its fraction.
  */
 
 #include <stddef.h>
