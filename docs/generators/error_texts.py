@@ -20,7 +20,8 @@ errors: text
 pools: {{publishers: 1, subscriptions: 1, services: 1, clients: 1}}
 """
 _TEXT = re.compile(
-    r'^const char microros_error_(\w+)\[\] =\s*((?:"[^"\n]*"(?: XRCE_\w+)?\s*)+);', re.MULTILINE
+    r'^const MICROROS_FLASH char microros_error_(\w+)\[\] =\s*((?:"[^"\n]*"(?: XRCE_\w+)?\s*)+);',
+    re.MULTILINE,
 )
 _INTRODUCTION = """\
 # Error texts

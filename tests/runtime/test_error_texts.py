@@ -20,7 +20,8 @@ from tests.support.ids import without_id
 from tests.support.plans import POOL, changed
 
 TEXT = re.compile(
-    r'^const char (microros_error_\w+)\[\] =\n? *((?:"[^"\n]*"(?: XRCE_\w+ )?\s*)+);', re.MULTILINE
+    r'^const MICROROS_FLASH char (microros_error_\w+)\[\] =\n? *((?:"[^"\n]*"(?: XRCE_\w+ )?\s*)+);',
+    re.MULTILINE,
 )
 VALUES = {"%m": "9", "%n": "8", "%s": "x", "%d": "true", "%D": "std_msgs/msg/Int32"}
 POOL_KEYS = (
