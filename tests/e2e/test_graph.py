@@ -109,6 +109,27 @@ def test_what_rclpy_sees(program: Path, agent: object, domain: int) -> None:
         assert device.lines("count available") == ["1"]
 
 
+def test_actions_that_rclpy_sees(program: Path, agent: object, domain: int) -> None:
+    """Servers and clients of actions of a node without, with some, and with other topics; and of the whole graph."""
+    with graph_peer(domain) as peer, graph_server(domain), running(program) as device:
+        served(device)
+        assert device.lines("names actions") == []
+        peer.ask(do="act", server="/arm/walk", client="/run")
+        kind = "test_msgs/action/Fibonacci"
+        for what, node, wanted in (
+            ("action_servers_of", NODE, [f"/arm/walk {kind}"]),
+            ("action_clients_of", NODE, [f"/run {kind}"]),
+            ("action_servers_of", ("/arm", "device"), []),
+            ("actions", ("", ""), [f"/arm/walk {kind}", f"/run {kind}"]),
+        ):
+            found = alike(
+                partial(device.sorted, f"names {what} {node[1]} {node[0]}"),
+                partial(peer.ask, do="names", what=what, node=node[1], namespace=node[0]),
+                wanted[0] if wanted else None,
+            )
+            assert found == wanted
+
+
 @pytest.mark.system
 def test_a_short_script_instead_of_the_server(program: Path, agent: object, domain: int) -> None:
     """It has the contract of the page, and nothing else of this tool's server: queries, changes, matched counts."""

@@ -23,6 +23,7 @@ from tests.support.runtime.surface import write_application
 APPLICATION = """\
 version: 1
 components: [+action_server]
+memory: {arena: 1024}
 nodes:
   - name: device
     actions:
@@ -261,6 +262,50 @@ def test_the_functions_of_rcl_action_know_servers_and_goals(device: Device) -> N
     assert device.client.ok("known 3").lines == ("known 1 0",)
     device.spin(60)
     assert device.client.ok("known 3").lines == ("known 0 0",)
+
+
+def test_goals_are_listed_with_their_states(device: Device) -> None:
+    """None of a closed server; ended goals until their results expire; not those of another server."""
+    device.client.ok("init")
+    assert device.client.call("goals walk").code == 2200
+    device.client.ok("make")
+    assert device.client.ok("name").lines == ("name /walk /find",)
+    assert device.client.ok("goals walk").lines == ()
+    for goal in (3, 4):
+        assert device.send(goal)
+    assert device.find("a")
+    assert device.client.ok("goals walk").lines == ("goal 3 2 1 1", "goal 4 2 1 1")
+    assert device.client.ok("goals find").lines == ("goal 99 2 1 1",)
+    device.ask("cancel_goal", "action_msgs/srv/CancelGoal", {"goal_info": {"goal_id": uuid(4)}})
+    device.client.ok(f"end 0 {SUCCEEDED}")
+    assert device.client.ok("goals walk").lines == ("goal 3 4 0 0", "goal 4 3 1 0")
+    device.spin(60)
+    assert device.client.ok("goals walk").lines == ("goal 4 3 1 0",)
+
+
+def test_goals_expire_where_the_program_asks(device: Device) -> None:
+    """Not before their time, not while their results are awaited, and no more than the list has room for."""
+    device.start()
+    for goal in (3, 4):
+        assert device.send(goal)
+        device.client.ok(f"end {goal - 3} {SUCCEEDED}")
+    assert device.client.ok("expire 2").lines == ()
+    device.client.wait(1000)
+    assert device.client.ok("expire 1").lines == ("expired 3",)
+    assert device.client.ok("goals walk").lines == ("goal 4 4 0 0",)
+    assert device.client.ok("expire 0").lines == ()
+    assert device.client.ok("goals walk").lines == ()
+    assert device.send(5)
+
+
+def test_a_program_publishes_feedback_and_states_itself(device: Device) -> None:
+    device.start()
+    device.spin()
+    before = len(device.statuses())
+    device.client.ok("say 9")
+    device.spin()
+    assert device.statuses()[before:] == [[(9, EXECUTING)]]
+    assert any(body[:1] == b"\x09" for target, body in device.agent.written if target == b"\0\x05")
 
 
 def test_a_server_is_added_again_with_fewer_goals_than_are_active(device: Device) -> None:

@@ -34,6 +34,16 @@ entities: binary
 nodes: [{name: device, namespace: /arm}]
 """
 
+ACTIONS = """\
+version: 1
+components: [+action_server, +action_client]
+nodes:
+  - name: device
+    actions: [{name: walk, type: example_interfaces/action/Fibonacci}]
+    action_clients: [{name: run, type: example_interfaces/action/Fibonacci}]
+limits: {'*': {string: 16, sequence: 4}}
+"""
+
 DIFFERENT: dict[str, tuple[int, int]] = {}
 """Call: what librcl returns, and what is returned here, for a reason."""
 
@@ -62,13 +72,14 @@ DIFFERENT_RCLC = {
 }
 
 
-def of_librcl(source: Path, folder: Path, *packages: str) -> list[tuple[str, int]]:
-    """Return what the program says over librcl; `packages`: the interfaces that it uses."""
+def of_librcl(source: Path, folder: Path, *packages: str, more: Iterable[str] = ()) -> list[tuple[str, int]]:
+    """Return what the program says over librcl and `more` libraries; `packages`: the interfaces that it uses."""
     prefix = Path(sys.prefix)
     theirs = folder / "theirs.so"
     folders = [f"-I{p}" for p in sorted((prefix / "include").iterdir()) if p.is_dir()]
     libraries = [f"-L{prefix / 'lib'}", "-lrcl", "-lrmw", "-lrcutils", "-Wl,--allow-shlib-undefined"]
     libraries += [f"-l{package}__rosidl_typesupport_c" for package in packages]
+    libraries += [f"-l{name}" for name in more]
     command = ["gcc", "-w", "-shared", "-fPIC", *folders, str(source), *libraries, "-o", str(theirs)]
     subprocess.run(command, check=True)
     bundled = sorted(Path(sysconfig.get_path("purelib")).glob("*.libs"))
@@ -137,3 +148,11 @@ def test_names_that_the_graph_refuses_are_those_of_librcl(tmp_path: Path) -> Non
     assert differing(ours, of_librcl(source, tmp_path)) == {}
     assert {202, 201, 200, 11} <= {value for _, value in ours}
     assert len(ours) > 80
+
+
+def test_actions_return_what_librcl_action_returns(tmp_path: Path) -> None:
+    """Every state with every event, goals in every state, lists, names, and what is not open."""
+    source = FOLDER / "actions.c"
+    ours = of_ours(source, write_application(tmp_path / "ours", ACTIONS), tmp_path)
+    assert differing(ours, of_librcl(source, tmp_path, more=["rcl_action"])) == {}
+    assert len(ours) > 250

@@ -110,6 +110,75 @@ static rcl_ret_t refuse(const char * what)
     &executor, &walk, GOALS, walks, sizeof(walks[0]) + 1u, on_goal, on_cancel, NULL);
 }
 
+/* The handles and the list of states, each goal as id, state, active, cancelable; they have to agree. */
+static rcl_ret_t list_goals(const rcl_action_server_t * server)
+{
+  rcl_action_goal_status_array_t states = rcl_action_get_zero_initialized_goal_status_array();
+  rcl_action_goal_handle_t ** handles = NULL;
+  size_t number = 99;
+  rcl_ret_t result = rcl_action_server_get_goal_handles(server, &handles, &number);
+
+  if (result == RCL_RET_OK) {
+    result = rcl_action_get_goal_status_array(server, &states);
+  }
+  if (result != RCL_RET_OK || states.msg.status_list.size != number) {
+    printf("goals %u of %u\n", (unsigned int)number, (unsigned int)states.msg.status_list.size);
+    return result != RCL_RET_OK ? result : RCL_RET_ERROR;
+  }
+  for (size_t i = 0; i < number; ++i) {
+    const action_msgs__msg__GoalStatus * state = &states.msg.status_list.data[i];
+    rcl_action_goal_info_t info;
+    rcl_action_goal_state_t status = GOAL_STATE_UNKNOWN;
+
+    if (
+      rcl_action_goal_handle_get_info(handles[i], &info) != RCL_RET_OK ||
+      rcl_action_goal_handle_get_status(handles[i], &status) != RCL_RET_OK || status != state->status ||
+      !uuidcmp(info.goal_id.uuid, state->goal_info.goal_id.uuid) ||
+      info.stamp.nanosec != state->goal_info.stamp.nanosec) {
+      return RCL_RET_ERROR;
+    }
+    printf(
+      "goal %d %d %d %d\n", info.goal_id.uuid[0], status,
+      rcl_action_goal_handle_is_active(handles[i]) ? 1 : 0,
+      rcl_action_goal_handle_is_cancelable(handles[i]) ? 1 : 0);
+  }
+  return rcl_action_goal_status_array_fini(&states);
+}
+
+static rcl_ret_t expire(size_t capacity)
+{
+  rcl_action_goal_info_t expired[GOALS];
+  size_t number = 0;
+  const rcl_ret_t result = capacity == 0u
+                             ? rcl_action_expire_goals(&walk.rcl_handle, NULL, 0, NULL)
+                             : rcl_action_expire_goals(&walk.rcl_handle, expired, capacity, &number);
+
+  for (size_t i = 0; i < number; ++i) {
+    printf("expired %d\n", expired[i].goal_id.uuid[0]);
+  }
+  return result;
+}
+
+/* Feedback and states that the program publishes itself, both of a goal with this id. */
+static rcl_ret_t say(int goal)
+{
+  example_interfaces__action__Fibonacci_FeedbackMessage feedback;
+  action_msgs__msg__GoalStatusArray states;
+  action_msgs__msg__GoalStatus state;
+  rcl_ret_t result;
+
+  (void)memset(&feedback, 0, sizeof(feedback));
+  (void)memset(&state, 0, sizeof(state));
+  feedback.goal_id.uuid[0] = (uint8_t)goal;
+  state.goal_info.goal_id.uuid[0] = (uint8_t)goal;
+  state.status = GOAL_STATE_EXECUTING;
+  states.status_list.data = &state;
+  states.status_list.size = 1;
+  states.status_list.capacity = 1;
+  result = rcl_action_publish_feedback(&walk.rcl_handle, &feedback);
+  return result == RCL_RET_OK ? rcl_action_publish_status(&walk.rcl_handle, &states) : result;
+}
+
 static rcl_ret_t call(char * line)
 {
   const char * word = strtok(line, " ");
@@ -162,6 +231,21 @@ static rcl_ret_t call(char * line)
       rcl_action_server_is_valid(&none) ? 1 : 0, rcl_action_server_is_valid(NULL) ? 1 : 0,
       rcl_action_server_goal_exists(&walk.rcl_handle, NULL) ? 1 : 0);
     rcl_reset_error();
+    return RCL_RET_OK;
+  }
+  if (strcmp(word, "goals") == 0) {
+    return list_goals(strcmp(argument, "walk") == 0 ? &walk.rcl_handle : &find.rcl_handle);
+  }
+  if (strcmp(word, "expire") == 0) {
+    return expire((size_t)atoi(argument));
+  }
+  if (strcmp(word, "say") == 0) {
+    return say(atoi(argument));
+  }
+  if (strcmp(word, "name") == 0) {
+    printf(
+      "name %s %s\n", rcl_action_server_get_action_name(&walk.rcl_handle),
+      rcl_action_server_get_action_name(&find.rcl_handle));
     return RCL_RET_OK;
   }
   if (strcmp(word, "add") == 0) {

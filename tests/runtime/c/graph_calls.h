@@ -5,6 +5,7 @@
 
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
+#include <rcl_action/graph.h>
 #include <rclc/executor.h>
 #include <rclc/rclc.h>
 #include <std_msgs/msg/int32.h>
@@ -136,6 +137,12 @@ static rcl_ret_t calls_names(const char * what, const char * name, const char * 
     result = rcl_get_publisher_names_and_types_by_node(&node, &allocator, false, name, namespace_, &found);
   } else if (strcmp(what, "subscriptions_of") == 0) {
     result = rcl_get_subscriber_names_and_types_by_node(&node, &allocator, false, name, namespace_, &found);
+  } else if (strcmp(what, "actions") == 0) {
+    result = rcl_action_get_names_and_types(&node, &allocator, &found);
+  } else if (strcmp(what, "action_servers_of") == 0) {
+    result = rcl_action_get_server_names_and_types_by_node(&node, &allocator, name, namespace_, &found);
+  } else if (strcmp(what, "action_clients_of") == 0) {
+    result = rcl_action_get_client_names_and_types_by_node(&node, &allocator, name, namespace_, &found);
   } else if (strcmp(what, "services_of") == 0) {
     result = rcl_get_service_names_and_types_by_node(&node, &allocator, name, namespace_, &found);
   } else {
@@ -184,8 +191,7 @@ static rcl_ret_t calls_enclaves(void)
   rcutils_string_array_t names = rcutils_get_zero_initialized_string_array();
   rcutils_string_array_t namespaces = rcutils_get_zero_initialized_string_array();
   rcutils_string_array_t enclaves = rcutils_get_zero_initialized_string_array();
-  const rcl_ret_t result =
-    rcl_get_node_names_with_enclaves(&node, allocator, &names, &namespaces, &enclaves);
+  const rcl_ret_t result = rcl_get_node_names_with_enclaves(&node, allocator, &names, &namespaces, &enclaves);
 
   if (result != RCL_RET_OK) {
     if (names.data != NULL || namespaces.data != NULL || enclaves.data != NULL) {

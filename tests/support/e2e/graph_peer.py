@@ -4,7 +4,8 @@
 One JSON object a line: {"do": "names", "what": "topics", "node": "", "namespace": ""}, {"do": "nodes"},
 {"do": "infos", "what": "publishers", "topic": "/a"}, {"do": "count", "what": "servers", "name": "/a"},
 {"do": "subscribe", "topic": "/a"}, {"do": "leave"} (ends the subscription), {"do": "publish", "topic": "/a"},
-{"do": "serve", "name": "/a"}, {"do": "matched"} (of the publisher).
+{"do": "serve", "name": "/a"}, {"do": "matched"} (of the publisher),
+{"do": "act", "server": "/a", "client": "/b"} (of actions).
 """
 
 from __future__ import annotations
@@ -44,7 +45,13 @@ class _Peer:
             "services_of": self._node.get_service_names_and_types_by_node,
             "clients_of": self._node.get_client_names_and_types_by_node,
         }
-        if what in ("topics", "mangled"):
+        actions = {"action_servers_of": "server", "action_clients_of": "client"}
+        if what == "actions":
+            found = import_module("rclpy.action").get_action_names_and_types(self._node)
+        elif what in actions:
+            name = f"get_action_{actions[what]}_names_and_types_by_node"
+            found = getattr(import_module("rclpy.action"), name)(self._node, node, namespace)
+        elif what in ("topics", "mangled"):
             found = self._node.get_topic_names_and_types(no_demangle=what == "mangled")
         elif what == "services":
             found = self._node.get_service_names_and_types()
@@ -90,6 +97,12 @@ class _Peer:
     def serve(self, name: str) -> bool:
         service_class = import_module("std_srvs.srv").SetBool
         self._kept.append(self._node.create_service(service_class, name, lambda _, response: response))
+        return True
+
+    def act(self, server: str, client: str) -> bool:
+        actions, kind = import_module("rclpy.action"), import_module("test_msgs.action").Fibonacci
+        self._kept.append(actions.ActionServer(self._node, kind, server, lambda goal: goal))
+        self._kept.append(actions.ActionClient(self._node, kind, client))
         return True
 
 

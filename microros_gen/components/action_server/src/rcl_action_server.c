@@ -18,3 +18,11 @@ bool rcl_action_server_is_valid(const rcl_action_server_t * action_server)
          rcl_publisher_is_valid(&action_server->feedback_publisher) &&
          rcl_publisher_is_valid(&action_server->status_publisher);
 }
+
+bool rcl_action_server_is_valid_except_context(const rcl_action_server_t * action_server)
+{
+  return action_server != NULL && action_server->goal_service.impl != NULL &&
+         action_server->cancel_service.impl != NULL && action_server->result_service.impl != NULL &&
+         rcl_publisher_is_valid_except_context(&action_server->feedback_publisher) &&
+         rcl_publisher_is_valid_except_context(&action_server->status_publisher);
+}

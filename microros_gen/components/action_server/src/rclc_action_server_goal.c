@@ -49,6 +49,14 @@ rclc_action_goal_handle_t * rclc_action_take_place(const rclc_action_server_t * 
   return oldest;
 }
 
+uint32_t rclc_action_left(const rclc_action_goal_handle_t * goal, uint32_t result_timeout_ms, uint32_t now)
+{
+  if (!goal->is_used || !rclc_action_has_ended(goal) || goal->waiting != 0u) {
+    return UINT32_MAX;
+  }
+  return now - goal->ended_ms < result_timeout_ms ? result_timeout_ms - (now - goal->ended_ms) : 0u;
+}
+
 uint32_t rclc_action_expire(const rclc_action_server_t * server, bool frees)
 {
   const uint32_t now = port_time_ms();
@@ -56,17 +64,12 @@ uint32_t rclc_action_expire(const rclc_action_server_t * server, bool frees)
 
   for (size_t i = 0; i < server->goal_handles_memory_size; ++i) {
     rclc_action_goal_handle_t * goal = &server->declared->goals[i];
+    const uint32_t due = rclc_action_left(goal, server->declared->result_timeout_ms, now);
 
-    if (goal->is_used && rclc_action_has_ended(goal) && goal->waiting == 0u) {
-      const uint32_t age = now - goal->ended_ms;
-      const uint32_t due =
-        age < server->declared->result_timeout_ms ? server->declared->result_timeout_ms - age : 0u;
-
-      if (due == 0u && frees) {
-        goal->is_used = false;
-      } else if (due < left) {
-        left = due;
-      }
+    if (due == 0u && frees) {
+      goal->is_used = false;
+    } else if (due < left) {
+      left = due;
     }
   }
   return left;

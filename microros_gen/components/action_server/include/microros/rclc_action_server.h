@@ -82,6 +82,18 @@ rclc_action_goal_handle_t * rclc_action_find(const rclc_action_server_t * server
 /* Returns a place for a goal, or NULL: the place of an ended goal is used again once its result was sent. */
 rclc_action_goal_handle_t * rclc_action_take_place(const rclc_action_server_t * server);
 
+/* Returns the milliseconds until the place of a goal is freed; UINT32_MAX: it has not ended, or its result is awaited. */
+uint32_t rclc_action_left(const rclc_action_goal_handle_t * goal, uint32_t result_timeout_ms, uint32_t now);
+
+/* Returns the declared action of a server, and the number of goals of those before it; NULL, and 0, if no executor has
+ * had the server since it was opened: it has no goals. */
+const rclc_action_declared_t * rclc_action_goals_of(
+  const rcl_action_server_t * action_server, size_t * first);
+
+/* Returns whether a place has a goal of the server that was accepted. */
+bool rclc_action_is_tracked(
+  const rclc_action_goal_handle_t * goal, const rcl_action_server_t * action_server);
+
 /* Frees the places of goals whose results were kept long enough; returns the milliseconds until the next one is due,
  * UINT32_MAX: none. */
 uint32_t rclc_action_expire(const rclc_action_server_t * server, bool frees);
