@@ -55,6 +55,7 @@ bool rmw_local_has_route(const xrce_endpoint_t * writer)
 bool rmw_local_publish(const xrce_endpoint_t * writer, const void * message, rmw_ret_t * result)
 {
   const rmw_local_route_t * route = &rmw_local_routes[writer->index];
+  bool only;
   cdr_fault_t fault; /* set if the message is refused */
 
   if (rmw_shared_has_ring(writer)) {
@@ -62,8 +63,9 @@ bool rmw_local_publish(const xrce_endpoint_t * writer, const void * message, rmw
     return true;
   }
   *result = RMW_RET_OK;
+  only = route->only;
   if (!local_may(writer, route)) {
-    return route->only;
+    return only;
   }
   if (route->checks && writer->type->encoded_size(message, &fault) == 0u) {
     *result = rmw_encode_refuse(writer->type, &fault);
@@ -72,7 +74,7 @@ bool rmw_local_publish(const xrce_endpoint_t * writer, const void * message, rmw
   route->deliver(writer->client, message);
   xrce_local_fresh = true;
   rmw_local_wake();
-  return route->only;
+  return only;
 }
 
 bool rmw_local_publish_body(

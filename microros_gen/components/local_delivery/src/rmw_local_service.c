@@ -74,15 +74,11 @@ static rmw_ret_t local_get(
   const xrce_endpoint_t * endpoint, uint8_t index, xrce_sample_t * sample, void * message)
 {
   const rmw_local_queue_t * queue = &rmw_local_queues[index];
-  rmw_local_state_t * state = &rmw_local_states[index];
-  rmw_ret_t result = RMW_RET_OK;
 
-  sample->arrived_ms = queue->published_ms[state->head];
-  if (!queue->get(state->head, message)) {
-    result = microros_error_named(RMW_RET_ERROR, microros_error_local_capacity, endpoint->name);
-  }
-  rmw_local_pop(queue, state);
-  return result;
+  sample->arrived_ms = queue->published_ms[rmw_local_states[index].head];
+  return queue->take(message)
+           ? RMW_RET_OK
+           : microros_error_named(RMW_RET_ERROR, microros_error_local_capacity, endpoint->name);
 }
 
 /* Returns whether a request of the agent is older, and can be answered now. */

@@ -87,8 +87,6 @@ bool rmw_local_describe(const xrce_endpoint_t * reader, rmw_message_info_t * inf
 bool rmw_local_take(const xrce_endpoint_t * reader, void * message, rmw_ret_t * result)
 {
   const uint8_t index = local_oldest(reader);
-  const rmw_local_queue_t * queue;
-  rmw_local_state_t * state;
 
   if (rmw_shared_is_wrong(reader)) {
     *result = rmw_shared_report(reader);
@@ -97,13 +95,10 @@ bool rmw_local_take(const xrce_endpoint_t * reader, void * message, rmw_ret_t * 
   if (index == (uint8_t)RMW_LOCAL_NONE) {
     return false;
   }
-  queue = &rmw_local_queues[index];
-  state = &rmw_local_states[index];
   *result = RMW_RET_OK;
-  if (!queue->get(state->head, message)) {
+  if (!rmw_local_queues[index].take(message)) {
     *result = microros_error_named(RMW_RET_ERROR, microros_error_local_capacity, reader->name);
   }
-  rmw_local_pop(queue, state);
   return true;
 }
 

@@ -9,7 +9,7 @@ static rcl_ret_t subscription_look(
   const rclc_executor_handle_t * handle, bool * is_ready, int64_t * look_again_ns)
 {
   (void)look_again_ns; /* a sample wakes the executor */
-  if (!rcl_subscription_is_valid(handle->subscription)) {
+  if (!rmw_subscription_is_open(handle->subscription->impl)) {
     return microros_error_refuse(RCL_RET_SUBSCRIPTION_INVALID, "subscription");
   }
   *is_ready = rmw_subscription_is_ready(handle->subscription->impl);
@@ -18,7 +18,7 @@ static rcl_ret_t subscription_look(
 
 static rcl_ret_t subscription_take(rclc_executor_handle_t * handle)
 {
-  if (!rcl_subscription_is_valid(handle->subscription)) {
+  if (!rmw_subscription_is_open(handle->subscription->impl)) {
     return microros_error_refuse(RCL_RET_SUBSCRIPTION_INVALID, "subscription");
   }
   return rmw_subscription_take(handle->subscription->impl, handle->data, &handle->data_available);

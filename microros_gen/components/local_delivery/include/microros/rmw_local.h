@@ -28,13 +28,16 @@ typedef struct rmw_local_origin_t {
 /* The queue of a subscription, service or client, from the plan. */
 typedef struct rmw_local_queue_t {
   void * (*slot)(uint8_t index); /* the message of a slot */
-  bool (*put)(
-    uint8_t index, const void * message);     /* copies it to a slot; false: that has too little memory */
-  bool (*get)(uint8_t index, void * message); /* copies a slot to it; false: it has too little memory */
-  void (*bind)(void);                         /* gives each slot its storage; NULL: the type needs none */
-  uint32_t * published_ms;                    /* one for each slot, port_time_ms() */
-  rmw_local_origin_t * origins;               /* one for each slot; NULL for a subscription */
-  uint16_t receiver;                          /* its index among the endpoints that receive */
+
+  /* Copies a message to a slot; false: that has too little memory. */
+  bool (*put)(uint8_t index, const void * message);
+
+  /* Moves the oldest message to `message`; false: that has too little memory, and the message is lost. */
+  bool (*take)(void * message);
+  void (*bind)(void);           /* gives each slot its storage; NULL: the type needs none */
+  uint32_t * published_ms;      /* one for each slot, port_time_ms() */
+  rmw_local_origin_t * origins; /* one for each slot; NULL for a subscription */
+  uint16_t receiver;            /* its index among the endpoints that receive */
   uint8_t slots;
   bool only; /* nothing of the agent */
 } rmw_local_queue_t;

@@ -19,6 +19,9 @@ static uint32_t waiting_ms(int64_t duration_ns)
   uint32_t rest = 0;
   uint32_t whole_ms = 0;
 
+  if (duration_ns == 0) {
+    return 0; /* every round of a loop that does not wait */
+  }
   if (duration_ns < 0 || duration_ns > longest_ns) {
     return UINT32_MAX;
   }

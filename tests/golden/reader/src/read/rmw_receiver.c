@@ -48,14 +48,6 @@ void rmw_receiver_close(const xrce_endpoint_t * endpoint)
 }
 
 /* After rcl_shutdown the client has no endpoints. */
-bool rmw_receiver_is_open(const xrce_endpoint_t * endpoint)
-{
-  if (endpoint->client == NULL) {
-    return false;
-  }
-  return endpoint->client->states[(size_t)MICROROS_NODES_MAX + endpoint->index].wanted;
-}
-
 bool rmw_receiver_report(const xrce_endpoint_t * endpoint)
 {
   uint16_t fits;
