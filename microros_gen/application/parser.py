@@ -3,18 +3,23 @@
 
 from __future__ import annotations
 
-import ipaddress
 import re
-from collections.abc import Sequence
 from pathlib import Path
 from types import MappingProxyType
 
 from microros_gen.application import diagnosis_decl, task_decl, time_source, watchdog
+from microros_gen.application.agent_places import (
+    Places,
+    are_devices,
+    parse_agent_address,
+    parse_agent_devices,
+    parse_agents,
+    parse_discover,
+)
 from microros_gen.application.diagnosis import parse_diagnosis
 from microros_gen.application.limits import application_limits, endpoint_limits
 from microros_gen.application.log_decl import BUFFERED_LOG_WRITERS, LogWriter
 from microros_gen.application.model import (
-    DISCOVERY_PORT,
     LARGEST_UDP_PAYLOAD,
     Application,
     EndpointChange,
@@ -46,9 +51,6 @@ from microros_gen.documents.yaml_tree import Entry, MappingNode, ScalarNode, Yam
 SCHEMA = Path(__file__).with_name("application.schema.json")
 LONGEST_BLOCK_MS = 60_000
 """Longest time that `on_full: block …` may take, milliseconds."""
-MOST_AGENTS = 8
-"""Agents in a list: `connect_timeout` is at least ten round trips, which is one for each of them."""
-
 _BLOCK = re.compile(r"block ([0-9]{1,12}) ?(ms|s)")
 _POOLS_BESIDE_NODES = (
     "history",
@@ -194,7 +196,9 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
     type_name = text_of(kind) or Transport().type
     discover = parse_discover(text_of(agent) or "", span_of(agent), diagnostics)
     address = None if discover is not None else _agent(agent, diagnostics)
-    agents = _agents(node, diagnostics)
+    listed, listed_at = _agents(node, diagnostics), span_of(child(node, "agents"))
+    devices = parse_agent_devices(listed, listed_at, diagnostics) if are_devices(listed) else ()
+    agents = () if devices else parse_agents(listed, listed_at, diagnostics)
     host, port = address or next(iter(agents), (Transport().host, Transport().port))
     if agent is not None and type_name in _WITHOUT_ADDRESS:
         message = f"transport: {type_name} has no agent address"
@@ -222,9 +226,10 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
         span=node.span,
         mtu_span=span_of(mtu),
         type_span=span_of(kind),
-        agent_span=span_of(agent) or span_of(child(node, "agents")),
+        agent_span=span_of(agent) or listed_at,
         agents=agents,
-        device=text_of(device) or Transport().device if type_name == "serial" else Transport().device,
+        devices=devices,
+        device=next(iter(devices), text_of(device) if type_name == "serial" else None) or Transport().device,
         can_device=text_of(device) or Transport().can_device
         if type_name == "canfd"
         else Transport().can_device,
@@ -238,112 +243,21 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
     )
 
 
-def parse_discover(text: str, span: Span | None, diagnostics: Diagnostics) -> int | None:
-    """Return the port of `discover` or `discover:7401`, which agents are searched for with; None: it is an address."""
-    word, separator, port = text.partition(":")
-    if word != "discover":
-        return None
-    if separator and not (re.fullmatch(r"[0-9]{1,5}", port) and 1 <= int(port) <= 65535):
-        message = f"the port of the search must be a whole number between 1 and 65535; it is '{port}'"
-        diagnostics.error(message, span, "Write `agent: discover`: agents listen at 7400", id="MG-3017")
-        return DISCOVERY_PORT
-    return int(port) if separator else DISCOVERY_PORT
-
-
 def _agent(node: YamlNode | None, diagnostics: Diagnostics) -> tuple[str, int] | None:
     """Return host and port; a host name and a missing or wrong port are errors."""
     text = text_of(node)
     return None if text is None else parse_agent_address(text, span_of(node), diagnostics)
 
 
-def _agents(transport: YamlNode, diagnostics: Diagnostics) -> tuple[tuple[str, int], ...]:
+def _agents(transport: YamlNode, diagnostics: Diagnostics) -> Places:
+    """Return the entries of the list of agents, none without a list; it stands in place of the one agent."""
     node = child(transport, "agents")
-    if node is None:
-        return ()
-    if child(transport, "agent") is not None:
-        message = "'transport.agent' and 'transport.agents' contradict each other"
-        diagnostics.error(
-            message, node.span, "Remove `agent`: the first of the list is tried first", id="MG-3180"
-        )
-    texts = [(text, item.span) for item in items(node) if (text := text_of(item)) is not None]
-    return parse_agents(texts, node.span, diagnostics)
-
-
-def parse_agents(
-    texts: Sequence[tuple[str, Span | None]], span: Span | None, diagnostics: Diagnostics
-) -> tuple[tuple[str, int], ...]:
-    """Return address and port of each agent of a list with their places; none and errors where it is no such list."""
-    found: list[tuple[str, int]] = []
-    for text, place in texts:
-        if text.partition(":")[0] == "discover":
-            message = "a list of agents cannot contain 'discover'"
-            diagnostics.error(message, place, "Write `agent: discover` instead of `agents`", id="MG-3181")
-            return ()
-        address = parse_agent_address(text, place, diagnostics)
-        if address is None:
-            return ()
-        if address in found:
-            diagnostics.error(f"the agent '{text}' is in the list twice", place, "Remove it", id="MG-3182")
-        found.append(address)
-    if len(found) > MOST_AGENTS:
-        message = f"the list has {len(found)} agents; it may have {MOST_AGENTS}"
-        diagnostics.error(message, span, f"Keep {MOST_AGENTS} of them", id="MG-3183")
-    if len({":" in host for host, _ in found}) > 1:
-        message = "the agents have IPv4 and IPv6 addresses"
-        diagnostics.error(message, span, "Give all of them addresses of one kind", id="MG-3184")
-    return tuple(found)
-
-
-def parse_agent_address(text: str, span: Span | None, diagnostics: Diagnostics) -> tuple[str, int] | None:
-    """Return host and port of `192.168.1.10:8888` or `[fd00::1]:8888`; None and an error where it is neither."""
-    if text.count(":") > 1 and not re.fullmatch(r"\[.*\]:[^:\]]*", text):
-        message = f"the agent '{text}' has an IPv6 address that is not in brackets, or has no port"
-        diagnostics.error(message, span, 'Write it as "[::1]:8888"', id="MG-3018")
-        return None
-    host, separator, port = text.rpartition(":")
-    if not separator:
-        diagnostics.error(
-            f"missing port in the agent address '{text}'", span, f'Write "{text}:8888"', id="MG-3019"
-        )
-        return None
-    valid = _check_host(host, span, diagnostics)
-    if not re.fullmatch(r"[0-9]{1,5}", port) or not 1 <= int(port) <= 65535:
-        message = f"the agent's port must be a whole number between 1 and 65535; it is '{port}'"
-        diagnostics.error(message, span, "The public agent's examples use 8888", id="MG-3020")
-        return None
-    return (host.strip("[]"), int(port)) if valid else None
-
-
-def _check_host(host: str, span: Span | None, diagnostics: Diagnostics) -> bool:
-    if host.startswith("["):
-        return _check_ipv6(host.strip("[]"), span, diagnostics)
-    try:
-        ipaddress.IPv4Address(host)
-    except ValueError as fault:
-        if re.fullmatch(r"[0-9.]*", host):
-            reason = str(fault).split(" in ")[0]
-            hint = f"Write four numbers from 0 to 255 without leading zeros ({reason})"
-            diagnostics.error(
-                f"the agent's address '{host}' is not an IPv4 address", span, hint, id="MG-3021"
-            )
-        else:
-            hint = "A device has no DNS to resolve it: write the IPv4 address"
-            diagnostics.error(f"the agent's address '{host}' is a host name", span, hint, id="MG-3022")
-        return False
-    return True
-
-
-def _check_ipv6(host: str, span: Span | None, diagnostics: Diagnostics) -> bool:
-    try:
-        zone = ipaddress.IPv6Address(host).scope_id
-    except ValueError as fault:
-        hint = f"Write up to eight groups of hexadecimal digits ({str(fault).split(' in ')[0]})"
-        diagnostics.error(f"the agent's address '{host}' is not an IPv6 address", span, hint, id="MG-3023")
-        return False
-    if zone is not None:
-        message = f"the agent's address '{host}' names the interface '{zone}' of one machine"
-        diagnostics.error(message, span, "Write an address that the device can use without it", id="MG-3024")
-    return zone is None
+    for key in ("agent", "device"):
+        if node is not None and child(transport, key) is not None:
+            message = f"'transport.{key}' and 'transport.agents' contradict each other"
+            hint = f"Remove `{key}`: the first of the list is tried first"
+            diagnostics.error(message, node.span, hint, id="MG-3180")
+    return [(text, item.span) for item in items(node) if (text := text_of(item)) is not None]
 
 
 def _session_key(node: YamlNode | None) -> int | str | None:

@@ -17,6 +17,7 @@ class Transport:
     `send_buffer`: bytes that wait for a serial line; None: planned. `discover`: the agent is to be found by
     multicast to this port; None: `host` and `port` say where it is, or, where `agent_span` is None too, the
     selection decides. `agents`: address and port of each of several, of which `host` and `port` are the first; or none.
+    `devices`: likewise the serial device of each of several, of which `device` is the first.
     `can_device`, `can_id` and `bitrate` are those of CAN FD; None: not said, and an identifier has no default.
     """
 
@@ -35,6 +36,7 @@ class Transport:
     discover: int | None = None
     send_buffer: int | None = None
     agents: tuple[tuple[str, int], ...] = ()
+    devices: tuple[str, ...] = ()
     can_device: str = "can0"
     can_id: int | None = None
     bitrate: int | None = None

@@ -7,15 +7,17 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
+from microros_gen.application.agent_places import (
+    are_devices,
+    parse_agent_address,
+    parse_agent_devices,
+    parse_agents,
+    parse_discover,
+)
 from microros_gen.application.find import APPLICATION_FILE, read_application
 from microros_gen.application.model import Application, component_change
 from microros_gen.application.parameter_find import with_parameter_files
-from microros_gen.application.parser import (
-    parse_agent_address,
-    parse_agents,
-    parse_application,
-    parse_discover,
-)
+from microros_gen.application.parser import parse_application
 from microros_gen.application.stack_file import with_stacks
 from microros_gen.application.system_find import with_system
 from microros_gen.application.transport_decl import Transport
@@ -127,22 +129,24 @@ def _with_options(application: Application, options: Options, diagnostics: Diagn
 
 
 def _with_agent(transport: Transport, agent: Named, diagnostics: Diagnostics) -> Transport:
-    """Return the transport to agents at `HOST:PORT[,HOST:PORT…]`, or at the other end of a device named by its path."""
-    transport = replace(transport, agents=())
-    is_device = agent.name.startswith("/")
+    """Return the transport to agents at `HOST:PORT[,HOST:PORT…]`, or at the other ends of devices with these paths."""
+    transport = replace(transport, agents=(), devices=())
+    parts = [(part.strip(), agent.span) for part in agent.name.split(",")]
+    is_device = are_devices(parts)
     chosen = transport.type if transport.type_span else None
     if is_device and chosen in (None, "serial"):
-        return replace(
-            transport, type="serial", type_span=transport.type_span or agent.span, device=agent.name
-        )
+        devices = parse_agent_devices(parts, agent.span, diagnostics)
+        transport = replace(transport, type="serial", type_span=transport.type_span or agent.span)
+        if len(devices) == 1:
+            return replace(transport, device=devices[0])
+        return replace(transport, device=devices[0], devices=devices, agent_span=agent.span)
     if is_device or chosen in ("serial", "canfd", "custom"):
         what = "device" if is_device else "agent address"
         hint = "Give the path of a device such as /dev/ttyUSB0" if chosen == "serial" else "Leave it out"
         diagnostics.error(f"transport: {chosen} has no {what}", agent.span, hint, id="MG-8607")
         return transport
-    if "," in agent.name:
-        several = [(part.strip(), agent.span) for part in agent.name.split(",")]
-        agents = parse_agents(several, agent.span, diagnostics)
+    if len(parts) > 1:
+        agents = parse_agents(parts, agent.span, diagnostics)
         host, port = next(iter(agents), (transport.host, transport.port))
         return replace(transport, host=host, port=port, agents=agents, discover=None, agent_span=agent.span)
     discover = parse_discover(agent.name, agent.span, diagnostics)

@@ -15,6 +15,7 @@ from tests.support.components.rendered import planned
 
 POOLS = "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\n"
 TWO = 'transport: {agents: ["10.0.0.1:8888", "10.0.0.2:8889"]}\n'
+LINES = "transport: {type: serial, agents: [/dev/ttyS0, /dev/ttyS1]}\n"
 EIGHT = "transport: {agents: [" + ", ".join(f'"10.0.0.{i}:8888"' for i in range(8)) + "]}\n"
 
 
@@ -33,15 +34,24 @@ def test_the_list_and_the_first_of_it(tmp_path: Path) -> None:
     )
 
 
+def test_the_devices_and_the_first_of_them(tmp_path: Path) -> None:
+    runtime = planned(tmp_path, POOLS + LINES).project.runtime
+    assert runtime.transport.device == "/dev/ttyS0"
+    found = agents_of(tmp_path, POOLS + LINES)
+    assert found.declared == (AgentPlan("/dev/ttyS0", 0), AgentPlan("/dev/ttyS1", 0))
+    assert found.shown == "/dev/ttyS0, /dev/ttyS1"
+
+
 @pytest.mark.parametrize(
     ("application", "try_ms"),
     [
         (TWO, 300),
+        (LINES, 300),
         (TWO + "session: {round_trip: 500 ms}\n", 1500),
         (EIGHT, 125),
         (EIGHT + "session: {connect_timeout: 10 s}\n", 300),
     ],
-    ids=["two", "slow", "eight", "eight and time"],
+    ids=["two", "lines", "slow", "eight", "eight and time"],
 )
 def test_each_is_tried_within_connect_timeout(tmp_path: Path, application: str, try_ms: int) -> None:
     planned_agents = agents_of(tmp_path, POOLS + application)
@@ -50,14 +60,14 @@ def test_each_is_tried_within_connect_timeout(tmp_path: Path, application: str, 
     assert planned_agents.count * try_ms <= times.connect_timeout_ms
 
 
-def features(folder: Path, agent: str | None) -> str:
+def features(folder: Path, agent: str | None, transport: str = TWO, file: str = "list") -> str:
     """Return what OUT has of the list for a value of --agent."""
     config = folder / "microros.yaml"
-    config.write_text(POOLS + TWO, encoding="utf-8")
+    config.write_text(POOLS + transport, encoding="utf-8")
     options = compiler.Options(config=config, interface_paths=(shipped_folder(),), agent=agent)
     out = folder / "out"
     compiler.generate(options, out)
-    found = out / "src" / "agents" / "xrce_agents_list.c"
+    found = out / "src" / "agents" / f"xrce_agents_{file}.c"
     return found.read_text(encoding="utf-8") if found.exists() else ""
 
 
@@ -74,6 +84,20 @@ def test_the_option_replaces_the_list(tmp_path: Path) -> None:
             features(tmp_path, wrong)
 
 
+def test_the_option_replaces_the_devices(tmp_path: Path) -> None:
+    assert '"/dev/ttyS1"' in features(tmp_path, None, LINES, "devices")
+    other = features(tmp_path, "/dev/ttyUSB0, /dev/ttyUSB1", LINES, "devices")
+    assert '  "/dev/ttyUSB0",\n  "/dev/ttyUSB1",\n' in other
+    assert "ttyS" not in other
+    assert features(tmp_path, "/dev/ttyUSB0", LINES, "devices") == "", (
+        "one device: nothing of the component is left"
+    )
+    assert '"/dev/ttyUSB1"' in features(tmp_path, "/dev/ttyUSB0,/dev/ttyUSB1", "", "devices")
+    for wrong in ("10.0.0.3:1,10.0.0.4:1", "/dev/ttyUSB0,10.0.0.3:1", "/dev/ttyUSB0,/dev/ttyUSB0"):
+        with pytest.raises(UserError):
+            features(tmp_path, wrong, LINES)
+
+
 @pytest.mark.parametrize(
     ("application", "message"),
     [
@@ -83,6 +107,17 @@ def test_the_option_replaces_the_list(tmp_path: Path) -> None:
         ),
         (POOLS + TWO.replace("{", "{type: serial, "), "transport: serial has no agent addresses"),
         (POOLS + TWO.replace("{", "{type: custom, "), "transport: custom has no agent addresses"),
+        (POOLS + LINES.replace("serial", "tcp"), "transport: tcp has no serial devices"),
+        (
+            POOLS + LINES + "target: qemu-mps2-an386\n",
+            "the target 'qemu-mps2-an386' has one serial line, which leads to one agent",
+        ),
+        (
+            POOLS + LINES.replace("agents", "device: /dev/ttyS2, agents"),
+            "'transport.device' and 'transport.agents' contradict each other",
+        ),
+        (POOLS + LINES.replace("ttyS1", "ttyS0"), "the agent '/dev/ttyS0' is in the list twice"),
+        (POOLS + LINES + "liveliness: none\n", "several agents contradict 'liveliness: none'"),
         (POOLS + TWO + "liveliness: none\n", "several agents contradict 'liveliness: none'"),
         (
             POOLS + TWO + "components: [+sleep_cycles]\n",

@@ -7,6 +7,7 @@ import signal
 import socket
 import time
 from collections import Counter
+from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -14,7 +15,7 @@ import pytest
 
 from tests.support.agent.observer import Observer
 from tests.support.agent.process import AgentProcess, running_agent
-from tests.support.e2e.agent_list import agent_of, listed, wait_for_agent
+from tests.support.e2e.agent_list import agent_of, listed, listed_lines, wait_for_agent
 from tests.support.e2e.images import C_FILES, Images, ends_well, started
 from tests.support.e2e.live import Live
 from tests.support.e2e.parameter_calls import DEVICE
@@ -98,56 +99,104 @@ def agent_at(stack: ExitStack, domain: int, port: int, kind: str = "udp4") -> Ag
     return stack.enter_context(running_agent(domain, *options, transport=(kind, "--port", str(port))))
 
 
+def agent_of_line(stack: ExitStack, domain: int, device: Path) -> AgentProcess:
+    options = ("--domain", str(domain))
+    return stack.enter_context(running_agent(domain, *options, transport=("pty", "--link", str(device))))
+
+
 def ended(agent: AgentProcess, number: signal.Signals) -> None:
     agent.process.send_signal(number)
     agent.process.wait(timeout=seconds(15))
 
 
-def test_killed_and_stopped_agents(images: Images, observer: Observer, domain: int) -> None:
-    """The first is killed, the second ends in order, and the first, started again, goes on.
+def change_twice(live: Live, counted: Counted, start: Callable[[int], AgentProcess]) -> None:
+    """Kill the first agent, stop the second one in order after the first was started again.
 
     At most what one window holds and DDS has not delivered is lost or doubled after a kill, nothing after a stop.
     """
+    first, second = start(0), start(1)
+    for command in ("open 0x77 -", "node 0 talker -", f"publisher 0 0 Int32 {counted.topic} latched"):
+        live.ok(command)
+    assert agent_of(live)[1] == 0
+    counted.publish(20)
+    counted.take()
+    counted.begin(200)
+    time.sleep(0.5)
+    ended(first, signal.SIGKILL)
+    counted.end()
+    unacknowledged = counted.accepted[-SLOTS:]
+    assert live.call("publish 0 0").code == 1, "the stream is full: these are all in it"
+    wait_for_agent(live, 1)
+    counted.publish(20)
+    counted.publish_until_taken()
+    counted.take()
+    lost, doubled = counted.differences()
+    assert not set(lost) & set(unacknowledged)
+    assert len(lost) <= SLOTS + DDS_HISTORY
+    assert len(doubled) <= SLOTS
+    start(0)
+    before = len(counted.accepted)
+    counted.begin(150)  # after the stop fewer than DDS_HISTORY: the reader may discover the writer late
+    time.sleep(0.5)
+    ended(second, signal.SIGTERM)
+    counted.end()
+    wait_for_agent(live, 0)
+    counted.publish(20)
+    counted.publish_until_taken()
+    counted.take()
+    assert counted.differences() == (lost, doubled), "a stop loses and doubles nothing"
+    assert len(counted.accepted) > before + SLOTS
+    assert agent_of(live)[1:] == (0, 2)
+    live.ok("close")
+
+
+def test_killed_and_stopped_agents(images: Images, observer: Observer, domain: int) -> None:
     ports = free_ports(2)
     topic = "/agents_counted"
     observer.subscribe(topic, "std_msgs/msg/Int32", transient_local=True)
     with ExitStack() as stack:
-        first = agent_at(stack, domain, ports[0])
-        second = agent_at(stack, domain, ports[1])
         live = stack.enter_context(Live(images.live(images.build(0, listed(ports, PATIENT)))))
         counted = Counted(live, observer, topic)
-        for command in ("open 0x77 -", "node 0 talker -", f"publisher 0 0 Int32 {topic} latched"):
+        change_twice(live, counted, lambda index: agent_at(stack, domain, ports[index]))
+
+
+def test_killed_and_stopped_agents_of_serial_lines(
+    images: Images, observer: Observer, domain: int, tmp_path: Path
+) -> None:
+    """The line of an agent that is killed vanishes with it, and comes back with another name behind its link."""
+    devices = [tmp_path / "left", tmp_path / "right"]
+    topic = "/agents_of_lines"
+    observer.subscribe(topic, "std_msgs/msg/Int32", transient_local=True)
+    with ExitStack() as stack:
+        live = stack.enter_context(Live(images.live(images.build(0, listed_lines(devices, PATIENT)))))
+        counted = Counted(live, observer, topic)
+        change_twice(live, counted, lambda index: agent_of_line(stack, domain, devices[index]))
+
+
+def test_the_first_line_is_missing(images: Images, observer: Observer, domain: int, tmp_path: Path) -> None:
+    """A client starts with the second device; when that vanishes, with the first one as soon as there is one."""
+    devices = [tmp_path / "left", tmp_path / "right"]
+    topic = "/agents_of_a_line"
+    observer.subscribe(topic, "std_msgs/msg/Int32", transient_local=True)
+    with ExitStack() as stack:
+        second = agent_of_line(stack, domain, devices[1])
+        live = stack.enter_context(Live(images.live(images.build(0, listed_lines(devices, PATIENT)))))
+        counted = Counted(live, observer, topic)
+        for command in ("open 0x79 -", "node 0 talker -", f"publisher 0 0 Int32 {topic} latched"):
             live.ok(command)
-        assert agent_of(live)[1] == 0
+        assert agent_of(live) == (0, 1, 0)
         counted.publish(20)
+        live.ok("flush 5000")
         counted.take()
-        counted.begin(200)
-        time.sleep(0.5)
-        ended(first, signal.SIGKILL)
-        counted.end()
-        unacknowledged = counted.accepted[-SLOTS:]
-        assert live.call("publish 0 0").code == 1, "the stream is full: these are all in it"
-        wait_for_agent(live, 1)
-        counted.publish(20)
-        counted.publish_until_taken()
-        counted.take()
-        lost, doubled = counted.differences()
-        assert not set(lost) & set(unacknowledged)
-        assert len(lost) <= SLOTS + DDS_HISTORY
-        assert len(doubled) <= SLOTS
-        first = agent_at(stack, domain, ports[0])
-        before = len(counted.accepted)
-        counted.begin(200)
-        time.sleep(0.5)
-        ended(second, signal.SIGTERM)
-        counted.end()
+        ended(second, signal.SIGKILL)
+        assert not devices[1].exists()
+        devices[1].unlink()  # what it points to may be the line of the next agent
+        agent_of_line(stack, domain, devices[0])
         wait_for_agent(live, 0)
-        counted.publish(20)
         counted.publish_until_taken()
         counted.take()
-        assert counted.differences() == (lost, doubled), "a stop loses and doubles nothing"
-        assert len(counted.accepted) > before + SLOTS
-        assert agent_of(live) == (ports[0], 0, 2)
+        assert counted.differences() == ([], [])
+        assert agent_of(live) == (0, 0, 1)
         live.ok("close")
 
 

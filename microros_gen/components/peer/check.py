@@ -10,6 +10,7 @@ from microros_gen.application.model import EndpointDecl
 from microros_gen.application.system_decl import Link, PeerEnd
 from microros_gen.application.system_file import LARGEST_MTU, UART
 from microros_gen.application.system_find import exchanged, peer_ends
+from microros_gen.application.transport_decl import Transport
 from microros_gen.client.plan.creation import MESSAGE_HEADER
 from microros_gen.client.plan.declared import type_name
 from microros_gen.client.plan.features import PlanContext
@@ -145,6 +146,10 @@ def _check_links(context: PlanContext, diagnostics: Diagnostics) -> None:
             _check_line(context, link, diagnostics)
 
 
+def _agent_lines(transport: Transport) -> tuple[str, ...]:
+    return transport.devices or (transport.device,)
+
+
 def _check_line(context: PlanContext, link: Link, diagnostics: Diagnostics) -> None:
     """Report a serial line that the board does not have, has for its agent, or that has two rates."""
     application, is_uart = context.application, link.own.name == UART
@@ -159,7 +164,7 @@ def _check_line(context: PlanContext, link: Link, diagnostics: Diagnostics) -> N
         )
         hint = "Write `peer: only` at all endpoints, with one link"
         diagnostics.error(message, link.own.span, hint, id="MG-7195")
-    elif not is_uart and not is_alone(application) and link.own.name == application.transport.device:
+    elif not is_uart and not is_alone(application) and link.own.name in _agent_lines(application.transport):
         message = f"'{link.own.name}' is the line to the agent, too"
         diagnostics.error(message, link.own.span, "Give the link another device", id="MG-7196")
     if application.transport.baud != link.baud:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from pathlib import Path
 
 from tests.support.e2e.images import POOLS
 from tests.support.e2e.live import Live
@@ -19,11 +20,17 @@ def listed(
     return f"{application}transport: {{type: {kind}, agents: [{agents}]}}\nsession: {{{times}}}\n"
 
 
+def listed_lines(devices: Sequence[Path], times: str, application: str = POOLS) -> str:
+    """Return an application file with agents at these serial devices; `times` as above."""
+    agents = ", ".join(map(str, devices))
+    return f"{application}transport: {{type: serial, agents: [{agents}]}}\nsession: {{{times}}}\n"
+
+
 def agent_of(live: Live) -> tuple[int, int, int]:
     """Return port, index and changes of what rmw_uros_get_agent says."""
     (line,) = live.ok("agent").lines
     _, host, *numbers = line.split()
-    assert host in ("127.0.0.1", "::1")
+    assert host in ("127.0.0.1", "::1") or host.startswith("/")
     port, index, changes = map(int, numbers)
     return port, index, changes
 

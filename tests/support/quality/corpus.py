@@ -260,6 +260,8 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "transport: {type: tcp, agent: '[::1]:8888'}\ncomponents: [+time_sync, +clock, +session_state]\n",
         "agents": _INT32
         + "transport: {agents: ['10.0.0.1:8888', '10.0.0.2:8888']}\ncomponents: [+executor, +time_sync]\n",
+        "agents_of_lines": _INT32
+        + "transport: {type: serial, agents: [/dev/ttyS0, /dev/ttyS1]}\ncomponents: [+ping]\n",
         "discovery": "version: 1\nprofiles: [ad_hoc_discoverable_sender]\ninterfaces: [std_msgs/msg/Int32]\n",
         "canfd": _BOTH + "transport: {type: canfd, id: 0x7f}\ncomponents: [+executor, +sleep_cycles]\n",
         "custom": _INT32 + "transport: {type: custom}\n",

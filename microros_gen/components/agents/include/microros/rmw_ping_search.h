@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "microros/rmw_agents_chosen.h"
 #include "microros/rmw_transport_params.h"
 #include "rmw/ret_types.h"
 
@@ -15,7 +16,7 @@ extern "C" {
 
 static inline bool rmw_ping_searches(const rmw_uxrce_transport_params_t * params)
 {
-  return params->agent_address[0] == '\0';
+  return !rmw_agents_is_chosen(params);
 }
 
 /*
