@@ -118,6 +118,11 @@ def started(program: Path, tree: Tree) -> Iterator[Device]:
         yield Device(client, agent)
 
 
+def test_each_client_has_its_name(device: Device) -> None:
+    device.start()
+    assert device.client.ok("names").lines == ("names /walk /find 1",)
+
+
 def test_callbacks_run_in_the_order_of_rclc(device: Device) -> None:
     """Everything arrives before one round: goal, feedback, cancel, result, one message of each."""
     device.start()

@@ -162,6 +162,14 @@ static rcl_ret_t call(char * line)
   if (strcmp(word, "init") == 0) {
     return init();
   }
+  if (strcmp(word, "names") == 0) {
+    const char * const name = rcl_action_client_get_action_name(&find.rcl_handle);
+
+    printf(
+      "names %s %s %d\n", rcl_action_client_get_action_name(&walk.rcl_handle), name,
+      rcl_action_client_is_valid(&find.rcl_handle) ? 1 : 0);
+    return RCL_RET_OK;
+  }
   if (strcmp(word, "make") == 0) {
     return make();
   }
