@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Several threads of one process, each with a peer of its own, as an agent has them that holds parameters."""
+"""Several threads of one process, each with a separate peer, as an agent has them that holds parameters."""
 
 from __future__ import annotations
 
