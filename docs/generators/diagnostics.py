@@ -29,6 +29,7 @@ _SUBJECTS = {
     "toolchain": "Compilers and emulators",
     "image": "Images and budgets",
     "compiler": "The command as a whole",
+    "package": "Packages",
     "migrate": "init",
     "ros": "ROS 2",
     "parameter_server": "The parameter server",

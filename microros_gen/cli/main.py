@@ -20,6 +20,7 @@ from microros_gen.diagnostics import TRACEBACK, UserError, internal_error, neare
 _COMMANDS = {
     "build": "Generate, compile to lib/libmicroros.a and link the profile's example.",
     "generate": "Write the C sources of a selection, without compiling.",
+    "package": "Write the sources of a plan as a package of another build system.",
     "check": "Compare what would be generated with a golden copy.",
     "size": "Show flash, RAM and stack of what was built, per component and entity.",
     "schedule": "Show whether the tasks of what was built meet their deadlines.",

@@ -50,7 +50,7 @@ def plan_summary(planned: Planned) -> str:
     lines += (("refuses", line) for line in refused_assigns(planned))
     if planned.capacities.defaulted:
         lines.append(("limits", _defaults(planned)))
-    return _table(lines)
+    return table(lines)
 
 
 def refused_assigns(planned: Planned) -> list[str]:
@@ -82,7 +82,7 @@ def built_summary(out: Path, report: BuildReport, usage: Usage | None, lacks_ima
         else ""
     )
     copied = f"{report.copied} were copied from earlier builds, " if report.copied else ""
-    return _table(
+    return table(
         [
             ("compiled", f"{report.compiled} objects, {copied}{report.kept} were up to date"),
             ("library", f"{out / report.library}{sizes}"),
@@ -97,7 +97,7 @@ def selftest_summary(out: Path, report: BuildReport, project: Project) -> str:
         text = f"{out / report.selftest}: `microros-gen run {out} --selftest` starts it"
     else:
         text = f"sources in {out / FOLDER}, no image: {lacks_image(project)}"
-    return _table([("self-test", text)])
+    return table([("self-test", text)])
 
 
 def _agent(planned: Planned) -> str:
@@ -154,5 +154,6 @@ def _defaults(planned: Planned) -> str:
     return f"{values} by default for {count} field(s); set `limits:` in microros.yaml"
 
 
-def _table(lines: list[tuple[str, str]]) -> str:
+def table(lines: list[tuple[str, str]]) -> str:
+    """Return lines of a word and what it is, as commands print them."""
     return "".join(f"{name:<10} {text}\n" for name, text in lines)

@@ -54,10 +54,10 @@ def manifest(project: Project, inputs: Mapping[str, bytes], outputs: Mapping[str
         }
         for plan in project.types
     }
-    return _text(data, types).encode()
+    return manifest_text(data, types).encode()
 
 
-def _text(data: Mapping[str, Any], types: Mapping[str, Any]) -> str:
+def manifest_text(data: Mapping[str, Any], types: Mapping[str, Any]) -> str:
     """Print `data` over many lines and, as its last key, each type on one: that is quick, and a change is one line."""
     head = json.dumps(data, indent=2, sort_keys=True, ensure_ascii=False).removesuffix("\n}")
     lines = ",\n".join(

@@ -130,7 +130,7 @@ class Target:
     an instruction takes `cycles_per_instruction` at most, None: nobody says. `interrupts` are handlers of the
     application by their number, `registers` addresses by name (Cpu.registers). `memories` are those besides flash and
     RAM; the hooks are functions of the application, empty: none.
-    `data_model` is lp64, ilp32 or ip16. `transport` is what holds where neither application nor profile say.
+    `data_model` is lp64, ilp32, ip16 or any. `transport` is what holds where neither application nor profile say.
     """
 
     name: str

@@ -15,6 +15,7 @@ from microros_gen.selection.component import Component
 from microros_gen.selection.find_components import components_folder, load_catalogue, parts_folder
 
 ROOT = components_folder()
+PACKAGES = parts_folder() / "package"
 CATALOGUE = load_catalogue()
 _INCLUDE = re.compile(r'^\s*#include "([^"]+)"', re.MULTILINE)
 SELECTING_FILTERS = {"select", "selectattr", "reject", "rejectattr", "default", "d"}
@@ -40,7 +41,15 @@ def test_conditions_are_counted_in_every_form() -> None:
 
 
 def test_no_template_of_a_component_or_part_is_left_out() -> None:
-    assert set(templates()) == {*ROOT.rglob("*.j2"), *parts_folder().rglob("*.j2")}
+    parts = (path for path in parts_folder().rglob("*.j2") if not path.is_relative_to(PACKAGES))
+    assert set(templates()) == {*ROOT.rglob("*.j2"), *parts}
+
+
+def test_templates_of_packages_decide_nothing() -> None:
+    """What they print is decided by the view, and which of them there are by package.yaml."""
+    assert {
+        path: conditions(path.read_text(encoding="utf-8")) for path in PACKAGES.rglob("*.j2")
+    } == dict.fromkeys(PACKAGES.rglob("*.j2"), 0)
 
 
 def test_templates_decide_little() -> None:

@@ -27,6 +27,7 @@ ORDER = (
     "toolchain",
     "image",
     "compiler",
+    "package",
     "migrate",
     "ros",
     "graph_server",

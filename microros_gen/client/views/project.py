@@ -17,6 +17,7 @@ from microros_gen.client.views.agent_files import render_agent_files
 from microros_gen.client.views.board import BoardView, board_view, render_toolchain
 from microros_gen.client.views.components import render_components
 from microros_gen.client.views.example_file import render_example
+from microros_gen.client.views.memory import buffer_sizes
 from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.platform.capabilities import declarations
 from microros_gen.records import dataclass
@@ -152,11 +153,6 @@ def without_folder(reason: str) -> str:
     return re.sub(r"\((?:[^()]*[/\\])?([^()/\\]+:\d+)\)", r"(\1)", reason)
 
 
-def _line(project: Project) -> int:
-    board = project.board
-    return board.ring_size + board.output_size if board.has_serial_driver else 0
-
-
 def _shown(project: Project, entity: PublisherPlan | SubscriptionPlan | ServicePlan) -> str:
     if isinstance(entity, ServicePlan):
         return f"`{entity.name}` of {entity.type}"
@@ -210,11 +206,5 @@ def _project_view(project: Project, rendered: Mapping[str, bytes]) -> _ProjectVi
         agent=project.selection.entities,
         declared=runtime.entities.declared,
         agent_file=next((path for path in rendered if path.startswith("agent/")), ""),
-        memory=(
-            _Bytes("reliable output", runtime.streams.reliable_slots * runtime.streams.reliable_slot_size),
-            _Bytes("best-effort output", runtime.streams.best_effort_bytes),
-            _Bytes("input", runtime.input.buffer_size),
-            *((_Bytes("serial line, both directions", _line(project)),) if _line(project) else ()),
-            *((_Bytes("queues", runtime.input.queues_size),) if runtime.input.queues else ()),
-        ),
+        memory=tuple(_Bytes(name, size) for name, size in buffer_sizes(project)),
     )

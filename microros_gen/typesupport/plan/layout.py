@@ -53,7 +53,10 @@ IP16 = DataModel(pointer=2, size=2, align_8=1, align_most=1, double=4)
 WIDE_MODELS = (LP64, ILP32, I386)
 """Those of the one output for all targets of 32 and 64 bits: its assertions choose by the size of a pointer."""
 
-_MODELS = {"lp64": WIDE_MODELS, "ilp32": WIDE_MODELS, "ip16": (IP16,)}
+ALL_MODELS = (*WIDE_MODELS, IP16)
+"""Those of sources for every processor, in the order of CDR_SIZE_ANY."""
+
+_MODELS = {"lp64": WIDE_MODELS, "ilp32": WIDE_MODELS, "ip16": (IP16,), "any": ALL_MODELS}
 
 
 def models_of(data_model: str) -> tuple[DataModel, ...]:

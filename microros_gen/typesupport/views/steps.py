@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from microros_gen.interfaces.types import TypeName
+from microros_gen.typesupport.plan.layout import WIDE_MODELS
 from microros_gen.typesupport.plan.names import c_name
 from microros_gen.typesupport.plan.size import LENGTH_SIZE, TypeLimits
 from microros_gen.typesupport.plan.steps import (
@@ -237,4 +238,5 @@ def cdr_size(sizes: tuple[int, ...]) -> str:
     """Return the C expression of a size that depends on the data model."""
     if len(set(sizes)) == 1:
         return f"{sizes[0]}U"
-    return "CDR_SIZE(" + ", ".join(f"{size}U" for size in sizes) + ")"
+    macro = "CDR_SIZE" if len(sizes) == len(WIDE_MODELS) else "CDR_SIZE_ANY"
+    return f"{macro}({', '.join(f'{size}U' for size in sizes)})"

@@ -65,6 +65,13 @@ struct cdr_alignment_probe {
                           : ((offsetof(struct cdr_alignment_probe, number) == 8U) ? (ilp32) : (i386)))
 
 /**
+ * Selects one of four planned sizes: those of CDR_SIZE, or with 16-bit pointers and no padding (AVR). For
+ * sources that are compiled for every processor. A constant expression.
+ */
+#define CDR_SIZE_ANY(lp64, ilp32, i386, ip16) \
+  ((sizeof(void *) == 2U) ? (ip16) : CDR_SIZE(lp64, ilp32, i386))
+
+/**
  * Whether the members of `type` from `first` to `last`, which take `bytes` on the wire without padding,
  * have the same layout in memory. C keeps members in order and none is smaller than on the wire, so they
  * do if they span exactly as many bytes and the target is little endian. A constant expression: the

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: Apache-2.0
+"""package.yaml → PackageDescription, checked against its JSON Schema with places."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.documents.files import is_file
+from microros_gen.documents.schema import load_schema, validate
+from microros_gen.documents.tree_values import child_text, entries, items, text_of
+from microros_gen.documents.yaml_tree import MappingNode, parse_yaml
+from microros_gen.records import dataclass
+from microros_gen.selection.contribution import Conditions
+from microros_gen.selection.contribution_file import conditions_of
+
+PACKAGE_FILE = "package.yaml"
+PLAN_FILE = "microros.yaml"
+TARGET_FILE = "target.yaml"
+FILES_FOLDER = "files"
+SCHEMA = Path(__file__).with_name("package.schema.json")
+ARCHIVES = ("tar.gz", "zip")
+
+
+@dataclass(frozen=True)
+class Place:
+    """Files of an output folder whose paths begin with `prefix` have `to` instead; None: they are left out."""
+
+    prefix: str
+    to: str | None
+
+
+@dataclass(frozen=True)
+class PackageDescription:
+    """What a package.yaml says, and where its folder is.
+
+    `origin` says who brings it where it does not ship with the tool. `conditions` are those of files below files/,
+    by the beginning of their paths. `transports`: empty means all. `next_folder` and `next_archive` say what the user
+    does with the result, `{out}`.
+    """
+
+    name: str
+    summary: str
+    library: str
+    folder: Path
+    archive: str
+    next_folder: str
+    next_archive: str
+    transports: tuple[str, ...]
+    layout: tuple[Place, ...]
+    conditions: tuple[tuple[str, Conditions], ...]
+    origin: str = ""
+
+    @property
+    def general_plan(self) -> Path:
+        """The application file of the general plan."""
+        return self.folder / PLAN_FILE
+
+    @property
+    def target(self) -> Path | None:
+        """The target file of the package; None: the application chooses a target."""
+        path = self.folder / TARGET_FILE
+        return path if is_file(path) else None
+
+    def place_of(self, path: str) -> tuple[str, ...] | None:
+        """Return where a file of the output folder goes: (), if it is left out; None: no item of `layout` fits."""
+        for place in self.layout:
+            if path.startswith(place.prefix):
+                return () if place.to is None else (f"{place.to}{path.removeprefix(place.prefix)}",)
+        return None
+
+    def conditions_of(self, path: str) -> Conditions:
+        """Return the conditions of a file below files/."""
+        return tuple(each for prefix, when in self.conditions if path.startswith(prefix) for each in when)
+
+
+def parse_package(
+    source: Source, folder: Path, origin: str, diagnostics: Diagnostics
+) -> PackageDescription | None:
+    """Return the package that `source`, in `folder`, describes; None and errors in `diagnostics` if it is wrong."""
+    found = Diagnostics()
+    tree = parse_yaml(source, found)
+    if not found.has_errors():
+        validate(tree, source, load_schema(SCHEMA), found)
+    diagnostics.extend(found)
+    if found.has_errors() or not isinstance(tree, MappingNode):
+        return None
+    name = child_text(tree, "package")
+    if name != folder.resolve().name:
+        node = tree.entries["package"].value
+        hint = f"Write `package: {folder.resolve().name}`, or rename the folder"
+        diagnostics.error(
+            f"the folder of the package '{name}' has another name", node.span, hint, id="MG-9202"
+        )
+        return None
+    layout = items(tree.get("layout"))
+    return PackageDescription(
+        name=name,
+        summary=child_text(tree, "summary"),
+        library=child_text(tree, "library"),
+        folder=folder,
+        archive=child_text(tree, "archive") or ARCHIVES[0],
+        next_folder=child_text(tree.get("next"), "folder"),
+        next_archive=child_text(tree.get("next"), "archive"),
+        transports=tuple(text_of(item) or "" for item in items(tree.get("transports"))),
+        layout=tuple(Place(child_text(item, "from"), _to(item)) for item in layout),
+        conditions=tuple((e.key, conditions_of(e.value)) for e in entries(tree.get("files"))),
+        origin=origin,
+    )
+
+
+def _to(item: object) -> str | None:
+    return text_of(item.get("to")) if isinstance(item, MappingNode) else None

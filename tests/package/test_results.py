@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What every package has: the same bytes each time, an archive of it, its bill of materials, a check."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import json
+import tarfile
+import zipfile
+from pathlib import Path
+
+import pytest
+from spdx_tools.spdx.parser.parse_anything import parse_file
+from spdx_tools.spdx.validation.document_validator import validate_full_spdx_document
+
+from microros_gen.package.archive import archive
+from microros_gen.package.find import builtin_packages
+from microros_gen.package.render import describe, plan_package, render_package
+from tests.support.command_line import Runner
+from tests.support.paths import ROOT
+
+OWN = "version: 1\nprofiles: [pure_sender]\ntransport: {type: custom}\n"
+
+
+def rendered(name: str) -> dict[str, bytes]:
+    return render_package(plan_package(describe(name), None))
+
+
+@pytest.mark.parametrize("name", builtin_packages())
+def test_the_general_plan_is_the_same_each_time(name: str) -> None:
+    first, second = rendered(name), rendered(name)
+    assert first == second
+    assert first["LICENSE"] == (ROOT / "LICENSE").read_bytes()
+    assert not [path for path, content in first.items() if str(ROOT).encode() in content]
+    folded = [path.lower() for path in first]
+    assert len(set(folded)) == len(folded), "names that differ by case alone"
+
+
+@pytest.mark.parametrize("name", builtin_packages())
+def test_the_bill_of_materials_is_valid(name: str, tmp_path: Path) -> None:
+    files = rendered(name)
+    written = tmp_path / "sbom.spdx.json"
+    written.write_bytes(files["sbom.spdx.json"])
+    document = parse_file(str(written))
+    assert [message.validation_message for message in validate_full_spdx_document(document)] == []
+    listed = {
+        file.name.removeprefix("./"): {c.algorithm.name: c.value for c in file.checksums}
+        for file in document.files
+    }
+    assert listed.keys() == files.keys() - {"sbom.spdx.json", "manifest.json"}
+    for path, digests in listed.items():
+        content = files[path]
+        assert digests["SHA1"] == hashlib.sha1(content).hexdigest()
+        assert digests["SHA256"] == hashlib.sha256(content).hexdigest()
+    sums = "".join(sorted(hashlib.sha1(files[path]).hexdigest() for path in listed))
+    (library,) = (p for p in document.packages if p.spdx_id == "SPDXRef-library")
+    assert library.verification_code is not None
+    assert library.verification_code.value == hashlib.sha1(sums.encode()).hexdigest()
+
+
+def test_archives_are_the_same_each_time() -> None:
+    files = {"b/two": b"2" * 1000, "one": b"1"}
+    again = dict(reversed(files.items()))
+    for kind in ("zip", "tar.gz"):
+        assert archive(files, "root", kind) == archive(again, "root", kind)
+    with zipfile.ZipFile(io.BytesIO(archive(files, "root", "zip"))) as zipped:
+        assert {entry.filename: zipped.read(entry) for entry in zipped.infolist()} == {
+            f"root/{name}": content for name, content in files.items()
+        }
+        assert {(entry.date_time, entry.external_attr >> 16) for entry in zipped.infolist()} == {
+            ((1980, 1, 1, 0, 0, 0), 0o100644)
+        }
+    with tarfile.open(fileobj=io.BytesIO(archive(files, "root", "tar.gz"))) as packed:
+        members = packed.getmembers()
+        assert [member.name for member in members] == ["root/b/two", "root/one"]
+        assert {(member.mtime, member.mode, member.uid, member.uname) for member in members} == {
+            (0, 0o644, 0, "")
+        }
+
+
+def test_check_reports_what_differs(run: Runner, folder: Path) -> None:
+    (folder / "own.yaml").write_text(OWN)
+    options = ("-c", "own.yaml")
+    assert run("package", "cmake", *options, "-o", "out").status == 0
+    check = ("check", "--package", "cmake", *options, "--golden", "out")
+    assert (run(*check).status, run(*check).out) == (0, "")
+    (folder / "out" / "added.c").write_text("int added;\n")
+    changed = folder / "out" / "include" / "rcl" / "rcl.h"
+    changed.write_text("/* changed */\n")
+    result = run(*check)
+    assert result.status == 1
+    assert "--- golden/added.c\n+++ /dev/null" in result.out
+    assert "-/* changed */" in result.out
+    assert run(*check, "--profile", "pure_reader").status == 2
+
+
+def test_the_ram_of_both_plans_is_printed(run: Runner, folder: Path) -> None:
+    (folder / "own.yaml").write_text(OWN)
+    general = run("package", "cmake", "-o", "general").out
+    own = run("package", "cmake", "-c", "own.yaml", "-o", "own", "--archive").out
+
+    def ram(text: str) -> str:
+        return next(line for line in text.splitlines() if line.startswith("RAM"))
+
+    size = ram(general).split()[1]
+    assert int(ram(own).split()[1]) < int(size)
+    assert ram(own).endswith(f"; the general plan: {size} bytes")
+    with tarfile.open(folder / "own.tar.gz") as packed:
+        manifest = packed.extractfile("microros/manifest.json")
+        assert manifest is not None
+        assert json.load(manifest)["package"] == {"name": "cmake", "plan": "application"}
