@@ -123,7 +123,8 @@ def plan_types(
     the target would round are errors.
     """
     converts = any(model.converts_float64 for model in models)
-    messages = narrowed(messages) if converts else messages
+    if all(model.converts_float64 for model in models):
+        messages = narrowed(messages)  # otherwise the compiler rounds them where it must
     decoders = plan_decoders(messages, received, converts)
     names = topic_names(capacities)
     sizes = WireSizes(messages)

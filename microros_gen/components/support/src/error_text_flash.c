@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 
+#ifdef __FLASH
 /* The name of an argument, or of several: longer ones are truncated. */
 enum { ARGUMENT_SIZE = 48 };
 
@@ -19,3 +20,4 @@ int32_t microros_error_refuse_flash(int32_t result, const MICROROS_FLASH char * 
   words[size] = '\0';
   return microros_error_named(result, microros_error_argument, words);
 }
+#endif
