@@ -30,7 +30,8 @@ void setup();
 void loop();
 
 /* Standard input and output. */
-class HostSerial : public Stream {
+class HostSerial : public Stream
+{
 public:
   void begin(unsigned long baud);
   void end();

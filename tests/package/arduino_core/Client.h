@@ -5,7 +5,8 @@
 #include "IPAddress.h"
 #include "Stream.h"
 
-class Client : public Stream {
+class Client : public Stream
+{
 public:
   virtual int connect(IPAddress ip, uint16_t port) = 0;
   using Print::write;

@@ -6,7 +6,8 @@
 #include "Client.h"
 #include "Udp.h"
 
-class HostUDP : public UDP {
+class HostUDP : public UDP
+{
 public:
   uint8_t begin(uint16_t port) override; /* the agent has this port on the same machine: it takes any */
   void stop() override;
@@ -35,7 +36,8 @@ private:
   uint16_t from_port_ = 0;
 };
 
-class HostClient : public Client {
+class HostClient : public Client
+{
 public:
   int connect(IPAddress ip, uint16_t port) override;
   void stop() override;

@@ -5,9 +5,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-class Print {
+class Print
+{
 public:
-  virtual ~Print() {}
+  virtual ~Print()
+  {
+  }
   virtual size_t write(uint8_t value) = 0;
   virtual size_t write(const uint8_t * data, size_t size)
   {
@@ -18,7 +21,9 @@ public:
     }
     return count;
   }
-  virtual void flush() {}
+  virtual void flush()
+  {
+  }
 };
 
 #endif /* PRINT_H */

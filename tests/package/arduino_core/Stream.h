@@ -4,7 +4,8 @@
 
 #include "Print.h"
 
-class Stream : public Print {
+class Stream : public Print
+{
 public:
   virtual int available() = 0;
   virtual int read() = 0;

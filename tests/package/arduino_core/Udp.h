@@ -5,7 +5,8 @@
 #include "IPAddress.h"
 #include "Stream.h"
 
-class UDP : public Stream {
+class UDP : public Stream
+{
 public:
   virtual uint8_t begin(uint16_t port) = 0;
   virtual void stop() = 0;

@@ -47,7 +47,8 @@ int HostUDP::endPacket()
 {
   const sockaddr_in to = place(to_, to_port_);
 
-  return sendto(socket_, output_, output_size_, 0, (const sockaddr *)&to, sizeof(to)) == (ssize_t)output_size_;
+  return sendto(socket_, output_, output_size_, 0, (const sockaddr *)&to, sizeof(to)) ==
+         (ssize_t)output_size_;
 }
 
 size_t HostUDP::write(uint8_t value)

@@ -45,7 +45,8 @@ extern "C" size_t arduino_transport_read(
 static inline void set_microros_transports()
 {
   (void)rmw_uros_set_custom_transport(
-    true, NULL, arduino_transport_open, arduino_transport_close, arduino_transport_write, arduino_transport_read);
+    true, NULL, arduino_transport_open, arduino_transport_close, arduino_transport_write,
+    arduino_transport_read);
 }
 
 /* Boards whose network library is known. With another one: its headers first, then the header that is included here. */

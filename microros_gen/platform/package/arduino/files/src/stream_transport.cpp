@@ -55,7 +55,8 @@ static size_t stream_read_function(
 bool set_microros_stream_transport(Stream & stream)
 {
   return rmw_uros_set_custom_transport(
-           true, &stream, stream_open, stream_close, stream_write_function, stream_read_function) == RMW_RET_OK;
+           true, &stream, stream_open, stream_close, stream_write_function, stream_read_function) ==
+         RMW_RET_OK;
 }
 
 extern "C" {

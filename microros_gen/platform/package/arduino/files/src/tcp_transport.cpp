@@ -29,7 +29,8 @@ static bool tcp_close(struct uxrCustomTransport * transport)
 }
 
 /* After a part of a message the other side cannot find the next one, so the connection ends. */
-static size_t tcp_write(struct uxrCustomTransport * transport, const uint8_t * buffer, size_t length, uint8_t * error)
+static size_t tcp_write(
+  struct uxrCustomTransport * transport, const uint8_t * buffer, size_t length, uint8_t * error)
 {
   Client & client = *((struct tcp_transport_t *)transport->args)->client;
   const uint8_t head[2] = {(uint8_t)(length & 0xFFu), (uint8_t)((length >> 8) & 0xFFu)};

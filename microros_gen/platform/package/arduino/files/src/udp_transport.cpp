@@ -25,7 +25,8 @@ static bool udp_close(struct uxrCustomTransport * transport)
   return true;
 }
 
-static size_t udp_write(struct uxrCustomTransport * transport, const uint8_t * buffer, size_t length, uint8_t * error)
+static size_t udp_write(
+  struct uxrCustomTransport * transport, const uint8_t * buffer, size_t length, uint8_t * error)
 {
   struct udp_transport_t & own = *(struct udp_transport_t *)transport->args;
 
