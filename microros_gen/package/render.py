@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from microros_gen import compiler
-from microros_gen.compiler import Options, Planned
+from microros_gen.compiler import Options, Planned, Request
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
 from microros_gen.documents.files import read_bytes
 from microros_gen.documents.own_templates import render_own
@@ -21,6 +21,7 @@ from microros_gen.package.description import FILES_FOLDER, PackageDescription
 from microros_gen.package.find import read_package
 from microros_gen.package.sbom import SBOM, sbom
 from microros_gen.package.view import PackageView, holds, package_view
+from microros_gen.platform.find import read_target
 from microros_gen.records import dataclass
 from microros_gen.selection.component_sources import template_name
 
@@ -53,16 +54,18 @@ def plan_package(
 
     Raises UserError as `compiler.plan` does, and for a transport that the package does not have.
     """
-    target = str(package.target.resolve()) if package.target is not None else None
-    options = Options(config=config or package.general_plan, interface_paths=interface_paths, target=target)
-    request = compiler.read(replace(options, target=None)) if config is not None and target else None
-    planned = compiler.plan(compiler.resolve(compiler.read(options)))
     found = Diagnostics()
+    request = compiler.read(Options(config=config or package.general_plan, interface_paths=interface_paths))
+    named = request.application.target.span
+    if package.target is not None:
+        request = _with_target(request, package.target, found)
+        if named is not None:
+            message = (
+                f"the target of the application file has no effect: the package {package.name} has its own"
+            )
+            found.warning(message, named, "Remove `target: {name: …}`, or use `generate`", id="MG-9206")
+    planned = compiler.plan(compiler.resolve(request))
     found.extend(planned.warnings)
-    named = request.application.target.span if request is not None else None
-    if named is not None:
-        message = f"the target of the application file has no effect: the package {package.name} has its own"
-        found.warning(message, named, "Remove `target: {name: …}`, or use `generate`", id="MG-9206")
     transport = planned.project.selection.transport
     if package.transports and transport not in package.transports:
         hint = f"Write `transport: {{type: {package.transports[0]}}}`"
@@ -70,6 +73,17 @@ def plan_package(
         found.error(f"the package {package.name} has no transport '{transport}'", place, hint, id="MG-9204")
     found.check()
     return PackagePlan(package, replace(planned, warnings=tuple(found)), config is None)
+
+
+def _with_target(request: Request, path: Path, diagnostics: Diagnostics) -> Request:
+    """Return the request for the target file of a package; the parts that the application names stay."""
+    application = request.application
+    parts = {"os": application.target.rtos, "network": application.target.network}
+    found = read_target(path.name, path.parent, None, diagnostics, request.extensions, parts)
+    diagnostics.check()
+    assert found is not None
+    target = replace(application.target, name=found.target.name, span=None)
+    return replace(request, application=replace(application, target=target), found_target=found)
 
 
 def render_package(plan: PackagePlan) -> dict[str, bytes]:

@@ -27,6 +27,7 @@ FILES = {
         ("profile", "selection"),
         ("target", "platform"),
         ("agent", "agent/configuration"),
+        ("package", "package"),
     )
 }
 SCHEMAS = {
@@ -36,6 +37,7 @@ SCHEMAS = {
 ANNOTATIONS = {"description", "title", "default", "examples", "deprecated"}
 PROFILES = sorted(PACKAGE.parent.glob("profiles/*.yaml"))
 TARGETS = sorted(PACKAGE.glob("targets/*.yaml"))
+PACKAGES = sorted(PACKAGE.glob("platform/package/*/package.yaml"))
 REPLACEMENTS: tuple[Any, ...] = (
     *(None, True, False, 0, 1, -1, 1.0, 2.5, 3, 10**12, "", "word", "two words", "1 KiB", "pkg/msg/Type"),
     *([], [1, 1], [True, 1], ["a", "a"], {}, {"other": 1}),
@@ -89,6 +91,7 @@ def documents(name: str) -> list[Any]:
         "application": [text for case in CASES.values() for text in (case.good, case.bad)],
         "profile": [p.read_text() for p in PROFILES],
         "target": [p.read_text() for p in TARGETS],
+        "package": [p.read_text() for p in PACKAGES],
         "agent": ["version: 1\ntransports:\n- {type: udp, port: 8888}\nlimits: {sessions: 4}\n"],
     }[name]
     trees = [parse_yaml(Source("f", text), Diagnostics()) for text in texts]

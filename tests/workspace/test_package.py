@@ -14,6 +14,7 @@ import pytest
 
 from microros_gen import compiler
 from microros_gen.interfaces.find import shipped_folder
+from microros_gen.package.render import describe, plan_package, render_package
 from microros_gen.ros.libraries import INSTALL
 from tests.support.environments import clean_environ, install
 from tests.support.installed import Installed, environment_with_dependencies
@@ -32,7 +33,7 @@ COMMANDS = (
     "agent",
     "agent udp4",
 )
-DATA = ("profiles", "components", "templates", "idl", "targets")
+DATA = ("profiles", "components", "templates", "idl", "targets", "platform")
 
 
 def test_the_wheel_holds_every_file_of_data(installed: Installed) -> None:
@@ -56,6 +57,8 @@ def test_the_wheel_holds_every_file_of_data(installed: Installed) -> None:
         "application/application.schema.json",
         "selection/profile.schema.json",
         "interfaces/msg/msg.lark",
+        "package/package.schema.json",
+        "LICENSE",
     ):
         assert f"microros_gen/{name}" in names
     assert not [name for name in names if name.startswith(("tests/", "examples/", "docs/"))]
@@ -72,6 +75,14 @@ def test_it_builds_from_another_folder_without_ros(installed: Installed, tmp_pat
     compiler.generate(options, golden)  # by this checkout
     compared = installed.run("check", "--profile", "pure_sender", "--golden", str(golden), folder=tmp_path)
     assert compared.returncode == 0, compared.stdout[:2000] + compared.stderr
+
+
+def test_it_makes_a_package_from_another_folder(installed: Installed, tmp_path: Path) -> None:
+    done = installed.run("package", "cmake", "-o", "out", folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    files = render_package(plan_package(describe("cmake"), None, (shipped_folder(),)))  # by this checkout
+    assert (tmp_path / "out/manifest.json").read_bytes() == files["manifest.json"]
+    assert (tmp_path / "out/LICENSE").read_bytes() == (ROOT / "LICENSE").read_bytes()
 
 
 def test_cmake_finds_it_where_its_program_is_on_the_path(installed: Installed, tmp_path: Path) -> None:

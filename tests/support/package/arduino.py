@@ -20,7 +20,7 @@ from tests.support.firmware.avr import SimulatedBoard
 from tests.support.firmware.board import C_FILES
 from tests.support.paths import TESTS
 from tests.support.patience import seconds
-from tests.support.runtime.harness import merged
+from tests.support.runtime.merged import merged
 
 LIBRARY = "micro_ros_arduino"
 SKETCHES = TESTS / "package" / "sketches"

@@ -68,8 +68,7 @@ struct cdr_alignment_probe {
  * Selects one of four planned sizes: those of CDR_SIZE, or with 16-bit pointers and no padding (AVR). For
  * sources that are compiled for every processor. A constant expression.
  */
-#define CDR_SIZE_ANY(lp64, ilp32, i386, ip16) \
-  ((sizeof(void *) == 2U) ? (ip16) : CDR_SIZE(lp64, ilp32, i386))
+#define CDR_SIZE_ANY(lp64, ilp32, i386, ip16) ((sizeof(void *) == 2U) ? (ip16) : CDR_SIZE(lp64, ilp32, i386))
 
 /**
  * Whether the members of `type` from `first` to `last`, which take `bytes` on the wire without padding,
