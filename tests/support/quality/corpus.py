@@ -268,6 +268,9 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "cortex_m": _BOTH + "target: {name: qemu-microbit}\nsession: {key: device}\n",
         "cortex_m_cmsdk": _BOTH + "target: {name: qemu-mps2-an385}\n",
         "riscv": _BOTH + "target: {name: qemu-riscv32-virt}\n",
+        "any_processor": "version: 1\nprofiles: [pure_sender, pure_reader]\ntarget: {name: own.yaml}\n"
+        "interfaces: [geometry_msgs/msg/Twist, std_msgs/msg/Float64MultiArray]\n"
+        "limits: {'*': {string: 9, sequence: 3}}\n",
         "prints_uart": _BOTH + "target: {name: own.yaml}\n",
         "prints_uart_riscv": _BOTH + "target: {name: own.yaml}\n",
         "prints_semihosting": _BOTH + "target: {name: own.yaml}\nlogging: console\n",
@@ -418,6 +421,7 @@ TARGETS: Mapping[str, str] = MappingProxyType(
         "console_riscv": _PRINTS.format(
             "qemu-riscv32-virt", "{to: uart, driver: ns16550, base: 0x10001000, irq: 11}"
         ),
+        "any_processor": "target: own\nsummary: Any\nextends: host\ndata_model: any\n",
         "prints_nowhere": _PRINTS.format("qemu-mps2-an385", "{to: none}"),
     }
 )
