@@ -7,13 +7,14 @@
 
 #include <microros/port_arduino.h>
 
-/* Lets others run, and returns whether to look again: the time is not up, and nobody ended the wait. */
+/* Returns whether to look again: the time is not up, and nobody ended the wait. Meanwhile other tasks run, also those of
+ * the lowest priority, which yield() would not let run (the idle task of FreeRTOS feeds a watchdog). */
 static inline bool arduino_wait(uint32_t start_ms, int timeout_ms)
 {
   if (timeout_ms <= 0 || (uint32_t)millis() - start_ms >= (uint32_t)timeout_ms || port_arduino_woken()) {
     return false;
   }
-  yield();
+  delay(1);
   return true;
 }
 
