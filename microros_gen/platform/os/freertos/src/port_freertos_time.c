@@ -7,15 +7,15 @@
 static const uint64_t ms_per_s = 1000;
 
 /* A count of 16 bits wraps within minutes. */
-typedef char port_freertos_ticks_have_32_bits[sizeof(TickType_t) == sizeof(uint32_t) ? 1 : -1];
+typedef char port_freertos_ticks_have_32_bits[sizeof(TickType_t) >= sizeof(uint32_t) ? 1 : -1];
 
-/* The kernel counts the wraps of its ticks for time-outs, and reads both together. */
+/* The kernel counts the wraps of its ticks for time-outs, and reads both together. A count of 64 bits does not wrap. */
 uint64_t port_freertos_now(void)
 {
   TimeOut_t now;
 
   vTaskSetTimeOutState(&now);
-  return (uint64_t)(uint32_t)now.xOverflowCount << 32 | (uint32_t)now.xTimeOnEntering;
+  return (uint64_t)(uint32_t)now.xOverflowCount << 32 | (uint64_t)now.xTimeOnEntering;
 }
 
 /* Where a tick is a whole number of milliseconds, both counts wrap together. */

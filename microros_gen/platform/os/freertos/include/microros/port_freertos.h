@@ -22,9 +22,11 @@ extern "C" {
 #error "FreeRTOSConfig.h: set INCLUDE_vTaskDelay to 1"
 #endif
 
-/* Whether the caller of port_wake is an interrupt. The kernel's ports for Cortex-M3 and later have this function;
- * for other processors, define the macro in FreeRTOSConfig.h. */
-#ifndef PORT_FREERTOS_IS_INTERRUPT
+/* Whether the caller of port_wake is an interrupt. The kernel's ports for Cortex-M3 and later have this function, and
+ * ESP-IDF has its own; for other processors, define the macro in FreeRTOSConfig.h. */
+#if !defined(PORT_FREERTOS_IS_INTERRUPT) && defined(ESP_PLATFORM)
+#define PORT_FREERTOS_IS_INTERRUPT() (xPortInIsrContext() != pdFALSE)
+#elif !defined(PORT_FREERTOS_IS_INTERRUPT)
 #define PORT_FREERTOS_IS_INTERRUPT() (xPortIsInsideInterrupt() == pdTRUE)
 #endif
 
