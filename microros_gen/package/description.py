@@ -35,7 +35,8 @@ class PackageDescription:
     """What a package.yaml says, and where its folder is.
 
     `origin` says who brings it where it does not ship with the tool. `conditions` are those of files below files/,
-    by the beginning of their paths. `transports`: empty means all. `next_folder` and `next_archive` say what the user
+    by the beginning of their paths. `transports`: empty means all. `defines` are capabilities whose functions files/
+    has. `next_folder` and `next_archive` say what the user
     does with the result, `{out}`.
     """
 
@@ -47,6 +48,7 @@ class PackageDescription:
     next_folder: str
     next_archive: str
     transports: tuple[str, ...]
+    defines: tuple[str, ...]
     layout: tuple[Place, ...]
     conditions: tuple[tuple[str, Conditions], ...]
     origin: str = ""
@@ -103,6 +105,7 @@ def parse_package(
         next_folder=child_text(tree.get("next"), "folder"),
         next_archive=child_text(tree.get("next"), "archive"),
         transports=tuple(text_of(item) or "" for item in items(tree.get("transports"))),
+        defines=tuple(text_of(item) or "" for item in items(tree.get("defines"))),
         layout=tuple(Place(child_text(item, "from"), _to(item)) for item in layout),
         conditions=tuple((e.key, conditions_of(e.value)) for e in entries(tree.get("files"))),
         origin=origin,

@@ -74,8 +74,9 @@ def package_view(
     names = tuple(sorted(files))
     buffers = buffers_of(planned)
     place = package.place_of(project.example) or ()
-    functions = (*project.provisions.functions(), *project.board.hooks)
     rows = project.provisions.of_application
+    left = (row.capability for row in rows if row.capability.name not in package.defines)
+    functions = (*(name for capability in left for name in capability.functions), *project.board.hooks)
     declared = (line for row in rows for line in declarations(row.capability))
     return PackageView(
         name=package.name,
