@@ -48,10 +48,11 @@ include("${FOLDER}/CMakeLists.txt")
 @pytest.fixture(params=["general", "uart"])
 def component(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
     """The package of the general plan, or of a plan for a UART."""
-    config = tmp_path / "uart.yaml" if request.param == "uart" else None
+    name = str(request.param)
+    config = tmp_path / "uart.yaml" if name == "uart" else None
     if config is not None:
         config.write_text(UART)
-    folder = tmp_path / request.param
+    folder = tmp_path / name
     compiler.write(render_package(plan_package(describe("esp-idf"), config)), folder)
     return folder
 
