@@ -39,11 +39,13 @@ static bool create()
            &publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(robot_msgs, msg, WheelSpeeds), "wheel_speeds") ==
            RCL_RET_OK &&
          rclc_subscription_init_default(
-           &subscription, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Float32), "target") == RCL_RET_OK &&
+           &subscription, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Float32), "target") ==
+           RCL_RET_OK &&
          rclc_timer_init_default(&timer, &support, RCL_MS_TO_NS(100), on_timer) == RCL_RET_OK &&
          rclc_executor_init(&executor, &support.context, 2, &allocator) == RCL_RET_OK &&
          rclc_executor_add_timer(&executor, &timer) == RCL_RET_OK &&
-         rclc_executor_add_subscription(&executor, &subscription, &target, on_target, ON_NEW_DATA) == RCL_RET_OK;
+         rclc_executor_add_subscription(&executor, &subscription, &target, on_target, ON_NEW_DATA) ==
+           RCL_RET_OK;
 }
 
 static void destroy()

@@ -20,7 +20,9 @@ void yield(void);
 class Print
 {
 public:
-  virtual ~Print() {}
+  virtual ~Print()
+  {
+  }
   virtual size_t write(uint8_t) = 0;
   virtual size_t write(const uint8_t * buffer, size_t size);
 };

@@ -4,12 +4,23 @@
 
 #include "IPAddress.h"
 
-struct HostEthernet
-{
-  bool begin() { return true; }
-  bool config(IPAddress, IPAddress, IPAddress) { return true; }
-  bool setHostname(const char *) { return true; }
-  IPAddress localIP() { return IPAddress(127, 0, 0, 1); }
+struct HostEthernet {
+  bool begin()
+  {
+    return true;
+  }
+  bool config(IPAddress, IPAddress, IPAddress)
+  {
+    return true;
+  }
+  bool setHostname(const char *)
+  {
+    return true;
+  }
+  IPAddress localIP()
+  {
+    return IPAddress(127, 0, 0, 1);
+  }
 };
 
 static HostEthernet ETH __attribute__((unused));

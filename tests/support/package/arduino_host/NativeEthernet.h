@@ -4,9 +4,10 @@
 
 #include "IPAddress.h"
 
-struct HostNativeEthernet
-{
-  void begin(uint8_t *, IPAddress) {}
+struct HostNativeEthernet {
+  void begin(uint8_t *, IPAddress)
+  {
+  }
 };
 
 static HostNativeEthernet Ethernet __attribute__((unused));

@@ -8,11 +8,18 @@ typedef int arduino_event_id_t;
 typedef arduino_event_id_t WiFiEvent_t;
 enum { ARDUINO_EVENT_ETH_GOT_IP = 20 };
 
-struct HostWiFi
-{
-  int begin(const char *, const char *) { return WL_CONNECTED; }
-  int status() { return WL_CONNECTED; }
-  void onEvent(void (*)(WiFiEvent_t)) {}
+struct HostWiFi {
+  int begin(const char *, const char *)
+  {
+    return WL_CONNECTED;
+  }
+  int status()
+  {
+    return WL_CONNECTED;
+  }
+  void onEvent(void (*)(WiFiEvent_t))
+  {
+  }
 };
 
 static HostWiFi WiFi __attribute__((unused));

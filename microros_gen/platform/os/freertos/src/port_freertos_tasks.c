@@ -57,7 +57,7 @@ static void task_begin(void * argument)
 {
   kernel_task_t * place = (kernel_task_t *)argument;
 
-  place->handle = xTaskGetCurrentTaskHandle(); /* on another processor, it may run before its creation returns */
+  place->handle = xTaskGetCurrentTaskHandle(); /* another processor may run it before its creation returns */
   place->setting->entry(place->task);
   place->has_ended = true;
   for (;;) {

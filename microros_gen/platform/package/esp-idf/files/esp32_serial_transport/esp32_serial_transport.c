@@ -52,7 +52,8 @@ bool esp32_serial_close(struct uxrCustomTransport * transport)
 }
 
 /* Waits for room in the driver's ring if a message is larger. */
-size_t esp32_serial_write(struct uxrCustomTransport * transport, const uint8_t * buf, size_t len, uint8_t * err)
+size_t esp32_serial_write(
+  struct uxrCustomTransport * transport, const uint8_t * buf, size_t len, uint8_t * err)
 {
   const int sent = uart_write_bytes(port_of(transport), buf, len);
 
@@ -61,7 +62,8 @@ size_t esp32_serial_write(struct uxrCustomTransport * transport, const uint8_t *
 }
 
 /* The driver would wait until all `len` bytes have arrived: so wait for the first one only. */
-size_t esp32_serial_read(struct uxrCustomTransport * transport, uint8_t * buf, size_t len, int timeout, uint8_t * err)
+size_t esp32_serial_read(
+  struct uxrCustomTransport * transport, uint8_t * buf, size_t len, int timeout, uint8_t * err)
 {
   const uart_port_t port = port_of(transport);
   const TickType_t ticks = pdMS_TO_TICKS((TickType_t)timeout);

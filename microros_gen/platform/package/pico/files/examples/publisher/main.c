@@ -34,7 +34,8 @@ static bool entities_create(void)
   return rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK &&
          rclc_node_init_default(&node, "pico_node", "", &support) == RCL_RET_OK &&
          rclc_publisher_init_default(
-           &publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32), "pico_publisher") == RCL_RET_OK &&
+           &publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32), "pico_publisher") ==
+           RCL_RET_OK &&
          rclc_timer_init_default(&timer, &support, RCL_MS_TO_NS(PERIOD_MS), on_timer) == RCL_RET_OK &&
          rclc_executor_init(&executor, &support.context, 1, &allocator) == RCL_RET_OK &&
          rclc_executor_add_timer(&executor, &timer) == RCL_RET_OK;

@@ -35,7 +35,7 @@ uint32_t number()
 {
   return HAL_GetUIDw0() ^ (HAL_GetUIDw1() * 2654435761u) ^ (HAL_GetUIDw2() * 2246822519u);
 }
-#elif defined(__IMXRT1062__) /* Teensy 4 */
+#elif defined(__IMXRT1062__)                    /* Teensy 4 */
 uint32_t number()
 {
   return HW_OCOTP_CFG0 ^ (HW_OCOTP_CFG1 * 2654435761u);
@@ -55,10 +55,11 @@ uint32_t number()
          (*reinterpret_cast<const volatile uint32_t *>(0x0080A048) * 3266489917u);
 }
 #else
-#error "micro_ros_platformio: give each board a number in platformio.ini: build_flags = -DMICRO_ROS_CLIENT_KEY=1"
+#error \
+  "micro_ros_platformio: give each board a number in platformio.ini: build_flags = -DMICRO_ROS_CLIENT_KEY=1"
 #endif
 
-}  // namespace
+} // namespace
 
 extern "C" uint32_t port_time_ms(void)
 {
@@ -75,7 +76,8 @@ extern "C" int64_t port_time_steady_ns(void)
   const uint32_t now_ms = static_cast<uint32_t>(millis());
   const uint32_t passed_ms = now_ms - last_ms;
 
-  total_us += passed_ms > most_ms ? static_cast<int64_t>(passed_ms) * 1000 : static_cast<int64_t>(now_us - last_us);
+  total_us +=
+    passed_ms > most_ms ? static_cast<int64_t>(passed_ms) * 1000 : static_cast<int64_t>(now_us - last_us);
   last_us = now_us;
   last_ms = now_ms;
   return total_us * 1000;

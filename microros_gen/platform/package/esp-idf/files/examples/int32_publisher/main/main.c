@@ -35,13 +35,13 @@ static bool entities_create(rcl_allocator_t * allocator, rcl_init_options_t * op
 {
   rmw_init_options_t * rmw_options = rcl_init_options_get_rmw_init_options(options);
 
-  return rmw_uros_options_set_udp_address(CONFIG_MICRO_ROS_AGENT_IP, CONFIG_MICRO_ROS_AGENT_PORT, rmw_options) ==
-           RMW_RET_OK &&
+  return rmw_uros_options_set_udp_address(
+           CONFIG_MICRO_ROS_AGENT_IP, CONFIG_MICRO_ROS_AGENT_PORT, rmw_options) == RMW_RET_OK &&
          rclc_support_init_with_options(&support, 0, NULL, options, allocator) == RCL_RET_OK &&
          rclc_node_init_default(&node, "esp32_int32_publisher", "", &support) == RCL_RET_OK &&
          rclc_publisher_init_default(
-           &publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32), "freertos_int32_publisher") ==
-           RCL_RET_OK &&
+           &publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32),
+           "freertos_int32_publisher") == RCL_RET_OK &&
          rclc_timer_init_default(&timer, &support, RCL_MS_TO_NS(PERIOD_MS), on_timer) == RCL_RET_OK &&
          rclc_executor_init(&executor, &support.context, 1, allocator) == RCL_RET_OK &&
          rclc_executor_add_timer(&executor, &timer) == RCL_RET_OK;

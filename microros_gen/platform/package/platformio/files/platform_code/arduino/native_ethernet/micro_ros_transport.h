@@ -12,7 +12,8 @@ struct micro_ros_agent_locator {
 };
 
 /* Begins the Ethernet of a Teensy 4.1 with a fixed address, and uses UDP to the agent. */
-static inline void set_microros_native_ethernet_transports(byte mac[], IPAddress client_ip, IPAddress agent_ip, uint16_t agent_port)
+static inline void set_microros_native_ethernet_transports(
+  byte mac[], IPAddress client_ip, IPAddress agent_ip, uint16_t agent_port)
 {
   static micro_ros_agent_locator locator;
 

@@ -12,7 +12,8 @@ struct micro_ros_agent_locator {
 };
 
 /* Joins the Wi-Fi network, waits until that has succeeded, and uses UDP to the agent. */
-static inline void set_microros_wifi_transports(const char * ssid, const char * pass, IPAddress agent_ip, uint16_t agent_port)
+static inline void set_microros_wifi_transports(
+  const char * ssid, const char * pass, IPAddress agent_ip, uint16_t agent_port)
 {
   static micro_ros_agent_locator locator;
 

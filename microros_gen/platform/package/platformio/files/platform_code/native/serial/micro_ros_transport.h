@@ -7,8 +7,8 @@
 static inline void set_microros_serial_transports(const char * device)
 {
   (void)rmw_uros_set_custom_transport(
-    true, (void *)(uintptr_t)device, platformio_transport_open, platformio_transport_close, platformio_transport_write,
-    platformio_transport_read);
+    true, (void *)(uintptr_t)device, platformio_transport_open, platformio_transport_close,
+    platformio_transport_write, platformio_transport_read);
 }
 
 #endif /* MICRO_ROS_TRANSPORT_H */
