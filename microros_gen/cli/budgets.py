@@ -6,10 +6,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-import click
-
 from microros_gen import compiler
 from microros_gen.cli.generate import warnings_text
+from microros_gen.cli.terminal import echo_found
 from microros_gen.diagnostics import Diagnostics, UserError
 from microros_gen.image.folder import Folder
 
@@ -46,4 +45,4 @@ def _reported() -> Iterator[Diagnostics]:
     try:
         yield warnings
     finally:
-        click.echo(warnings_text(warnings), nl=False, err=True)
+        echo_found(warnings_text(warnings))

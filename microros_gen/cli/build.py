@@ -12,7 +12,7 @@ import click
 from microros_gen import compiler
 from microros_gen.cli.generate import files_line, warnings_text
 from microros_gen.cli.options import output_option, selection_options, selftest_option
-from microros_gen.documents.templates import compile_ahead
+from microros_gen.cli.terminal import Progress, echo_found, echo_summary, next_step
 from microros_gen.output.runs import compiled_templates
 
 
@@ -31,25 +31,29 @@ def command(output: Path | None, **options: Any) -> None:
     microros-gen build --profile pure_sender
     microros-gen build -c microros.yaml -o build/robot
     """
+    from microros_gen.documents.templates import compile_ahead
+
     compile_ahead(compiled_templates(os.environ))
-    from microros_gen.cli.summary import built_summary, plan_summary, selftest_summary
+    from microros_gen.cli.summary import built_summary, plan_summary, runs_here, selftest_summary
     from microros_gen.output.tree import check_build_folders
 
     request = compiler.read(compiler.Options(**options))
     resolved = compiler.resolve(request)
     out = compiler.output_folder(resolved, output)
     planned = compiler.plan(resolved)
-    click.echo(warnings_text(planned.warnings), nl=False, err=True)
+    echo_found(warnings_text(planned.warnings))
     tools = compiler.toolchain(planned)
     check_build_folders(out)
     report = compiler.write(compiler.render(planned, fork=True), out)
-    click.echo(plan_summary(planned) + files_line(out, report), nl=False)
-    built = compiler.compile(planned, out, tools)
-    click.echo(built_summary(out, built.report, built.usage, planned.project.lacks_image), nl=False)
+    echo_summary(plan_summary(planned) + files_line(out, report))
+    with Progress() as progress:
+        built = compiler.compile(planned, out, tools, progress)
+    echo_summary(built_summary(out, built.report, built.usage, planned.project.lacks_image))
     if planned.resolved.request.selftest:
-        click.echo(selftest_summary(out, built.report, planned.project), nl=False)
+        echo_summary(selftest_summary(out, built.report, planned.project))
     if planned.project.application.memory.has_budget:
         from microros_gen.cli.budgets import check_planned
         from microros_gen.image.folder import read_folder
 
         check_planned(planned, lambda: read_folder(out))
+    next_step(["microros-gen", "run" if runs_here(planned.project, built.report) else "size", str(out)])

@@ -8,19 +8,21 @@ import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
+from microros_gen.cli.offers import output_or_id
 from microros_gen.cli.options import check_map, image_option, map_option
 from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.diagnostics.explanations import explanations
-from microros_gen.image.explain import Explainer, Explanation
-from microros_gen.image.report import measure
-from microros_gen.selection.find_components import load_catalogue
+
+if TYPE_CHECKING:
+    from microros_gen.image.explain import Explanation
 
 
 @click.command()
-@click.argument("out", metavar="OUT|ID", type=click.Path(path_type=Path))
+@click.argument("out", metavar="OUT|ID", type=click.Path(path_type=Path), shell_complete=output_or_id)
 @click.argument("what", metavar="[SYMBOL|FILE|COMPONENT]", required=False)
 @image_option("Your own image to explain, linked with the library of OUT. Default: the image that was built.")
 @map_option
@@ -52,6 +54,10 @@ def command(out: Path, what: str | None, image: Path | None, linker_map: Path | 
     if what is None:
         click.echo(_diagnostic(str(out), kind))
         return
+    from microros_gen.image.explain import Explainer
+    from microros_gen.image.report import measure
+    from microros_gen.selection.find_components import load_catalogue
+
     catalogue = load_catalogue()
 
     def sources_of(component: str) -> Iterator[bytes]:

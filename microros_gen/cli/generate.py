@@ -13,11 +13,16 @@ import click
 
 from microros_gen import compiler
 from microros_gen.cli.options import output_option, selection_options, selftest_option
+from microros_gen.cli.terminal import echo_found, echo_summary, next_step
 from microros_gen.output.runs import Run, compiled_templates, find_run, record_run
 
 if TYPE_CHECKING:
     from microros_gen.diagnostics import Diagnostic
     from microros_gen.output.tree import WriteReport
+
+
+_NOT_OF_BUILD = ("depfile", "default_target")
+"""Options for build systems, which `build` does not have."""
 
 
 @click.command()
@@ -36,7 +41,8 @@ if TYPE_CHECKING:
     hidden=True,
     help="For build systems: target if nothing else selects one and this name is built in.",
 )
-def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
+@click.pass_context
+def command(ctx: click.Context, /, output: Path | None, depfile: Path | None, **options: Any) -> None:
     """Write the C sources of a selection to OUT, without compiling.
 
     Only files with new content are written; files that are no longer selected are removed.
@@ -47,8 +53,9 @@ def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
     call = {"command": "generate", "output": output, "depfile": depfile, **options}
     last = find_run(call, os.environ)
     if last is not None:
-        click.echo(last.warnings, nl=False, err=True)
-        click.echo(last.summary + _files_line(last.out, 0, last.files, 0), nl=False)
+        echo_found(last.warnings)
+        echo_summary(last.summary + _files_line(last.out, 0, last.files, 0))
+        _compile_next(ctx)
         return
     started_ns = time.time_ns()
     from microros_gen.documents.templates import compile_ahead
@@ -63,7 +70,7 @@ def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
     out = compiler.output_folder(resolved, output)
     planned = compiler.plan(resolved)
     warnings = warnings_text(planned.warnings)
-    click.echo(warnings, nl=False, err=True)
+    echo_found(warnings)
     report = compiler.write(compiler.render(planned, fork=True), out)
     summary = plan_summary(planned)
     files = report.written + report.unchanged
@@ -74,7 +81,25 @@ def command(output: Path | None, depfile: Path | None, **options: Any) -> None:
         write_depfile(depfile, out / MANIFEST, inputs)
         outputs.append(str(depfile))
     record_run(call, os.environ, run, (*inputs, out / JOURNAL), outputs, started_ns)
-    click.echo(summary + files_line(out, report), nl=False)
+    echo_summary(summary + files_line(out, report))
+    _compile_next(ctx)
+
+
+def _compile_next(ctx: click.Context) -> None:
+    """Print the command that compiles the same selection."""
+    words = ["microros-gen", "build"]
+    for parameter in ctx.command.params:
+        typed = ctx.get_parameter_source(parameter.name or "") is click.core.ParameterSource.COMMANDLINE
+        if typed and parameter.name not in _NOT_OF_BUILD:
+            value = ctx.params[parameter.name or ""]
+            name = parameter.opts[-1]
+            if isinstance(value, bool):
+                words.append(name)
+            else:
+                words += [
+                    w for v in (value if isinstance(value, tuple) else (value,)) for w in (name, str(v))
+                ]
+    next_step(words)
 
 
 def warnings_text(warnings: Iterable[Diagnostic]) -> str:

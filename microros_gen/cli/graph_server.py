@@ -3,17 +3,21 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
-from microros_gen.agent.server import stopped_by_signals
-from microros_gen.cli.ros_node import node_of
 from microros_gen.diagnostics import Diagnostic
-from microros_gen.graph_server.server import NODE, GraphServer
-from microros_gen.ros.peer import Peer
+
+if TYPE_CHECKING:
+    from microros_gen.ros.peer import Peer
 
 
 def graph_peer(domain: int | None) -> Peer:
     """Return the node of a graph server; UserError without a usable ROS 2."""
+    from microros_gen.cli.ros_node import node_of
+    from microros_gen.graph_server.server import NODE
+
     return node_of(
         NODE,
         domain,
@@ -39,6 +43,9 @@ def command(domain: int | None) -> None:
 
     Prints 'graph server ready: /microros_graph' on stdout. SIGINT and SIGTERM end it with status 0.
     """
+    from microros_gen.agent.server import stopped_by_signals
+    from microros_gen.graph_server.server import GraphServer
+
     with graph_peer(domain) as peer:
         server = GraphServer(peer, lambda line: click.echo(f"warning: {line}", err=True))
         with stopped_by_signals(server):

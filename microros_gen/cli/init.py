@@ -4,16 +4,18 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from microros_gen.application.find import APPLICATION_FILE
 from microros_gen.cli.generate import warnings_text
+from microros_gen.cli.offers import profile_names, target_names
 from microros_gen.cli.options import interface_path_option
+from microros_gen.cli.terminal import echo_found
 from microros_gen.diagnostics import Diagnostics
-from microros_gen.migrate.application_folder import NewFolder, write_folder
-from microros_gen.migrate.draft_text import UNDECIDED
-from microros_gen.migrate.proposal import InitOptions, draft_of
+
+if TYPE_CHECKING:
+    from microros_gen.migrate.application_folder import NewFolder
 
 
 @click.command()
@@ -23,9 +25,15 @@ from microros_gen.migrate.proposal import InitOptions, draft_of
     "profiles",
     multiple=True,
     metavar="NAME",
+    shell_complete=profile_names,
     help="Profile, built-in or a file; can be repeated. Default without --from and --from-colcon-meta: pure_sender.",
 )
-@click.option("--target", metavar="NAME", help="Target, see `microros-gen targets`. Default: host.")
+@click.option(
+    "--target",
+    metavar="NAME",
+    shell_complete=target_names,
+    help="Target, see `microros-gen targets`. Default: host.",
+)
 @click.option(
     "--from",
     "sources",
@@ -67,17 +75,23 @@ def command(
     microros-gen init my_robot --profile pure_reader --target qemu-mps2-an386
     microros-gen init my_robot --from old/src --from-colcon-meta old/app-colcon.meta
     """
+    from microros_gen.migrate.application_folder import write_folder
+    from microros_gen.migrate.proposal import InitOptions, draft_of
+
     options = InitOptions(folder, profiles, target, sources, metas, interface_paths, checked)
     warnings = Diagnostics()
     draft = draft_of(options, warnings)
-    click.echo(warnings_text(warnings), nl=False, err=True)
+    echo_found(warnings_text(warnings))
     written = write_folder(options, draft)
-    click.echo(warnings_text(written.found), nl=False, err=True)
+    echo_found(warnings_text(written.found))
     _report(written)
     return 0 if written.builds else 2
 
 
 def _report(written: NewFolder) -> None:
+    from microros_gen.application.find import APPLICATION_FILE
+    from microros_gen.migrate.draft_text import UNDECIDED
+
     own = [name for name in written.files if not name.startswith("golden/")]
     click.echo(f"{written.folder}: {', '.join(own)}")
     if len(own) < len(written.files):

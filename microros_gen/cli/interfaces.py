@@ -10,7 +10,9 @@ from typing import Any
 
 import click
 
+from microros_gen.cli.offers import interface_names
 from microros_gen.cli.options import interface_path_option
+from microros_gen.cli.terminal import echo_found
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Severity, UserError
 from microros_gen.documents.named import Named
 from microros_gen.interfaces.closure import InterfaceSet, resolve_interfaces
@@ -22,7 +24,7 @@ from microros_gen.output.interface_files import one_idl, write_descriptions, wri
 
 
 @click.command()
-@click.argument("name", required=False)
+@click.argument("name", required=False, shell_complete=interface_names)
 @interface_path_option
 @click.option(
     "--format",
@@ -229,7 +231,7 @@ def _resolved(finder: InterfaceFinder, name: str, diagnostics: Diagnostics) -> I
 def _warn(diagnostics: Iterable[Diagnostic]) -> None:
     for diagnostic in diagnostics:
         if diagnostic.severity is Severity.WARNING:
-            click.echo(diagnostic.render(), err=True)
+            echo_found(f"{diagnostic.render()}\n")
 
 
 def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:

@@ -9,11 +9,16 @@ import os
 import sys
 import traceback
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import click
 
 from microros_gen import __version__
+from microros_gen.cli.terminal import echo_found
 from microros_gen.diagnostics import TRACEBACK, UserError, internal_error, nearest
+
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
 
 # Command → one line of help; each is the object `command` of the module of the same name (`_` for `-`), imported when
 # used.
@@ -31,6 +36,8 @@ _COMMANDS = {
     "interfaces": "List packages and types, or show one of them.",
     "targets": "List the targets, or show one of them.",
     "init": "Write a new application folder, from a profile or from existing sources.",
+    "schema": "List the JSON Schemas of the YAML files for editors, or print one of them.",
+    "completion": "Print the script with which a shell completes commands, options and names.",
     "run": "Start a built image together with an agent.",
     "system": "Check the boards of a system file together.",
     "modes": "Check, simulate, draw and manage systems of nodes with modes.",
@@ -57,6 +64,14 @@ class _LazyGroup(click.Group):
         module = importlib.import_module(f"microros_gen.cli.{cmd_name.replace('-', '_')}")
         command: click.Command = module.command
         return command
+
+    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem[str]]:
+        """Offer the commands with their help, without importing them; options where the text begins with a dash."""
+        if incomplete.startswith("-"):
+            return super().shell_complete(ctx, incomplete)
+        from click.shell_completion import CompletionItem
+
+        return [CompletionItem(n, help=h) for n, h in _COMMANDS.items() if n.startswith(incomplete)]
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -104,8 +119,7 @@ def _status(arguments: Sequence[str] | None) -> int:
     except UserError as error:
         if error.__cause__ is not None and os.environ.get(TRACEBACK):
             traceback.print_exception(error.__cause__)
-        for diagnostic in error.diagnostics:
-            click.echo(diagnostic.render(), err=True)
+        echo_found("".join(f"{diagnostic.render()}\n" for diagnostic in error.diagnostics))
         return error.status
     except click.ClickException as error:
         error.show()
@@ -120,6 +134,6 @@ def _status(arguments: Sequence[str] | None) -> int:
     except Exception as error:
         if os.environ.get(TRACEBACK):
             raise
-        click.echo(internal_error(error).render(), err=True)
+        echo_found(f"{internal_error(error).render()}\n")
         return 2
     return result if isinstance(result, int) else 0

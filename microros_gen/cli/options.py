@@ -10,6 +10,8 @@ from typing import Any, TypeVar
 
 import click
 
+from microros_gen.cli.offers import component_changes, interface_names, profile_names, target_names
+
 F = TypeVar("F", bound=Callable[..., Any])
 
 
@@ -38,6 +40,7 @@ def selection_options(function: F) -> F:
                 "profiles",
                 multiple=True,
                 metavar="NAME",
+                shell_complete=profile_names,
                 help="Profile, built-in or a file; can be repeated. Replaces `profiles` of the file.",
             ),
             click.option(
@@ -45,6 +48,7 @@ def selection_options(function: F) -> F:
                 "components",
                 multiple=True,
                 metavar="[+-]NAME",
+                shell_complete=component_changes,
                 help="Component to add, or to remove (-). Extends `components` of the file.",
             ),
             click.option(
@@ -52,12 +56,16 @@ def selection_options(function: F) -> F:
                 "interfaces",
                 multiple=True,
                 metavar="PKG[/Type]",
+                shell_complete=interface_names,
                 help="Message, service, action, or whole package. Extends `interfaces` of the file."
                 " Default: std_msgs/msg/Int32.",
             ),
             interface_path_option,
             click.option(
-                "--target", metavar="NAME", help="Target, see `microros-gen targets`. Default: host."
+                "--target",
+                metavar="NAME",
+                shell_complete=target_names,
+                help="Target, see `microros-gen targets`. Default: host.",
             ),
             click.option(
                 "--agent",

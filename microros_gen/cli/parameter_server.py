@@ -6,20 +6,20 @@ from __future__ import annotations
 import os
 from contextlib import closing, nullcontext
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from microros_gen.agent.server import stopped_by_signals
-from microros_gen.cli.ros_node import node_of
 from microros_gen.diagnostics import Diagnostic
-from microros_gen.parameter_server.claims import STANDALONE
-from microros_gen.parameter_server.file import ParameterFile
-from microros_gen.parameter_server.turns import ServerInTurn
-from microros_gen.ros.peer import Peer
+
+if TYPE_CHECKING:
+    from microros_gen.ros.peer import Peer
 
 
 def parameter_peer(name: str, domain: int | None) -> Peer:
     """Return the node of a parameter server; UserError without a usable ROS 2."""
+    from microros_gen.cli.ros_node import node_of
+
     return node_of(
         name,
         domain,
@@ -60,6 +60,11 @@ def command(file: Path | None, domain: int | None) -> None:
     Prints 'parameter server ready: /microros_parameters' on stdout, and overruled values on stderr. SIGINT and SIGTERM
     end it with status 0.
     """
+    from microros_gen.agent.server import stopped_by_signals
+    from microros_gen.parameter_server.claims import STANDALONE
+    from microros_gen.parameter_server.file import ParameterFile
+    from microros_gen.parameter_server.turns import ServerInTurn
+
     server = ServerInTurn(STANDALONE, lambda name: parameter_peer(name, domain), _Report())
     with closing(ParameterFile(file or usual_file(domain))) as kept, stopped_by_signals(server):
         server.run(lambda: nullcontext(kept))

@@ -6,15 +6,17 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from microros_gen.cli.options import check_map, file_option, image_option, map_option, write_result
 from microros_gen.cli.tables import format_table
 from microros_gen.diagnostics import Diagnostic, UserError
-from microros_gen.image.folder import Folder, read_folder
-from microros_gen.image.report import measure_folder
-from microros_gen.image.task_stacks import TaskStack, has_automatic, task_stacks
+
+if TYPE_CHECKING:
+    from microros_gen.image.folder import Folder
+    from microros_gen.image.task_stacks import TaskStack
 
 _HEAD = ("TASK", "CHAIN", "CONTEXT", "NEEDS", "HAS", "THROUGH")
 _UNKNOWN = "-"
@@ -46,6 +48,8 @@ def command(
     microros-gen stacks build --image firmware.elf -o microros.stacks.yaml
     """
     check_map(image, linker_map)
+    from microros_gen.image.folder import read_folder
+
     stacks = _measured(read_folder(out, image, linker_map))
     if not stacks:
         hint = "Declare them in the application file: `tasks: [{name: control, executor: NAME}]`"
@@ -60,12 +64,17 @@ def command(
 
 def check_stacks(folder: Folder) -> None:
     """Compare the tasks with `stack: auto` with their image, where there is one. Raises UserError with status 1."""
+    from microros_gen.image.task_stacks import has_automatic
+
     if folder.image is not None and has_automatic(folder.manifest):
         stacks = [stack for stack in _measured(folder) if stack.automatic]
         _refuse([*_unbounded(stacks), *_small(stacks)])
 
 
 def _measured(folder: Folder) -> tuple[TaskStack, ...]:
+    from microros_gen.image.report import measure_folder
+    from microros_gen.image.task_stacks import task_stacks
+
     report = measure_folder(folder)
     if report.graph is None or not report.graph.compiled:
         raise UserError([Diagnostic(f"no stack is known: {report.stack.why}", id="MG-7147")], status=1)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -98,6 +99,18 @@ def selftest_summary(out: Path, report: BuildReport, project: Project) -> str:
     else:
         text = f"sources in {out / FOLDER}, no image: {lacks_image(project)}"
     return table([("self-test", text)])
+
+
+def runs_here(project: Project, report: BuildReport) -> bool:
+    """Return whether `run` can start the image with an agent on this machine."""
+    emulator, transport = project.target.emulator, project.selection.transport
+    if report.image is None:
+        return False
+    if emulator is not None:
+        return shutil.which(emulator.program) is not None
+    device = project.runtime.transport.device
+    own_line = transport == "serial" and not device.startswith("/dev/")
+    return project.target.hosted and (transport in ("udp", "tcp") or own_line)
 
 
 def _agent(planned: Planned) -> str:

@@ -5,9 +5,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from microros_gen.selection.model import Chosen, ChosenAxis, ChosenComponent, Selection
+if TYPE_CHECKING:
+    from microros_gen.selection.model import Chosen, ChosenAxis, ChosenComponent, Selection
 
 FORMATS = ("table", "json", "dot")
 

@@ -12,6 +12,7 @@ from typing import Any
 
 import click
 
+from microros_gen.cli.offers import target_names as offered_targets
 from microros_gen.cli.tables import format_table
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
 from microros_gen.platform.find import FoundTarget, read_target, target_names
@@ -22,7 +23,7 @@ _COLUMNS = ("target", "what", "image", "needs")
 
 
 @click.command()
-@click.argument("name", required=False)
+@click.argument("name", required=False, shell_complete=offered_targets)
 @click.option(
     "--format",
     "kind",

@@ -4,19 +4,22 @@
 from __future__ import annotations
 
 import time
+from typing import TYPE_CHECKING
 
 import click
 
-from microros_gen.agent.server import stopped_by_signals
-from microros_gen.cli.ros_node import node_of
 from microros_gen.diagnostics import Diagnostic
-from microros_gen.ros.peer import Peer
 from microros_gen.time_server.clock import FASTEST, LATEST_S, NS_PER_S, SLOWEST, SimulatedClock
-from microros_gen.time_server.server import NODE, TimeServer
+
+if TYPE_CHECKING:
+    from microros_gen.ros.peer import Peer
 
 
 def time_peer(domain: int | None) -> Peer:
     """Return the node of a time server; UserError without a usable ROS 2."""
+    from microros_gen.cli.ros_node import node_of
+    from microros_gen.time_server.server import NODE
+
     return node_of(
         NODE,
         domain,
@@ -64,6 +67,9 @@ def command(domain: int | None, rate: float, speed: float, start: float, paused:
 
     Prints 'time server ready: /microros_time' on stdout. SIGINT and SIGTERM end it with status 0.
     """
+    from microros_gen.agent.server import stopped_by_signals
+    from microros_gen.time_server.server import TimeServer
+
     clock = SimulatedClock(time.monotonic_ns, round(start * NS_PER_S), speed, paused)
     with time_peer(domain) as peer:
         server = TimeServer(peer, clock, rate, lambda line: click.echo(f"warning: {line}", err=True))

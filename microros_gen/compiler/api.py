@@ -19,6 +19,7 @@ from microros_gen.records import dataclass
 if TYPE_CHECKING:
     from microros_gen.toolchain.compile import BuildReport
     from microros_gen.toolchain.measure import Usage
+    from microros_gen.toolchain.objects import Progress
     from microros_gen.toolchain.toolchain import Toolchain
 
 
@@ -141,11 +142,14 @@ def toolchain(planned: Planned, environ: Mapping[str, str] | None = None) -> Too
     return find_toolchain(planned.project.target, os.environ if environ is None else environ)
 
 
-def compile(planned: Planned, out: Path, tools: Toolchain | None = None) -> Built:
+def compile(
+    planned: Planned, out: Path, tools: Toolchain | None = None, progress: Progress | None = None
+) -> Built:
     """Compile the sources in `out` to lib/libmicroros.a, and to the example's image if the target supports one.
 
-    `out` must contain the rendered files of `planned`. `tools` defaults to `toolchain(planned)`. Objects that were
-    compiled before are copied from the user's cache folder (`MICROROS_GEN_OBJECTS=off` prevents that).
+    `out` must contain the rendered files of `planned`. `tools` defaults to `toolchain(planned)`.
+    `progress` is called for each compiled source with the number so far, the number of all, and its path. Objects that
+    were compiled before are copied from the user's cache folder (`MICROROS_GEN_OBJECTS=off` prevents that).
     Raises UserError with status 1 if a source does not compile or the image exceeds the target's memory.
     """
     from microros_gen.selftest.render import selftest_image
@@ -156,7 +160,7 @@ def compile(planned: Planned, out: Path, tools: Toolchain | None = None) -> Buil
     tools = tools or toolchain(planned)
     check_build_folders(out)
     selftest = selftest_image(planned.project) if planned.resolved.request.selftest else None
-    report = compile_project(out, planned.project, tools, ObjectStore.of_user(os.environ), selftest)
+    report = compile_project(out, planned.project, tools, ObjectStore.of_user(os.environ), selftest, progress)
     return Built(report, measure_library(out, tools))
 
 

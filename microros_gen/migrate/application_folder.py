@@ -12,9 +12,11 @@ from pathlib import Path
 
 from microros_gen import __version__, compiler
 from microros_gen.application.find import APPLICATION_FILE
+from microros_gen.application.parser import SCHEMA as APPLICATION_SCHEMA
 from microros_gen.client.views.example_file import render_example
 from microros_gen.compiler import Planned
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, UserError
+from microros_gen.documents.schema_files import complete_schema, modeline, schema_text
 from microros_gen.documents.templates import shared_environment
 from microros_gen.migrate.code import c_sources
 from microros_gen.migrate.draft import Draft
@@ -23,6 +25,9 @@ from microros_gen.migrate.limits import LOWER_LIMITS
 from microros_gen.migrate.proposal import InitOptions
 from microros_gen.output.tree import write_files
 from microros_gen.records import dataclass
+
+SCHEMA_FILE = "microros.schema.json"
+"""The schema of the application file, next to it: editors read it without the tool and without a network."""
 
 WORKFLOW = ".github/workflows/microros.yml"
 _TEMPLATES = {
@@ -110,7 +115,10 @@ def _made(folder: Path) -> Iterator[None]:
 
 
 def _heading(options: InitOptions) -> list[str]:
-    lines = [f"What {options.name} has; `microros-gen resolve` says what follows from it."]
+    lines = [
+        modeline(SCHEMA_FILE).removeprefix("# "),
+        f"What {options.name} has; `microros-gen resolve` says what follows from it.",
+    ]
     read = [str(path) for path in (options.sources, *options.metas) if path is not None]
     if read:
         lines += [f"Proposed by `microros-gen init` from {', '.join(read)}."]
@@ -149,7 +157,8 @@ def _plan(options: InitOptions, text: str, diagnostics: Diagnostics) -> Planned 
 
 def _files(options: InitOptions, text: str, planned: Planned | None, undecided: int) -> dict[str, bytes]:
     """Return the files to write, by their path below the folder."""
-    files = {APPLICATION_FILE: text.encode()}
+    schema = schema_text(complete_schema(APPLICATION_SCHEMA))
+    files = {APPLICATION_FILE: text.encode(), SCHEMA_FILE: schema.encode()}
     environment = shared_environment()
     toolchain = None
     if planned is not None:

@@ -14,9 +14,9 @@ from microros_gen.mode_manager.calls import (
     Call,
     Kind,
     Link,
-    Settings,
 )
 from microros_gen.mode_manager.leaf import Leaf
+from microros_gen.mode_manager.settings import Settings
 from microros_gen.modes.model import ACTIVE, INACTIVE, UNCONFIGURED, UNKNOWN, Scalar
 
 _GOALS = {CONFIGURE: INACTIVE, CLEANUP: UNCONFIGURED, ACTIVATE: ACTIVE, DEACTIVATE: INACTIVE}

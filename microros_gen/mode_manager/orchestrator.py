@@ -12,14 +12,7 @@ from collections.abc import Callable, Mapping
 
 from microros_gen.mode_manager.adoption import adopted
 from microros_gen.mode_manager.announcing import announce_request, changes
-from microros_gen.mode_manager.calls import (
-    DEACTIVATE,
-    Announcement,
-    Call,
-    Kind,
-    Link,
-    Settings,
-)
+from microros_gen.mode_manager.calls import DEACTIVATE, Announcement, Call, Kind, Link
 from microros_gen.mode_manager.hearing import (
     SILENT,
     expect,
@@ -34,6 +27,7 @@ from microros_gen.mode_manager.hearing import (
 from microros_gen.mode_manager.leaf import Leaf
 from microros_gen.mode_manager.progress import Progress
 from microros_gen.mode_manager.scope import Scope
+from microros_gen.mode_manager.settings import Settings
 from microros_gen.mode_manager.targets import spread
 from microros_gen.modes.inference import Inference
 from microros_gen.modes.manager import rule_of

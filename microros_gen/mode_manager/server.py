@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
-from microros_gen.mode_manager.calls import Link, Settings
+from microros_gen.mode_manager.calls import Link
 from microros_gen.mode_manager.diagnosis import TOPIC, TYPE, Row, array_of, read_problems, rows_of
 from microros_gen.mode_manager.links import PartLink
 from microros_gen.mode_manager.messages import values_of
@@ -16,6 +16,7 @@ from microros_gen.mode_manager.orchestrator import Orchestrator
 from microros_gen.mode_manager.problems import Problems, ProblemSource
 from microros_gen.mode_manager.scope import Scope
 from microros_gen.mode_manager.served import ServedPart
+from microros_gen.mode_manager.settings import Settings
 from microros_gen.modes.model import Model
 from microros_gen.ros.peer import Peer
 from microros_gen.ros.qos import Qos

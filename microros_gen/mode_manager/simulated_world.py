@@ -6,9 +6,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from microros_gen.mode_manager.calls import Call, Kind, Link, Settings
+from microros_gen.mode_manager.calls import Call, Kind, Link
 from microros_gen.mode_manager.orchestrator import Orchestrator
 from microros_gen.mode_manager.scope import Scope
+from microros_gen.mode_manager.settings import Settings
 from microros_gen.mode_manager.simulated_node import SimulatedNode
 from microros_gen.modes.model import Model
 

@@ -18,10 +18,10 @@ from microros_gen.mode_manager.calls import (
     Call,
     Kind,
     Link,
-    Settings,
 )
 from microros_gen.mode_manager.orchestrator import Orchestrator
 from microros_gen.mode_manager.scope import select_scope
+from microros_gen.mode_manager.settings import Settings
 from microros_gen.mode_manager.simulated_node import ANSWER_S, GOALS, PASSING, SimulatedNode
 from microros_gen.mode_manager.simulated_world import SimulatedWorld
 from microros_gen.modes.model import (

@@ -9,6 +9,7 @@ from pathlib import Path
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
 from microros_gen.documents.files import read_text, reason_of
 from microros_gen.documents.named import Named
+from microros_gen.documents.shipped import TARGETS
 from microros_gen.documents.tree_values import text_of
 from microros_gen.documents.yaml_tree import MappingNode
 from microros_gen.platform.board_file import board_facts
@@ -18,7 +19,7 @@ from microros_gen.platform.target_file import merge_target, parse_target, target
 from microros_gen.records import dataclass
 from microros_gen.selection.extension import INSTALLED, Extensions
 
-TARGETS = Path(__file__).resolve().parent.parent / "targets"
+__all__ = ["TARGETS", "FoundTarget", "builtin_targets", "read_target", "target_names"]
 
 
 @dataclass(frozen=True)

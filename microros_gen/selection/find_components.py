@@ -14,6 +14,7 @@ from types import MappingProxyType
 
 from microros_gen.diagnostics import Diagnostics, Source, nearest
 from microros_gen.documents.files import read_text
+from microros_gen.documents.shipped import COMPONENTS
 from microros_gen.selection.component import Catalogue, Component
 from microros_gen.selection.component_file import parse_component
 
@@ -32,7 +33,7 @@ _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*|\{#.*?#\}", re.DOTALL)
 
 def components_folder() -> Path:
     """Return the folder of the components that ship with the tool."""
-    return Path(__file__).resolve().parent.parent / "components"
+    return COMPONENTS
 
 
 def parts_folder() -> Path:

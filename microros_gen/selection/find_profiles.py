@@ -11,19 +11,13 @@ from types import MappingProxyType
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
 from microros_gen.documents.files import is_file, read_text
 from microros_gen.documents.named import Named
+from microros_gen.documents.shipped import profiles_folder
 from microros_gen.selection.component import Middleware, Profile, ProfileSet, in_lists
 from microros_gen.selection.extension import INSTALLED, Extensions
 from microros_gen.selection.profile_file import parse_middleware, parse_profile
 
 MIDDLEWARE_FILE = "middleware.yaml"
 _SUFFIXES = (".yaml", ".yml")
-
-
-def profiles_folder() -> Path:
-    """Return the folder of the profiles that ship with the tool: in a wheel, else in the repository."""
-    package = Path(__file__).resolve().parent.parent
-    installed = package / "profiles"
-    return installed if installed.is_dir() else package.parent / "profiles"
 
 
 def load_builtin_profiles(folder: Path | None = None) -> Mapping[str, Profile]:

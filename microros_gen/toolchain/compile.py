@@ -16,7 +16,7 @@ from microros_gen.records import dataclass
 from microros_gen.toolchain.contents import Contents
 from microros_gen.toolchain.identity import CALL_GRAPH, Identity, identify
 from microros_gen.toolchain.object_store import ObjectStore
-from microros_gen.toolchain.objects import Objects, Unit
+from microros_gen.toolchain.objects import Objects, Progress, Unit
 from microros_gen.toolchain.stamps import Stamps
 from microros_gen.toolchain.toolchain import WARNINGS, Toolchain, run
 
@@ -57,15 +57,18 @@ def compile_project(
     tools: Toolchain,
     store: ObjectStore | None = None,
     selftest: str | None = None,
+    progress: Progress | None = None,
 ) -> BuildReport:
     """Compile the sources of `project` in `out`, and link its example if possible, and the self-test to bin/`selftest`.
 
-    Objects in `store` are copied. Raises UserError with status 1 and the compiler's output when a step fails.
+    Objects in `store` are copied; `progress` is called for each that is compiled.
+
+    Raises UserError with status 1 and the compiler's output when a step fails.
     """
     sources = (out / "sources.txt").read_text(encoding="utf-8").split("\n")[:-1]
     image = None if project.lacks_image else project.image
     script = project.linker_script
-    return compile_tree(out, sources, project.example, image, tools, script, store, selftest)
+    return compile_tree(out, sources, project.example, image, tools, script, store, selftest, progress)
 
 
 def compile_tree(
@@ -77,6 +80,7 @@ def compile_tree(
     script: str | None = None,
     store: ObjectStore | None = None,
     selftest: str | None = None,
+    progress: Progress | None = None,
 ) -> BuildReport:
     """Compile `sources` (relative paths) to lib/libmicroros.a, and `example` with it to bin/`image`.
 
@@ -94,7 +98,7 @@ def compile_tree(
     contents = Contents(out)
     stamps = Stamps(out, out / OBJECTS / "stamps.json", contents)
     stale = [unit for unit in units if not stamps.is_fresh(unit.object, unit.identity)]
-    objects = Objects(out, contents, stamps, store)
+    objects = Objects(out, contents, stamps, store, progress)
     try:
         missing = objects.copy(stale)
         objects.compile(missing)

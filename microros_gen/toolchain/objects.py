@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
 from pathlib import Path
@@ -16,6 +16,9 @@ from microros_gen.toolchain.contents import Contents, joined
 from microros_gen.toolchain.object_store import Found, ObjectStore
 from microros_gen.toolchain.stamps import Stamps
 from microros_gen.toolchain.toolchain import run
+
+Progress = Callable[[int, int, str], None]
+"""Is called with the number of compiled sources, the number of all, and the path of the last one."""
 
 ENDINGS = (".o", ".d", ".ci")
 """What a compilation makes: the object, the files that it read, and the call graph (gcc)."""
@@ -49,12 +52,20 @@ class Unit:
 class Objects:
     """The objects of the output folder `out`; without a store each is compiled."""
 
-    def __init__(self, out: Path, contents: Contents, stamps: Stamps, store: ObjectStore | None) -> None:
-        """Prepare to create objects in `out`."""
+    def __init__(
+        self,
+        out: Path,
+        contents: Contents,
+        stamps: Stamps,
+        store: ObjectStore | None,
+        progress: Progress | None = None,
+    ) -> None:
+        """Prepare to create objects in `out`; `progress` is told of each that was compiled."""
         self._out = out
         self._contents = contents
         self._stamps = stamps
         self._store = store
+        self._progress = progress
         self._timed: dict[str, bool] = {}
 
     def copy(self, units: Sequence[Unit]) -> list[Unit]:
@@ -68,7 +79,9 @@ class Objects:
         failed = []
         with ThreadPoolExecutor(max_workers=(os.cpu_count() or 1) + _WAITING) as pool:
             results = pool.map(lambda unit: run(unit.command, self._out), units)
-            for unit, result in zip(units, results, strict=True):
+            for done, (unit, result) in enumerate(zip(units, results, strict=True), start=1):
+                if self._progress is not None:
+                    self._progress(done, len(units), unit.source)
                 if result.returncode == 0:
                     self._keep(unit)
                 else:

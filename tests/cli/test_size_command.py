@@ -65,7 +65,7 @@ def report(built: Path, tmp_path_factory: pytest.TempPathFactory) -> Any:
 def measured_once() -> Iterator[None]:
     """Let `explain` of a folder and an image that stay as they are find what was measured of them before."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("microros_gen.cli.explain.measure", cache(measure))
+        patch.setattr("microros_gen.image.report.measure", cache(measure))
         yield
 
 

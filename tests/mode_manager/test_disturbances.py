@@ -7,7 +7,8 @@ import random
 
 import pytest
 
-from microros_gen.mode_manager.calls import Call, Kind, Link, Settings
+from microros_gen.mode_manager.calls import Call, Kind, Link
+from microros_gen.mode_manager.settings import Settings
 from microros_gen.modes.model import active
 from tests.support.mode_manager.world import Node, World
 from tests.support.modes.models import changed, model_of, model_text

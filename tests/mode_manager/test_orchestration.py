@@ -6,8 +6,9 @@ from __future__ import annotations
 import pytest
 
 from microros_gen.diagnostics import UserError
-from microros_gen.mode_manager.calls import Call, Kind, Link, Settings, Topic
+from microros_gen.mode_manager.calls import Call, Kind, Link, Topic
 from microros_gen.mode_manager.scope import select_scope
+from microros_gen.mode_manager.settings import Settings
 from microros_gen.modes import Status
 from microros_gen.modes.model import active
 from tests.support.mode_manager.world import Node, World

@@ -12,9 +12,10 @@ from typing import Any
 import pytest
 
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.mode_manager.calls import Call, Settings
+from microros_gen.mode_manager.calls import Call
 from microros_gen.mode_manager.scope import select_scope
 from microros_gen.mode_manager.server import ModeManager
+from microros_gen.mode_manager.settings import Settings
 from microros_gen.mode_manager.simulated_node import PASSING
 from microros_gen.mode_manager.simulation import CALL, EVENT, LOG, STATUS, Step, Trace, simulate
 from microros_gen.modes import Event, Model

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.mode_manager.calls import Settings
+from microros_gen.mode_manager.settings import Settings
 from microros_gen.mode_manager.simulation import simulate
 from microros_gen.modes import Manager, Model, Status
 from microros_gen.modes.script import parse_script

@@ -10,11 +10,11 @@ import pytest
 
 from microros_gen.diagnostics import Diagnostics, Source, UserError
 from microros_gen.documents.named import Named
+from microros_gen.documents.shipped import profiles_folder
 from microros_gen.selection.find_profiles import (
     load_builtin_profiles,
     load_middleware,
     load_profiles,
-    profiles_folder,
 )
 from microros_gen.selection.profile_file import parse_middleware, parse_profile
 from microros_gen.selection.profiles import resolve_profiles
@@ -228,8 +228,8 @@ def test_profiles_are_found_in_a_wheel(tmp_path: Path, monkeypatch: pytest.Monke
     installed = tmp_path / "microros_gen" / "profiles"
     installed.mkdir(parents=True)
     (tmp_path / "profiles").mkdir()
-    module = tmp_path / "microros_gen" / "selection" / "find_profiles.py"
-    monkeypatch.setattr("microros_gen.selection.find_profiles.__file__", str(module))
+    module = tmp_path / "microros_gen"
+    monkeypatch.setattr("microros_gen.documents.shipped._PACKAGE", module.resolve())
     assert profiles_folder() == installed.resolve()
     installed.rmdir()
     assert profiles_folder() == (tmp_path / "profiles").resolve()

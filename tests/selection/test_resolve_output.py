@@ -14,7 +14,7 @@ import pytest
 from click.testing import CliRunner
 
 from microros_gen.cli.main import cli
-from microros_gen.cli.profiles import select_profile
+from microros_gen.cli.profile_lists import select_profile
 from microros_gen.cli.tables import format_selection, selection_data
 from microros_gen.selection.component import Catalogue
 from microros_gen.selection.model import Selection

@@ -108,6 +108,7 @@ class Terminal:
             "PYTHONPATH": str(ROOT),
             "PYTHONUNBUFFERED": "1",
             "CFLAGS": "-O0",  # of the host's compiler: it takes half of the time
+            "HOME": str(folder),
             "XDG_CACHE_HOME": str(folder / ".cache"),
             "MICROROS_GEN_OBJECTS": "",  # pages show how many objects are compiled the first time
             "microros_gen_DIR": str(ROOT / "cmake"),

@@ -18,7 +18,6 @@ from microros_gen.agent.configuration.model import (
 from microros_gen.agent.transport.sockets import PROTOCOLS, Protocol
 from microros_gen.agent.transport.tcp import TcpLimits
 from microros_gen.cli.agent.options import AgentOptions, common_options
-from microros_gen.cli.agent.start import serve
 from microros_gen.diagnostics import nearest
 from microros_gen.records import dataclass
 
@@ -80,6 +79,8 @@ def command(**common: Any) -> None:
 @command.result_callback()
 def _start(parts: list[_Part], **common: Any) -> None:
     transports = tuple(choice for part in parts for choice in part.transports)
+    from microros_gen.cli.agent.start import serve
+
     serve(AgentOptions.of([common, *(part.common for part in parts)], transports))
 
 

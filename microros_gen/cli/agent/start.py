@@ -12,8 +12,6 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
-import click
-
 from microros_gen.agent.budgets import Budgets, most_bytes, most_descriptors
 from microros_gen.agent.configuration.entities_file import parse_preconfigured
 from microros_gen.agent.configuration.model import (
@@ -45,6 +43,7 @@ from microros_gen.cli.agent.graph import graph_server
 from microros_gen.cli.agent.options import AgentOptions, read_sources
 from microros_gen.cli.agent.parameters import ParametersOnDemand
 from microros_gen.cli.agent.types import ClientTypes, HashOf, TypeHashes, read_manifests
+from microros_gen.cli.terminal import echo_found
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
 from microros_gen.interfaces.type_hashes import type_hashes
 from microros_gen.records import dataclass
@@ -277,7 +276,7 @@ def _files(options: AgentOptions) -> _Files:
         diagnostics.extend(error.diagnostics)
     diagnostics.check()
     for diagnostic in diagnostics:  # warnings
-        click.echo(diagnostic.render(), err=True)
+        echo_found(f"{diagnostic.render()}\n")
     return _Files(references, preconfigured, clients, TypeHashes(of_files, clients.common))
 
 

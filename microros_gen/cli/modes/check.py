@@ -9,8 +9,8 @@ import click
 
 from microros_gen.cli.modes.options import model_argument
 from microros_gen.cli.options import format_option, json_text
+from microros_gen.cli.terminal import echo_found
 from microros_gen.modes.stability import MOST_COMBINATIONS
-from microros_gen.modes.verification import check
 
 
 @click.command()
@@ -44,11 +44,13 @@ def check_command(model: Path, applications: tuple[Path, ...], limit: int, kind:
     microros-gen modes check robot.yaml
     microros-gen modes check robot.yaml --application arm/microros.yaml --application base/microros.yaml
     """
+    from microros_gen.modes.verification import check
+
     report = check(model, applications, limit)
     if kind == "json":
         click.echo(json_text(report.data()), nl=False)
         return report.exit_status
     click.echo(report.text(), nl=False)
     for diagnostic in report.diagnostics:
-        click.echo(diagnostic.render(), err=True)
+        echo_found(f"{diagnostic.render()}\n")
     return report.exit_status

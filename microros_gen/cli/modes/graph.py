@@ -8,8 +8,6 @@ from pathlib import Path
 import click
 
 from microros_gen.cli.modes.options import model_argument
-from microros_gen.modes.picture import draw
-from microros_gen.modes.reader import read_model
 
 
 @click.command()
@@ -27,6 +25,9 @@ def graph_command(model: Path, output: Path | None) -> None:
     \b
     microros-gen modes graph robot.yaml -o robot.svg
     """
+    from microros_gen.modes.picture import draw
+    from microros_gen.modes.reader import read_model
+
     picture = draw(read_model(model))
     if output is None:
         click.echo(picture, nl=False)

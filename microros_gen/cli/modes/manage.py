@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from microros_gen.agent.server import stopped_by_signals
 from microros_gen.cli.modes.options import (
     domain_option,
     model_argument,
@@ -15,11 +15,10 @@ from microros_gen.cli.modes.options import (
     reconfigure_option,
     timeout_option,
 )
-from microros_gen.mode_manager.calls import Settings
-from microros_gen.mode_manager.scope import Scope, select_nodes, select_scope
-from microros_gen.mode_manager.server import ModeManager
-from microros_gen.mode_manager.turns import ManagerInTurn
-from microros_gen.modes.reader import read_model
+from microros_gen.mode_manager.settings import Settings
+
+if TYPE_CHECKING:
+    from microros_gen.mode_manager.scope import Scope
 
 
 @click.command()
@@ -62,6 +61,12 @@ def manage_command(
     Prints 'mode manager ready: PARTS' on stdout, and failures, rules and changes by others on stderr. SIGINT and
     SIGTERM end it with status 0.
     """
+    from microros_gen.agent.server import stopped_by_signals
+    from microros_gen.mode_manager.scope import select_nodes, select_scope
+    from microros_gen.mode_manager.server import ModeManager
+    from microros_gen.mode_manager.turns import ManagerInTurn
+    from microros_gen.modes.reader import read_model
+
     system = read_model(model)
     scope = select_scope(system, roots, without)
     settings = Settings(call_s=timeout, reconfigured=select_nodes(system, scope, reconfigure))

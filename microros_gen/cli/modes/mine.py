@@ -6,7 +6,6 @@ from __future__ import annotations
 import click
 
 from microros_gen.cli.modes.options import domain_option, modes_peer
-from microros_gen.mode_manager.leaflet import mine
 
 
 @click.command()
@@ -28,6 +27,8 @@ def mine_command(nodes: tuple[str, ...], timeout: float, domain: int | None) -> 
     \b
     microros-gen modes mine /gripper /left/wheel
     """
+    from microros_gen.mode_manager.leaflet import mine
+
     with modes_peer("mode_miner", domain) as peer:
         for node in nodes:
             lines = mine(peer, node, timeout, lambda line: click.echo(f"warning: {line}", err=True))

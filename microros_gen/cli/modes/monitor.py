@@ -8,16 +8,15 @@ import sys
 import time
 from contextlib import ExitStack
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from microros_gen.agent.server import stopped_by_signals
 from microros_gen.cli.modes.options import domain_option, model_argument, modes_peer
 from microros_gen.cli.options import format_option, json_text
-from microros_gen.mode_manager.diagnosis import OK
-from microros_gen.mode_manager.monitor import Monitor, Overview
-from microros_gen.mode_manager.page import check_place, served_page
-from microros_gen.modes.reader import read_model
+
+if TYPE_CHECKING:
+    from microros_gen.mode_manager.monitor import Monitor, Overview
 
 _CLEAR = "\x1b[2J\x1b[H"
 
@@ -57,6 +56,12 @@ def monitor_command(
     microros-gen modes monitor robot.yaml --once --format json
     microros-gen modes monitor robot.yaml --page 127.0.0.1:8080
     """
+    from microros_gen.agent.server import stopped_by_signals
+    from microros_gen.mode_manager.diagnosis import OK
+    from microros_gen.mode_manager.monitor import Monitor
+    from microros_gen.mode_manager.page import check_place, served_page
+    from microros_gen.modes.reader import read_model
+
     system = read_model(model)
     if page is not None:
         check_place(page)

@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from microros_gen.cli.ros_node import node_of
 from microros_gen.diagnostics import Diagnostic
-from microros_gen.mode_manager.calls import Settings
-from microros_gen.ros.peer import Peer
+from microros_gen.mode_manager.settings import Settings
+
+if TYPE_CHECKING:
+    from microros_gen.ros.peer import Peer
 
 model_argument = click.argument("model", metavar="SYSTEM.yaml", type=click.Path(path_type=Path))
 
@@ -39,6 +41,8 @@ domain_option = click.option(
 
 def modes_peer(name: str, domain: int | None) -> Peer:
     """Return a node; UserError without a usable ROS 2."""
+    from microros_gen.cli.ros_node import node_of
+
     return node_of(
         name,
         domain,

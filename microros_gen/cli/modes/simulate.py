@@ -13,11 +13,7 @@ from microros_gen.cli.modes.options import (
     timeout_option,
 )
 from microros_gen.cli.options import format_option, json_text
-from microros_gen.mode_manager.calls import Settings
-from microros_gen.mode_manager.scope import select_nodes, select_scope
-from microros_gen.mode_manager.simulation import simulate
-from microros_gen.modes.reader import read_model
-from microros_gen.modes.script import read_script
+from microros_gen.mode_manager.settings import Settings
 
 
 @click.command()
@@ -48,6 +44,11 @@ def simulate_command(
     \b
     microros-gen modes simulate robot.yaml faults.yaml
     """
+    from microros_gen.mode_manager.scope import select_nodes, select_scope
+    from microros_gen.mode_manager.simulation import simulate
+    from microros_gen.modes.reader import read_model
+    from microros_gen.modes.script import read_script
+
     system = read_model(model)
     scope = select_scope(system)
     settings = Settings(call_s=timeout, reconfigured=select_nodes(system, scope, reconfigure))

@@ -7,12 +7,7 @@ from pathlib import Path
 
 import click
 
-from microros_gen.cli.budgets import check_recorded
 from microros_gen.cli.options import check_map, file_option, image_option, map_option, write_result
-from microros_gen.cli.size.format import size_json, size_table
-from microros_gen.cli.stacks import check_stacks
-from microros_gen.image.folder import read_folder
-from microros_gen.image.report import check_budgets, measure_folder
 
 
 @click.command()
@@ -62,6 +57,12 @@ def command(
     microros-gen size build/pure_sender --format json | jq .totals
     """
     check_map(image, linker_map)
+    from microros_gen.cli.budgets import check_recorded
+    from microros_gen.cli.size.format import size_json, size_table
+    from microros_gen.cli.stacks import check_stacks
+    from microros_gen.image.folder import read_folder
+    from microros_gen.image.report import check_budgets, measure_folder
+
     folder = read_folder(out, image, linker_map)
     if check:
         check_recorded(folder)

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from microros_gen.mode_manager.calls import COMMANDS, Announcement, Call, Settings, Topic
+from microros_gen.mode_manager.calls import COMMANDS, Announcement, Call, Topic
 from microros_gen.mode_manager.scope import select_scope
+from microros_gen.mode_manager.settings import Settings
 from microros_gen.mode_manager.simulated_node import SimulatedNode as Node
 from microros_gen.mode_manager.simulated_world import SimulatedWorld
 from microros_gen.modes import Model, Status
