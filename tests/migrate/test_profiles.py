@@ -20,6 +20,7 @@ from tests.support.migrate.proposals import Init, application_in, entities_of
 pytestmark = pytest.mark.builds
 
 FILES = {
+    "microros.schema.json",
     "microros.yaml",
     "main.c",
     "README.md",
