@@ -108,7 +108,7 @@ def on_post_build(config: MkDocsConfig) -> None:
     """Write the index of the search as a script, too: a page opened from disk may load no other file."""
     folder = Path(config.site_dir) / "search"
     index = (folder / "search_index.json").read_text(encoding="utf-8")
-    (folder / "search_index.js").write_text(f"var __index = {index}", encoding="utf-8")
+    (folder / "search_index.js").write_text(f"var __index = {index}", encoding="utf-8", newline="\n")
 
 
 def _origin(path: str) -> str:

@@ -61,7 +61,7 @@ def _sources(files: str) -> str:
     ready = [c.name for c in found if c.ready and c.layer == "micro-ROS"]
     text = _APPLICATION.format(components=", ".join(f"+{name}" for name in ready))
     with tempfile.TemporaryDirectory() as folder:
-        Path(folder, "microros.yaml").write_text(text, encoding="utf-8")
+        Path(folder, "microros.yaml").write_text(text, encoding="utf-8", newline="\n")
         command = [sys.executable, "-m", "microros_gen", "generate", "-c", f"{folder}/microros.yaml"]
         done = subprocess.run([*command, "-o", f"{folder}/out"], capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr

@@ -36,6 +36,7 @@ _COMMANDS = {
     "interfaces": "List packages and types, or show one of them.",
     "targets": "List the targets, or show one of them.",
     "init": "Write a new application folder, from a profile or from existing sources.",
+    "doctor": "Show what this machine lacks for each way to build and run, and how to get it.",
     "schema": "List the JSON Schemas of the YAML files for editors, or print one of them.",
     "completion": "Print the script with which a shell completes commands, options and names.",
     "run": "Start a built image together with an agent.",

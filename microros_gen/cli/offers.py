@@ -66,6 +66,11 @@ def schema_names(ctx: click.Context, param: click.Parameter, incomplete: str) ->
     return _offered(schema_files(), incomplete)
 
 
+def ways(ctx: click.Context, param: click.Parameter, incomplete: str) -> Items:
+    """Offer the ways to build and run that `doctor` checks."""
+    return [*target_names(ctx, param, incomplete), *_offered(("agent", "cmake", "colcon"), incomplete)]
+
+
 def output_or_id(ctx: click.Context, param: click.Parameter, incomplete: str) -> Items:
     """Offer ids of diagnostics where the text begins like one, else folders."""
     if incomplete[:2].upper() == "MG":

@@ -58,7 +58,9 @@ class Generator:
             origins = dict(_staged(str(file), package) for file in interface_files)
             config = Path(temporary) / "microros.yaml"
             names = ", ".join(sorted({f"{package_name}/{p.parent.name}/{p.stem}" for p in origins}))
-            config.write_text(_APPLICATION.format(interfaces=names, **self._limits), encoding="utf-8")
+            config.write_text(
+                _APPLICATION.format(interfaces=names, **self._limits), encoding="utf-8", newline="\n"
+            )
             paths = (package, *(Path(path) for path in include_paths))
             try:
                 generated = compiler.generate(

@@ -91,7 +91,7 @@ def store_advice(folder: Folder, advice: Iterable[Advice]) -> None:
     """Keep what `build` planned, for `size`."""
     data = {"plan": folder.manifest["plan"], "advice": [asdict(a) for a in advice]}
     (folder.path / ADVICE).parent.mkdir(exist_ok=True)
-    (folder.path / ADVICE).write_text(json.dumps(data, sort_keys=True), encoding="utf-8")
+    (folder.path / ADVICE).write_text(json.dumps(data, sort_keys=True), encoding="utf-8", newline="\n")
 
 
 def planned_advice(folder: Folder) -> tuple[Advice, ...]:

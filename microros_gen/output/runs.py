@@ -81,7 +81,7 @@ def record_run(
     with suppress(OSError):
         path.parent.mkdir(parents=True, exist_ok=True)
         temporary = path.with_suffix(f".{os.getpid()}.tmp")
-        temporary.write_text(json.dumps(data), encoding="utf-8")
+        temporary.write_text(json.dumps(data), encoding="utf-8", newline="\n")
         temporary.replace(path)
 
 

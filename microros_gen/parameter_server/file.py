@@ -87,7 +87,7 @@ class ParameterFile:
         """Write the nodes. Raises OSError; the file of before is there then."""
         tree = {"format": FORMAT, "version": VERSION, "nodes": {node.name: _entry(node) for node in nodes}}
         temporary = self.path.with_name(f"{self.path.name}.new")
-        with temporary.open("w", encoding="utf-8") as stream:
+        with temporary.open("w", encoding="utf-8", newline="\n") as stream:
             json.dump(tree, stream, indent=1, ensure_ascii=False)
             stream.write("\n")
             stream.flush()

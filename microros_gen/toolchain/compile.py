@@ -146,7 +146,7 @@ def _unit(source: str, tools: Toolchain, identity: Identity) -> Unit:
 def _record(out: Path, tools: Toolchain, identity: Identity) -> None:
     """Write which tools built this folder, for `size` and `explain`."""
     data = {"compiler": tools.compiler, "archiver": tools.archiver, "call_graph": identity.call_graph}
-    (out / TOOLS).write_text(json.dumps(data, sort_keys=True), encoding="utf-8")
+    (out / TOOLS).write_text(json.dumps(data, sort_keys=True), encoding="utf-8", newline="\n")
 
 
 def _archive(out: Path, objects: Sequence[str], tools: Toolchain) -> None:
@@ -184,7 +184,7 @@ class _Linker:
 
     def record(self) -> None:
         """Write which linker script the images have; after all of them."""
-        (self.out / SCRIPT_STAMP).write_text(self._digest(), encoding="utf-8")
+        (self.out / SCRIPT_STAMP).write_text(self._digest(), encoding="utf-8", newline="\n")
 
     def _link(self, image: str, objects: Sequence[str], linker_map: str) -> None:
         (self.out / image).parent.mkdir(parents=True, exist_ok=True)

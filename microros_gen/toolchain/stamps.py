@@ -45,7 +45,7 @@ class Stamps:
         """Write the stamps of these objects."""
         kept = {name: self._stamps[name] for name in names if name in self._stamps}
         self._path.parent.mkdir(parents=True, exist_ok=True)
-        self._path.write_text(json.dumps(kept, sort_keys=True), encoding="utf-8")
+        self._path.write_text(json.dumps(kept, sort_keys=True), encoding="utf-8", newline="\n")
 
     def _digest(self, command: str, files: list[str]) -> str:
         return joined([command, self._contents.of_files(files)])

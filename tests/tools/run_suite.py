@@ -122,7 +122,7 @@ def _bytes_of_tests(folder: Path) -> int:
 def failed_tests(cache: Path) -> tuple[str, ...]:
     """Return the tests of pytest's cache that have failed, sorted."""
     path = cache / "v" / "cache" / "lastfailed"
-    return tuple(sorted(json.loads(path.read_text("utf-8")))) if path.is_file() else ()
+    return tuple(sorted(json.loads(path.read_text(encoding="utf-8")))) if path.is_file() else ()
 
 
 def carry_out(run: Run, options: Sequence[str], root: Path = ROOT) -> int:
