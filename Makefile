@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# make demo | test | quick | system | check | lint | misra | proof | bench | golden | footprint | docs. Each sets up its own virtual environment in .venv first.
+# make demo | test | quick | system | check | lint | misra | proof | bench | golden | footprint | docs | release. Each sets up its own virtual environment in .venv first.
 
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test quick system check lint misra proof bench golden footprint docs clean
+.PHONY: demo test quick system check lint misra proof bench golden footprint docs release clean
 
 demo: $(VENV)/ros.stamp
 	@$(BIN)/python examples/demo/demo.py
@@ -50,6 +50,9 @@ footprint: $(VENV)/dev.stamp
 docs: $(VENV)/dev.stamp
 	@NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict
 	@echo "build/site/index.html"
+
+release: $(VENV)/dev.stamp
+	@$(BIN)/python -m tests.tools.release
 
 $(VENV)/bin/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10))' \

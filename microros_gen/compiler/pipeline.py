@@ -57,6 +57,7 @@ from microros_gen.selection.profile_nodes import with_profile_nodes
 from microros_gen.selection.profiles import resolve_profiles
 from microros_gen.selection.resolve import check_ready, resolve_selection
 from microros_gen.typesupport.plan.capacity import Capacities, Defaults, Entity, Root, plan_capacities
+from microros_gen.typesupport.plan.file_names import check_file_names
 from microros_gen.typesupport.plan.layout import models_of
 from microros_gen.typesupport.plan.types import plan_types
 
@@ -178,6 +179,7 @@ def _planned(resolved: Resolved, diagnostics: Diagnostics) -> Planned:
     spans = {request.near / path.name: path.span for path in application.interface_paths}
     finder.check_paths(diagnostics, spans)
     interfaces = _interfaces(resolved, finder, diagnostics)
+    check_file_names(interfaces, diagnostics)
     capacities = _capacities(resolved, interfaces, diagnostics)
     diagnostics.check()
     received = _received(application, selection, capacities)

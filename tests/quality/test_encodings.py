@@ -35,9 +35,9 @@ def _text_mode(call: ast.Call) -> str | None:
         return "r" if owner else None  # documents.files.read_text is UTF-8
     if owner in ("os", "Lark", "tarfile", "zipfile", "webbrowser"):
         return None
-    values = [a.value for a in call.args if isinstance(a, ast.Constant) and isinstance(a.value, str)]
-    values += [k.value.value for k in call.keywords if k.arg == "mode" and isinstance(k.value, ast.Constant)]
-    modes = [str(v) for v in values if set(str(v)) <= set("rwxabt+")]
+    arguments = [*call.args, *(k.value for k in call.keywords if k.arg == "mode")]
+    values = [str(node.value) for node in arguments if isinstance(node, ast.Constant)]
+    modes = [value for value in values if set(value) <= set("rwxabt+")]
     if not modes and not owner:
         return "r"
     return None if any("b" in m for m in modes) or not (modes or call.keywords) else (modes or ["r"])[0]
@@ -66,8 +66,8 @@ def test_the_check_finds_what_it_looks_for() -> None:
     }
     for text, expected in bad.items():
         assert [what for _, what in faults(text)] == expected, text
-    good = ("read_text(p)", "p.read_text(encoding='utf-8')", "open(p, 'rb')", "p.open('ab', buffering=0)")
-    good += ("os.open(p, os.O_RDWR)", "self.open()", "p.write_text(x, encoding='u', newline='\\n')")
+    good = ["read_text(p)", "p.read_text(encoding='utf-8')", "open(p, 'rb')", "p.open('ab', buffering=0)"]
+    good += ["os.open(p, os.O_RDWR)", "self.open()", "p.write_text(x, encoding='u', newline='\\n')"]
     for text in good:
         assert list(faults(text)) == [], text
 

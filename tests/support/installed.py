@@ -31,16 +31,21 @@ class Installed:
         )
 
 
-def install_wheel(base: Path) -> Installed:
-    """Build the wheel in a copy of what it is made from, and install it into an environment below `base`."""
-    source = base / "clone"
-    source.mkdir()
+def copy_of_sources(folder: Path) -> None:
+    """Make `folder` and copy what the wheel is made from into it."""
+    folder.mkdir()
     for name in SOURCES:
         path = ROOT / name
         if path.is_dir():
-            shutil.copytree(path, source / name, ignore=shutil.ignore_patterns("__pycache__"))
+            shutil.copytree(path, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
         else:
-            shutil.copy(path, source / name)
+            shutil.copy(path, folder / name)
+
+
+def install_wheel(base: Path) -> Installed:
+    """Build the wheel in a copy of what it is made from, and install it into an environment below `base`."""
+    source = base / "clone"
+    copy_of_sources(source)
     wheel = [sys.executable, "-m", "pip", "wheel", "-q", "--disable-pip-version-check", "--no-deps"]
     result = subprocess.run(
         [*wheel, "-w", str(base), str(source)], text=True, capture_output=True, check=False
@@ -49,8 +54,13 @@ def install_wheel(base: Path) -> Installed:
     (path,) = base.glob("microros_gen-*.whl")
     shutil.rmtree(source)
     environment_with_dependencies(base / "environment")
-    subprocess.run(install(base / "environment", ["--no-deps", str(path)]), env=clean_environ(), check=True)
+    install_file(base / "environment", path)
     return Installed(path, base / "environment" / "bin" / "microros-gen")
+
+
+def install_file(environment: Path, wheel: Path) -> None:
+    """Install a wheel, and nothing that it needs."""
+    subprocess.run(install(environment, ["--no-deps", str(wheel)]), env=clean_environ(), check=True)
 
 
 def environment_with_dependencies(folder: Path) -> None:

@@ -16,7 +16,7 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as folder:
         wanted = files(exchanges(Path(folder)))
     for name, text in wanted.items():
-        (GOLDEN / name).write_text(text, encoding="utf-8")
+        (GOLDEN / name).write_text(text, encoding="utf-8", newline="\n")
     for path in GOLDEN.glob("*.txt"):
         if path.name not in wanted:
             path.unlink()
