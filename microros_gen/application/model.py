@@ -44,6 +44,9 @@ DISCOVERY_PORT = 7400
 LARGEST_UDP_PAYLOAD = 65_507
 """Bytes that fit one UDP datagram over IPv4 (RFC 768, RFC 791)."""
 
+DISTRIBUTIONS = ("jazzy", "kilted")
+"""Distributions of ROS 2 whose interfaces are included; application.schema.json says it too."""
+
 MOST_HISTORY = 16
 """Most messages that a reliable stream keeps; application.schema.json says it too."""
 
@@ -348,7 +351,7 @@ class Application:
     core there.
     """
 
-    distro: str = "jazzy"
+    distro: str = DISTRIBUTIONS[0]
     profiles: tuple[Named, ...] = ()
     components: tuple[ComponentChange, ...] = ()
     entities: Named | None = None

@@ -29,6 +29,7 @@ from microros_gen.client.plan.service_limits import service_roots
 from microros_gen.client.plan.stream_budget import check_stream_budget
 from microros_gen.client.plan.streams import WRITE_DATA_OVERHEAD
 from microros_gen.client.plan.transport_sizes import DEFAULT_MTU
+from microros_gen.compiler.distribution import check_distribution
 from microros_gen.compiler.request import Request
 from microros_gen.diagnostics import Diagnostic, Diagnostics
 from microros_gen.documents.named import Named
@@ -180,6 +181,7 @@ def _planned(resolved: Resolved, diagnostics: Diagnostics) -> Planned:
     finder.check_paths(diagnostics, spans)
     interfaces = _interfaces(resolved, finder, diagnostics)
     check_file_names(interfaces, diagnostics)
+    check_distribution(application, interfaces, os.environ, diagnostics)
     capacities = _capacities(resolved, interfaces, diagnostics)
     diagnostics.check()
     received = _received(application, selection, capacities)

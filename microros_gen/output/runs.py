@@ -21,8 +21,8 @@ import microros_gen
 from microros_gen.documents.files import read_json
 from microros_gen.records import dataclass
 
-# What decides besides files: where interfaces are searched, and which Python's packages.
-_ENVIRONMENT = ("AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH")
+# What decides besides files: where interfaces are searched, and of which distribution they are.
+_ENVIRONMENT = ("AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH", "ROS_DISTRO")
 _MISSING = [-1, -1, -1]
 # File systems stamp files with the time of the last tick of the kernel: up to 10 ms old.
 _CLOCK_STEP_NS = 10_000_000

@@ -21,7 +21,20 @@ def load_rclpy() -> Any:
     )  # to load rclpy with a wrong one may exit
     handles = import_rclpy()
     _check_implementation(handles.rclpy_get_rmw_implementation_identifier())
+    _check_distribution(handles)
     return handles
+
+
+def _check_distribution(handles: Any) -> None:
+    """Refuse rclpy of Kilted and later: with its DDS, endpoints of types that are made at run time get no samples.
+
+    Its constructor of nodes has a seventh argument, the QoS of /rosout (rclpy 9), which tells it from that of Jazzy.
+    """
+    if "arg6" in (handles.Node.__init__.__doc__ or ""):
+        raise RosUnusableError(
+            "needs ROS 2 Jazzy, and this ROS 2 is a later one",
+            f"Run: {INSTALL} in another environment; nodes of Kilted receive its samples all the same",
+        )
 
 
 def import_rclpy() -> Any:

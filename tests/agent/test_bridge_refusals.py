@@ -46,6 +46,22 @@ def test_the_implementation_that_was_loaded_counts(monkeypatch: pytest.MonkeyPat
         rclpy_bridge.open_bridge(1)
 
 
+def test_a_later_distribution_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """rclpy of Kilted, as its wheel describes the constructor; with it no sample would be exchanged."""
+
+    class Node:
+        def __init__(self) -> None:
+            """__init__(self: Node, arg0: str, arg1: str, arg2: Context, arg3: object, arg4: bool, arg5: bool, arg6: object)"""  # noqa: E501
+
+    class Handles:
+        rclpy_get_rmw_implementation_identifier = staticmethod(lambda: "rmw_fastrtps_cpp")
+
+    Handles.Node = Node  # type: ignore[attr-defined]
+    monkeypatch.setattr(loading, "import_rclpy", lambda: Handles)
+    with pytest.raises(UserError, match="needs ROS 2 Jazzy, and this ROS 2 is a later one"):
+        rclpy_bridge.open_bridge(1)
+
+
 def test_what_is_missing_in_ros_2_is_reported_as_unusable_by_the_agent(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

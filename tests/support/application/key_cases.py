@@ -215,7 +215,12 @@ _TOP = {
         "version: 1", lambda a: a.distro, "jazzy", "version: 2", "1:10", "'version' must be 1; it is 2"
     ),
     "distro": KeyCase(
-        "distro: jazzy", lambda a: a.distro, "jazzy", "distro: humble", "1:9", "'distro' must be jazzy"
+        "distro: kilted",
+        lambda a: a.distro,
+        "kilted",
+        "distro: humble",
+        "1:9",
+        "'distro' must be jazzy or kilted",
     ),
     "profiles": KeyCase(
         "profiles: [pure_sender, own.yaml]",
