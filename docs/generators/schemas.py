@@ -135,4 +135,6 @@ def _said(value: Schema, found: Schema) -> str:
     if "default" in found and "Default:" not in words[0]:
         default = found["default"]
         words.append(f"Default: {str(default).lower() if isinstance(default, bool) else default}")
+    if value.get("deprecated") or found.get("deprecated"):
+        words.append(f"Deprecated: {found.get('deprecationMessage', '')}")
     return ". ".join(str(word).rstrip(".") for word in words if word) + ("." if words[0] else "")

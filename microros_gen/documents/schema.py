@@ -3,7 +3,8 @@
 
 Each schema is a file next to the parser that uses it, for editors too. Keywords of this project in them, which
 other tools take as annotations: `x-expects` (what a value must be, in words), `x-keys` (what keys must be),
-`x-reserved` (what a key is kept for), `x-format` (for hints).
+`x-reserved` (what a key is kept for), `x-format` (for hints). A key with `deprecated: true` works and gives a warning
+with the hint `deprecationMessage`, which editors show, too.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from pathlib import Path
 from typing import cast
 
 from microros_gen.diagnostics import Diagnostics, Source, Span
-from microros_gen.documents.schema_check import Difference, Schema, differences
+from microros_gen.documents.schema_check import Difference, Schema, deprecated_parts, differences
 from microros_gen.documents.schema_words import describe_mismatch, describe_unknown_key, key_without_space
 from microros_gen.documents.yaml_tree import MappingNode, SequenceNode, YamlNode, to_data
 
@@ -36,9 +37,11 @@ def validate(tree: YamlNode | None, source: Source, schema: Schema, diagnostics:
     if tree is None:
         diagnostics.error("the file is empty", Span(source, 1, 1), "Write `key: value` lines", id="MG-1001")
         return
-    found = Diagnostics()
-    for difference in differences(to_data(tree), schema):
+    found, data = Diagnostics(), to_data(tree)
+    for difference in differences(data, schema):
         _report(tree, difference, found)
+    for part in deprecated_parts(data, schema):
+        _warn_of_deprecated(tree, part, found)
     diagnostics.extend(sorted(found, key=lambda d: (d.span.line, d.span.column) if d.span else (0, 0)))
 
 
@@ -69,6 +72,12 @@ def _report(tree: YamlNode, difference: Difference, diagnostics: Diagnostics) ->
     else:
         message, hint = describe_mismatch(node, label, schema)
         diagnostics.error(message, node.span, hint, id="MG-1005")
+
+
+def _warn_of_deprecated(tree: YamlNode, part: Difference, diagnostics: Diagnostics) -> None:
+    path = list(part.path)
+    message = f"'{path_label(path)}' is deprecated and will be removed"
+    diagnostics.warning(message, _key_span(tree, path), part.schema["deprecationMessage"], id="MG-9244")
 
 
 def path_label(path: list[str | int]) -> str:

@@ -32,6 +32,11 @@ def differences(data: Any, schema: Schema) -> Iterator[Difference]:
     return _Checker(schema).check(data, schema, ())
 
 
+def deprecated_parts(data: Any, schema: Schema) -> Iterator[Difference]:
+    """Yield each part of `data` whose schema says `deprecated: true`; alternatives (`anyOf`) are not searched."""
+    return _Checker(schema).deprecated(data, schema, ())
+
+
 class _Checker:
     """Checks data against the parts of one schema."""
 
@@ -59,6 +64,15 @@ class _Checker:
             else:
                 for step, part in self._parts(keyword, wanted, data, schema):
                     yield from self.check(part[0], part[1], (*path, *step))
+
+    def deprecated(self, data: Any, schema: Schema, path: Path) -> Iterator[Difference]:
+        """Yield what of `data`, which stands at `path`, is deprecated."""
+        for keyword, wanted in schema.items():
+            if keyword == "deprecated" and wanted is True:
+                yield Difference(path, keyword, schema)
+            parts = () if isinstance(wanted, bool) else self._parts(keyword, wanted, data, schema)
+            for step, part in parts:
+                yield from self.deprecated(part[0], part[1], (*path, *step))
 
     def _differs(self, data: Any, schema: Schema) -> bool:
         return any(True for _ in self.check(data, schema, ()))

