@@ -163,7 +163,8 @@ references: refs.xml
     path = tmp_path / "agent.yaml"
     reported = [without_id(d.headline()).removeprefix(f"{path}:") for d in error.value.diagnostics]
     assert reported == [
-        "1:10: error: 'version' must be 1, the only version; it is 2. A later microros-gen wrote the file: update microros-gen",
+        "1:10: error: 'version' must be 1, the only version; it is 2. A later microros-gen wrote the file: update"
+        " microros-gen",
         "3:5: error: unknown key 'upd4' in 'transports[0]'. Did you mean 'udp4'?",
         "4:12: error: unknown key 'prot' in 'transports[1].udp4'. Did you mean 'port'?",
         "5:18: error: 'transports[2].tcp4.port' must be a whole number between 0 and 65535; it is 70000",
