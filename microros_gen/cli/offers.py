@@ -66,6 +66,12 @@ def schema_names(ctx: click.Context, param: click.Parameter, incomplete: str) ->
     return _offered(schema_files(), incomplete)
 
 
+def package_names(ctx: click.Context, param: click.Parameter, incomplete: str) -> Items:
+    """Offer the packages that are built in or installed, and folders."""
+    own = (path.parent.name for path in (COMPONENTS.parent / "platform" / "package").glob("*/package.yaml"))
+    return _offered({*own, *_installed("platform/package", "*")}, incomplete, files=True)
+
+
 def ways(ctx: click.Context, param: click.Parameter, incomplete: str) -> Items:
     """Offer the ways to build and run that `doctor` checks."""
     return [*target_names(ctx, param, incomplete), *_offered(("agent", "cmake", "colcon"), incomplete)]

@@ -29,7 +29,7 @@ TYPE_MEMBERS = ("encode", "encoded_size", "decode")
 AVR = "EM_AVR"
 """Its compiler of Debian, gcc 5, writes no call graph: frames are those of the disassembly."""
 _AVR_ARCHITECTURE, _AVR_6 = 0x7F, 6
-"""Of e_flags (binutils, include/elf/avr.h): avr6 has a program counter of 22 bits."""
+"""Of e_flags (binutils, include/elf, avr.h): avr6 has a program counter of 22 bits."""
 _ARCHIVERS = {"EM_ARM": "arm-none-eabi-ar", "EM_RISCV": "riscv64-unknown-elf-ar", AVR: "avr-ar"}
 """Of an image whose tool chain nobody named."""
 ALLOCATOR_MEMBERS = ("allocate", "deallocate", "reallocate", "zero_allocate")

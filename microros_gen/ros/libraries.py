@@ -148,7 +148,7 @@ class Libraries:
 
         By default, Fast DDS delivers to a participant of the same process in the call of the writer, and takes locks of
         both. A writer of a service holds one of them while Python serializes for it. A thread that creates an endpoint
-        of the other participant holds Python's interpreter lock meanwhile, and both would wait for each other for ever:
+        of the other participant holds Python's interpreter lock meanwhile, and neither would ever get the other's:
         for example the agent, and its parameter server in another thread.
         """
         _load_profiles(_SEPARATE_PARTICIPANTS)
