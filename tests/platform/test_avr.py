@@ -91,3 +91,48 @@ def test_structs_are_as_large_as_planned(tmp_path: Path) -> None:
     done = subprocess.run([*call, f"-I{out / 'include'}", *map(str, sources)], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert any("__assert_size" in path.read_text() for path in sources)
+
+
+COMPONENTS = """\
+executor, timers, graph_events, executor_nodes, service_call, liveliness_hard, lifecycle, logger_services, diagnosis,
+clock_stamp, tf_broadcaster, micro_ros_utilities, qos_events, new_data_callbacks, loaned_messages, action_server,
+action_client, time_sync, sleep_cycles
+"""
+EVERYTHING = """\
+logging: [{to: rosout, level: info}, {to: console, level: debug}, {to: ring, level: warn}]
+nodes:
+  - name: n
+    publishers: [{topic: a, type: std_msgs/msg/Int32}]
+    subscriptions: [{topic: b, type: std_msgs/msg/Int32, on_silence: {after: 500 ms, call: stop}}]
+    services: [{name: s, type: std_srvs/srv/SetBool, limits: {string: 8}}]
+    clients: [{name: c, type: std_srvs/srv/SetBool, limits: {string: 8}}]
+    actions: [{name: d, type: example_interfaces/action/Fibonacci, goals: 1, limits: {sequence: 8}}]
+    action_clients: [{name: e, type: example_interfaces/action/Fibonacci, goals: 1, limits: {sequence: 8}}]
+"""
+
+
+@pytest.mark.system
+def test_components_compile_where_int_has_16_bits(tmp_path: Path) -> None:
+    """They need not fit: what a board has room for is up to the application."""
+    if shutil.which("avr-gcc") is None:
+        pytest.skip("no avr-gcc: apt-get install gcc-avr avr-libc")
+    names = ", ".join(f"+{name.strip()}" for name in COMPONENTS.split(","))
+    text = UNO.replace("uno", "mega").replace("[pure_reader]", "[pure_sender, pure_reader]")
+    assert reasons(tmp_path, f"{text}components: [{names}]\n{EVERYTHING}") == []
+    out = tmp_path / "out"
+    sources = sorted(out.glob("src/*/*.c"))
+    flags = "-std=gnu99 -Wall -Wextra -Wconversion -Wsign-conversion -Wno-type-limits -Werror -fsyntax-only"
+    call = ["avr-gcc", *flags.split(), "-mmcu=atmega2560", f"-I{out / 'include'}", *map(str, sources)]
+    done = subprocess.run(call, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        "nodes: [{name: n, parameters: [{name: gain, type: double}]}]\ncomponents: [+parameters]\n",
+        "nodes: [{name: n, parameter_clients: [{node: /other}]}]\ncomponents: [+parameter_client]\n",
+    ],
+)
+def test_parameters_are_refused(tmp_path: Path, more: str) -> None:
+    assert "MG-5015" in reasons(tmp_path, UNO + more)

@@ -130,6 +130,18 @@ def feature_of(component: Component) -> Feature | None:
     return cast(Feature, import_module(f"microros_gen.components.{component.name}.plan"))
 
 
+def refuse_short_doubles(context: PlanContext, name: str, diagnostics: Diagnostics) -> None:
+    """Report a component whose values of type double are those of messages, where a double has 4 bytes."""
+    if context.target.is_narrow:
+        spans = context.application.spans
+        diagnostics.error(
+            f"the component '{name}' needs a double of 8 bytes; '{context.target.name}' has one of 4",
+            spans.get("target") or spans.get("components") or spans.get("profiles"),
+            "Use a target with 32 bits, or leave out the parameters",
+            id="MG-5015",
+        )
+
+
 def refuse_own_limits(context: PlanContext, name: str, diagnostics: Diagnostics) -> None:
     """Report limits of an endpoint that this component opens, where it is compiled for those of the type."""
     own = {

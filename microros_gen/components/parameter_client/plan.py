@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from microros_gen.application.model import Application, EndpointDecl, LimitRule, NodeDecl, Qos
-from microros_gen.client.plan.features import PlanContext, refuse_own_limits
+from microros_gen.client.plan.features import PlanContext, refuse_own_limits, refuse_short_doubles
 from microros_gen.components.parameter_client.sizes import VALUE_TYPES, largest
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import TypeName
@@ -174,6 +174,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> ParameterClientPlan:
     """Return the sizes: those of messages follow from the limits of their types."""
     application = context.application
     refuse_own_limits(context, "parameter_client", diagnostics)
+    refuse_short_doubles(context, "parameter_client", diagnostics)
     remotes = tuple(
         Remote(client.node, index, client.operations)
         for index, node in enumerate(application.nodes)

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from microros_gen.application.model import Application, LimitRule, ParameterDecl
 from microros_gen.application.parameter_rules import words_of
 from microros_gen.client.plan.declared import pool
-from microros_gen.client.plan.features import PlanContext, refuse_own_limits
+from microros_gen.client.plan.features import PlanContext, refuse_own_limits, refuse_short_doubles
 from microros_gen.components.parameters.constants import (
     LONGEST_TEXT,
     entries,
@@ -123,6 +123,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> ParametersPlan:
     """Return the sizes; those of requests follow from the limits of their types."""
     application = context.application
     refuse_own_limits(context, "parameters", diagnostics)
+    refuse_short_doubles(context, "parameters", diagnostics)
     _refuse_small_pools(application, 1 if context.selection.has("parameters_held") else 6, diagnostics)
     declared = [parameter for node in application.nodes for parameter in node.parameters]
     diagnostics.extend(longer_than_limits(application, declared, "the default"))

@@ -98,7 +98,7 @@ uint32_t rclc_action_encode_outcome(const void * outcome, uint8_t * body, cdr_fa
   if (response->body == NULL) {
     return response->type->encode(response->message, body, fault);
   }
-  (void)memcpy(body, response->body, response->size);
+  (void)memcpy(body, response->body, (size_t)response->size);
   return response->size;
 }
 

@@ -62,12 +62,12 @@ static bool continuous_is_inside(const ucdrBuffer * ucdr)
 static void continuous_open(
   const continuous_message_t * message, ucdrBuffer * ucdr, uint8_t * at, size_t room)
 {
-  const size_t left = (size_t)message->size - message->done;
+  const size_t left = (size_t)message->size - (size_t)message->done;
 
   ucdr->init = at;
   ucdr->iterator = at;
   ucdr->final = &at[left < room ? left : room];
-  ucdr->origin = message->done;
+  ucdr->origin = (size_t)message->done;
 }
 
 /* Sends what is in the buffer. The header of WRITE_DATA precedes it in the first fragment. */
@@ -134,7 +134,7 @@ static rmw_ret_t continuous_write(
   if (found == 0u) {
     return rmw_encode_refuse(writer->type, &fault);
   }
-  ucdr_advance_buffer(&ucdr, found);
+  ucdr_advance_buffer(&ucdr, (size_t)found);
   if (callbacks->serialize != NULL) {
     callbacks->serialize(&ucdr);
   }

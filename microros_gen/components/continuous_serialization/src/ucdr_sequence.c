@@ -5,62 +5,62 @@
 
 bool ucdr_serialize_sequence_char(ucdrBuffer * ub, const char * array, uint32_t size)
 {
-  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), size);
+  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), (size_t)size);
 }
 
 bool ucdr_serialize_sequence_bool(ucdrBuffer * ub, const bool * array, uint32_t size)
 {
-  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), size);
+  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), (size_t)size);
 }
 
 bool ucdr_serialize_sequence_uint8_t(ucdrBuffer * ub, const uint8_t * array, uint32_t size)
 {
-  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), size);
+  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), (size_t)size);
 }
 
 bool ucdr_serialize_sequence_uint16_t(ucdrBuffer * ub, const uint16_t * array, uint32_t size)
 {
-  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), size);
+  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), (size_t)size);
 }
 
 bool ucdr_serialize_sequence_uint32_t(ucdrBuffer * ub, const uint32_t * array, uint32_t size)
 {
-  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), size);
+  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), (size_t)size);
 }
 
 bool ucdr_serialize_sequence_uint64_t(ucdrBuffer * ub, const uint64_t * array, uint32_t size)
 {
-  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), size);
+  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), (size_t)size);
 }
 
 bool ucdr_serialize_sequence_int8_t(ucdrBuffer * ub, const int8_t * array, uint32_t size)
 {
-  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), size);
+  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), (size_t)size);
 }
 
 bool ucdr_serialize_sequence_int16_t(ucdrBuffer * ub, const int16_t * array, uint32_t size)
 {
-  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), size);
+  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), (size_t)size);
 }
 
 bool ucdr_serialize_sequence_int32_t(ucdrBuffer * ub, const int32_t * array, uint32_t size)
 {
-  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), size);
+  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), (size_t)size);
 }
 
 bool ucdr_serialize_sequence_int64_t(ucdrBuffer * ub, const int64_t * array, uint32_t size)
 {
-  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), size);
+  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), (size_t)size);
 }
 
 bool ucdr_serialize_sequence_float(ucdrBuffer * ub, const float * array, uint32_t size)
 {
-  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), size);
+  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), (size_t)size);
 }
 
 bool ucdr_serialize_sequence_double(ucdrBuffer * ub, const double * array, uint32_t size)
 {
-  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), size);
+  return ucdr_serialize_uint32_t(ub, size) && ucdr_put(ub, array, sizeof(*array), (size_t)size);
 }
 
 bool ucdr_serialize_string(ucdrBuffer * ub, const char * string)

@@ -155,7 +155,7 @@ static bool diagnosis_put(const xrce_client_t * client, uint8_t status)
   xrce_put_be16(&room[6], xrce_object_id(writer->index, XRCE_KIND_DATAWRITER));
   diagnosis_see(client, status);
   /* Cannot fail: a reliable stream keeps what it has until it is acknowledged. */
-  (void)xrce_route_commit(writer->client, true, (uint32_t)DIAGNOSIS_BODY + size);
+  (void)xrce_route_commit(writer->client, true, (size_t)DIAGNOSIS_BODY + (size_t)size);
   return true;
 }
 

@@ -33,7 +33,7 @@ static rcl_ret_t counts_ask(
     result = rcl_graph_status(response.status, "an endpoint of the own node on", name);
   }
   if (result == RCL_RET_OK) {
-    *count = response.total;
+    *count = (size_t)response.total;
   }
   return result;
 }

@@ -74,7 +74,7 @@ static rmw_qos_profile_t endpoints_qos(const microros_graph_msgs__msg__Endpoint 
 
   (void)memset(&qos, 0, sizeof(qos));
   qos.history = (rmw_qos_history_policy_t)endpoint->history;
-  qos.depth = endpoint->depth;
+  qos.depth = (size_t)endpoint->depth;
   qos.reliability = (rmw_qos_reliability_policy_t)endpoint->reliability;
   qos.durability = (rmw_qos_durability_policy_t)endpoint->durability;
   qos.deadline = rmw_time_from_nsec((rmw_duration_t)endpoint->deadline);

@@ -32,7 +32,7 @@ static rcl_ret_t pages_put(
   rcl_ret_t result = RCL_RET_OK;
 
   for (size_t i = 0; i < page->size && result == RCL_RET_OK; ++i) {
-    result = reader->put(list, i, first + i);
+    result = reader->put(list, i, (size_t)first + i);
   }
   return result;
 }
@@ -86,7 +86,7 @@ static rcl_ret_t pages_attempt(const rcl_graph_reader_t * reader, void * list, b
     result = pages_check(&page, 0);
   }
   if (result == RCL_RET_OK) {
-    result = reader->make(list, page.total);
+    result = reader->make(list, (size_t)page.total);
   }
   if (result != RCL_RET_OK) {
     return result;

@@ -89,10 +89,11 @@ static void event_write_matched(const rcl_graph_event_t * event, rmw_matched_sta
   const bool has_grown = event->current >= event->current_taken;
   const uint32_t change =
     has_grown ? event->current - event->current_taken : event->current_taken - event->current;
+  const uint32_t new_total = event->total - event->total_taken;
 
-  status->total_count = event->total;
-  status->total_count_change = event->total - event->total_taken;
-  status->current_count = event->current;
+  status->total_count = (size_t)event->total;
+  status->total_count_change = (size_t)new_total;
+  status->current_count = (size_t)event->current;
   status->current_count_change = has_grown ? (int32_t)change : -(int32_t)change;
 }
 
@@ -120,7 +121,7 @@ static void event_change(rcl_graph_event_t * event, uint32_t changes)
 {
   event->base.total += changes;
   if (event->base.callback != NULL) {
-    event->base.callback(event->base.user_data, changes);
+    event->base.callback(event->base.user_data, (size_t)changes);
   }
 }
 

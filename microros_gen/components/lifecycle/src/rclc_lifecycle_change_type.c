@@ -48,8 +48,8 @@ static void change_decode(cdr_in_t * in, void * message)
     from = &in->body[CHANGE_LABEL_AT];
   }
   request->transition.id = in->body[0];
-  label->size = length == 0u ? 0u : length - 1u;
-  (void)memcpy(label->data, from, length);
+  label->size = length == 0u ? 0u : (size_t)length - 1u;
+  (void)memcpy(label->data, from, (size_t)length);
   label->data[label->size] = '\0';
 }
 

@@ -44,7 +44,7 @@ static char * loan_terminate(uint8_t * text, uint32_t length)
     first = &text[-1]; /* a byte of the length, which is 0 */
   } else if (text[length - 1u] != 0u) {
     first = &text[-1];
-    (void)memmove(first, text, length);
+    (void)memmove(first, text, (size_t)length);
     first[length] = 0u;
   } else {
     /* usual */
@@ -130,9 +130,9 @@ bool cdr_loan_sequence(cdr_in_t * in, void * sequence, uint32_t bound, uint32_t 
     if (in->swap) {
       loan_swap(numbers, count, width);
     }
-    found.data = loan_align(numbers, (size_t)count * width, width);
-    found.size = count;
-    found.capacity = count;
+    found.data = loan_align(numbers, (size_t)count * (size_t)width, (size_t)width);
+    found.size = (size_t)count;
+    found.capacity = (size_t)count;
   }
   (void)memcpy(sequence, &found, sizeof(found));
   return true;

@@ -106,7 +106,8 @@ static rcutils_ret_t logger_add(const char * name, size_t size, uint8_t level)
   logger_t * const found = logger_free();
 
   if (size >= MICROROS_LOGGER_NAME_SIZE) {
-    return microros_error_named(RCUTILS_RET_NOT_ENOUGH_SPACE, microros_error_logger_name, name);
+    return (rcutils_ret_t)microros_error_named(
+      RCUTILS_RET_NOT_ENOUGH_SPACE, microros_error_logger_name, name);
   }
   if (found == NULL) {
     microros_error_set(
@@ -140,7 +141,7 @@ rcutils_ret_t rcutils_logging_set_logger_level(const char * name, int level)
   rcutils_ret_t result = RCUTILS_RET_OK;
 
   if (name == NULL || !level_is_valid(level)) {
-    return microros_error_refuse(RCUTILS_RET_INVALID_ARGUMENT, "name or level");
+    return (rcutils_ret_t)microros_error_refuse(RCUTILS_RET_INVALID_ARGUMENT, "name or level");
   }
   if (name[0] == '\0') {
     rcutils_logging_set_default_logger_level(level);

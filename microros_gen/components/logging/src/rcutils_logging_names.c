@@ -29,7 +29,7 @@ rcutils_ret_t rcutils_logging_severity_level_from_string(
 {
   (void)allocator; /* nothing is allocated */
   if (severity_string == NULL || severity == NULL) {
-    return microros_error_refuse(RCUTILS_RET_INVALID_ARGUMENT, "severity_string or severity");
+    return (rcutils_ret_t)microros_error_refuse(RCUTILS_RET_INVALID_ARGUMENT, "severity_string or severity");
   }
   for (int level = RCUTILS_LOG_SEVERITY_UNSET; level <= RCUTILS_LOG_SEVERITY_FATAL; level += 10) {
     if (name_is(severity_string, g_rcutils_log_severity_names[level])) {

@@ -98,6 +98,6 @@ void xrce_rosout_send(const xrce_client_t * client)
       return;
     }
     /* Cannot fail: a reliable stream keeps what it has until it is acknowledged. */
-    (void)xrce_route_commit(rosout_writer->client, true, rosout_move(room));
+    (void)xrce_route_commit(rosout_writer->client, true, (size_t)rosout_move(room));
   }
 }

@@ -155,7 +155,7 @@ static bool memory_of_member(memory_t * memory, utilities_walk_t * walk)
   const microros_type_member_t * member = walk->member;
   const size_t size = utilities_element_size(member);
   uint8_t * elements = walk->place;
-  size_t count = member->count;
+  size_t count = (size_t)member->count;
 
   if (utilities_is_sequence(member)) {
     count = utilities_sequence_capacity(walk, memory->conf);
@@ -263,7 +263,7 @@ static void memory_free(
 /* Returns the elements of the current member: in the message, or in the memory of the sequence. */
 static uint8_t * memory_elements(const utilities_walk_t * walk, size_t * count)
 {
-  *count = walk->member->count;
+  *count = (size_t)walk->member->count;
   if (utilities_is_sequence(walk->member)) {
     microros_type_sequence_t sequence;
 
@@ -311,7 +311,7 @@ static void memory_free_all(
       /* nothing to enter, or the end */
     }
   } while (event != UTILITIES_END);
-  (void)memset(message, 0, type->size);
+  (void)memset(message, 0, (size_t)type->size);
 }
 
 /* Returns the allocator of the configuration; false, with the error set, if it is invalid. */
@@ -343,7 +343,7 @@ bool micro_ros_utilities_create_message_memory(
   if (type == NULL || !memory_is_message(ros_msg) || !memory_allocator(&conf, &memory.allocator)) {
     return false;
   }
-  (void)memset(ros_msg, 0, type->size);
+  (void)memset(ros_msg, 0, (size_t)type->size);
   if (!memory_walk(&memory, type, ros_msg)) {
     memory_free_all(&memory.allocator, type, ros_msg);
     return false;
@@ -385,7 +385,7 @@ bool micro_ros_utilities_create_static_message_memory(
     microros_error_set(microros_error_memory_buffer, NULL, NULL, (uint32_t)buffer_len, (uint32_t)size);
     return false;
   }
-  (void)memset(ros_msg, 0, type->size);
+  (void)memset(ros_msg, 0, (size_t)type->size);
   if (size != 0u) {
     const size_t address = (size_t)(uintptr_t)buffer;
 

@@ -111,7 +111,7 @@ size_t utilities_sequence_capacity(
   size_t capacity;
 
   if (walk->member->shape == (uint8_t)MICROROS_MEMBER_BOUNDED) {
-    capacity = walk->member->count;
+    capacity = (size_t)walk->member->count;
   } else if (walk->member->nested != NULL) {
     capacity = rules_or(conf->max_ros2_type_sequence_capacity, usual->max_ros2_type_sequence_capacity);
   } else {
@@ -125,7 +125,7 @@ size_t utilities_text_capacity(const utilities_walk_t * walk, const micro_ros_ut
   const size_t usual =
     rules_or(conf->max_string_capacity, micro_ros_utilities_memory_conf_default.max_string_capacity);
   const char * ending = utilities_is_sequence(walk->member) ? strings_of_sequence : "";
-  const size_t bound = walk->member->string_bound; /* characters without the terminator */
+  const size_t bound = (size_t)walk->member->string_bound; /* characters without the terminator */
 
   return rules_capacity(walk, conf, ending, bound != 0u ? bound + 1u : usual);
 }

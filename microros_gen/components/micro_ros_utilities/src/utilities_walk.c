@@ -99,7 +99,7 @@ size_t utilities_element_size(const microros_type_member_t * member)
   static const uint8_t sizes[] = {0, 4, 8, 0, 0, 0, sizeof(bool), 1, 1, 1, 2, 2, 4, 4, 8, 8};
 
   if (member->nested != NULL) {
-    return member->nested->size;
+    return (size_t)member->nested->size;
   }
   return utilities_is_text(member) ? sizeof(microros_type_sequence_t) : sizes[member->type];
 }

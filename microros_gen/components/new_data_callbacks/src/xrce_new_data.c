@@ -46,7 +46,7 @@ void xrce_new_data_after(const xrce_client_t * client)
     const uint32_t arrived = xrce_arrivals(client, i) - new_data[i].before;
 
     if (arrived != 0u && new_data[i].callback != NULL) {
-      new_data[i].callback(new_data[i].user_data, arrived);
+      new_data[i].callback(new_data[i].user_data, (size_t)arrived);
     }
   }
 }

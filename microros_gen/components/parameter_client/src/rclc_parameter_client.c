@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rclc_parameter_client.h"
 
+#include "microros/cdr.h"
 #include "microros/error.h"
 #include "microros/lock.h"
 #include "microros/rclc_parameter_client_hooks.h"
@@ -9,6 +10,9 @@
 #include "rclc/client.h"
 
 #include <string.h>
+
+/* Values are copied from and to messages as they are. */
+CDR_STATIC_ASSERT(rclc_parameter_client_assert_double_has_8_bytes, sizeof(double) == 8U);
 
 enum { LONGEST_SERVICE = 28 }; /* bytes of the longest of rclc_parameter_client_services, with its NUL */
 

@@ -67,7 +67,7 @@ void rclc_parameter_out_bytes(parameter_out_t * out, uint32_t width, const void 
   uint8_t * to = rclc_parameter_out_take(out, width, bytes);
 
   if (to != NULL) {
-    cdr_copy(to, from, bytes);
+    cdr_copy(to, from, (size_t)bytes);
   }
 }
 
@@ -86,7 +86,7 @@ void rclc_parameter_out_parts(parameter_out_t * out, const parameter_text_t * pa
   cdr_put_4(to, &size);
   to = &to[4];
   for (uint32_t i = 0; i < count; ++i) {
-    cdr_copy(to, parts[i].data, parts[i].size);
+    cdr_copy(to, parts[i].data, (size_t)parts[i].size);
     to = &to[parts[i].size];
   }
   *to = 0;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Calls of the application. */
+#include "microros/cdr.h"
 #include "microros/error.h"
 #include "microros/rclc_parameter_array.h"
 #include "microros/rclc_parameter_string.h"
@@ -7,6 +8,9 @@
 #include "microros/text.h"
 
 #include <string.h>
+
+/* Values are copied from and to messages as they are. */
+CDR_STATIC_ASSERT(rclc_parameter_assert_double_has_8_bytes, sizeof(double) == 8U);
 
 rcl_ret_t rclc_add_parameter(
   rclc_parameter_server_t * parameter_server, const char * parameter_name, rclc_parameter_type_t type)

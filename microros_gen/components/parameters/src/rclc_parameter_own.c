@@ -93,7 +93,7 @@ rclc_parameter_place_t * rclc_parameter_create(
   if (about == NULL || server->count >= MICROROS_PARAMETERS_MAX) {
     return NULL;
   }
-  (void)memcpy(names[number], name->data, name->size);
+  (void)memcpy(names[number], name->data, (size_t)name->size);
   names[number][name->size] = '\0';
   about->name = names[number];
   about->texts = NULL;

@@ -75,7 +75,7 @@ static void request_keep(cdr_in_t * in, rclc_parameter_server_t * server)
     cdr_in_refuse(in, CDR_FAULT_CAPACITY, "message", in->size, sizeof(server->request));
     return;
   }
-  (void)memcpy(server->request, in->body, in->size);
+  (void)memcpy(server->request, in->body, (size_t)in->size);
   server->request_size = in->size;
   server->request_swaps = in->swap;
 }

@@ -44,7 +44,9 @@ void rmw_deadline_notify(xrce_deadline_t * deadline, rmw_event_callback_t callba
   deadline->callback = callback;
   deadline->user_data = user_data;
   if (callback != NULL && deadline->total != deadline->taken) {
-    callback(user_data, deadline->total - deadline->taken);
+    const uint32_t missed = deadline->total - deadline->taken; /* also after the count wrapped */
+
+    callback(user_data, (size_t)missed);
   }
   microros_unlock();
 }

@@ -47,7 +47,7 @@ static void deadline_miss(xrce_deadline_t * deadline, uint32_t now)
   deadline->total += missed;
   deadline->due_ms += missed * deadline->period_ms;
   if (deadline->callback != NULL) {
-    deadline->callback(deadline->user_data, missed);
+    deadline->callback(deadline->user_data, (size_t)missed);
   }
 }
 

@@ -196,7 +196,7 @@ void rclc_static_tf_step(const xrce_client_t * client)
     return;
   }
   static_tf->is_due = false;
-  size = writer->type->encode(&static_tf->message, &room[STATIC_TF_BODY], &fault);
+  size = (size_t)writer->type->encode(&static_tf->message, &room[STATIC_TF_BODY], &fault);
   xrce_put_submessage(
     room, XRCE_WRITE_DATA, XRCE_FLAG_LITTLE_ENDIAN, (uint16_t)((size_t)XRCE_OBJECT_PREFIX + size));
   xrce_put_be16(&room[4], XRCE_REQUEST_NONE);

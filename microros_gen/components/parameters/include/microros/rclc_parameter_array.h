@@ -126,7 +126,7 @@ static inline void rclc_parameter_out_arrays(parameter_out_t * out, const rclc_p
 
   (void)place;
   if (to != NULL) {
-    (void)memset(to, 0, bytes);
+    (void)memset(to, 0, (size_t)bytes);
   }
 }
 
