@@ -361,6 +361,10 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "    executors: [{name: fast}]\n"
         + "components: [+executor]\non_full: drop_oldest\ntransport: {type: custom}\n"
         + "tasks: [{name: control, executor: fast, rate: 20 Hz}]\n",
+        "tasks_tcp": _BOTH
+        + "    executors: [{name: fast}]\n"
+        + "components: [+executor]\ntransport: {type: tcp, agent: '[::1]:8888'}\n"
+        + "tasks: [{name: control, executor: fast, rate: 20 Hz}]\n",
         "tasks_preconfigured": _NODES
         + _BEST
         + "    executors: [{name: fast}]\n"
