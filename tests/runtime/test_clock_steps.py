@@ -399,6 +399,7 @@ TIMELESS = {
     "parameters": "stamps events with the time of day, which has 64 bits",
     "port_avr": "waits for the watchdog to reset; counts one tick an interrupt",
     "port_cortex_m": "waits for one byte of a UART",
+    "port_esp_idf": "the chip's timer and the system's time of day have 64 bits",
     "port_freertos": "the kernel's count of ticks, with its wraps, has 64 bits",
     "port_posix": "the system's clocks have 64 bits",
     "port_zephyr": "the kernel's clock has 64 bits; its milliseconds wrap with it",

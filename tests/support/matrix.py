@@ -195,7 +195,7 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "errors: code\n",
         **{
             name: _of_numbers(APPLICATIONS[name])
-            for name in ("peer_services", "peer_serial", "local_chip_tasks")
+            for name in ("peer_services", "peer_serial", "peer_fragments_joined", "local_chip_tasks")
         },
         "diagnosis": _BUSY
         + "    parameters: [{name: speed, type: double}]\n    modes: {SLOW: {speed: 0.5}}\n"
@@ -224,7 +224,14 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "    publishers: [{topic: sure, type: std_msgs/msg/Int32}]\n"
         + "    timers: [{name: tick, period: 50 ms}]\n    executors: [{name: all}]\n"
         + "profiles: [pure_sender]\ncomponents: [+executor, +timers]\nerrors: code\n"
-        + "tasks: [{name: all, executor: all, rate: 20 Hz, overrun: call}]\nwatchdog: {margin: 50 ms}\n",
+        + "tasks: [{name: all, executor: all, rate: 20 Hz, overrun: call}]\nwatchdog: {margin: 50 ms}\n"
+        + "transport: {type: tcp, agent: '10.0.0.1:8888'}\n",
+        "tasks-custom": _BUSY
+        + "    publishers: [{topic: sure, type: std_msgs/msg/Int32}]\n    executors: [{name: all}]\n"
+        + "profiles: [pure_sender]\ncomponents: [+executor]\nerrors: code\n"
+        + "tasks: [{name: all, executor: all, rate: 20 Hz}]\ntransport: {type: custom}\n",
+        "agents-of-lines": _POOL
+        + "components: [+agents]\ntransport: {type: serial, agents: [/dev/ttyS0, /dev/ttyS1]}\n",
         "graph": _BUSY
         + "profiles: [pure_sender]\ncomponents: [+graph]\nmemory: {arena: 4096}\nerrors: code\n",
         "graph-events": _BUSY

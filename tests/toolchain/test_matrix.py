@@ -48,8 +48,14 @@ CORTEX_M = {
     "cortex-m0plus": ("-mcpu=cortex-m0plus", "-mthumb"),
     "cortex-m4f": ("-mcpu=cortex-m4", "-mthumb", "-mfpu=fpv4-sp-d16", "-mfloat-abi=hard"),
 }
-OF_A_BOARD = frozenset({("transport.keeps_output", True), ("transport.device", False)})
-"""Conditions of files for the line of a board, which has no path, and whose interrupt takes messages where they are."""
+OF_A_BOARD = frozenset(
+    {
+        *(("transport.keeps_output", True), ("transport.device", False)),
+        *(("target.data_model", "ip16"), ("target.data_model", "any")),
+    }
+)
+"""Conditions of files for the line of a board, which has no path and whose interrupt takes messages where they are, and for
+processors of 16 bits."""
 CPP_FLAGS = ("-std=c++11", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror", "-x", "c++")
 
 

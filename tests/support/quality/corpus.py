@@ -109,7 +109,9 @@ _PEER_SERVICES = (
 )
 _PEER_LARGE = _PEER_SERVICES.replace("string: 12", "string: 200")
 _PEER_JOINED = (
-    _PEER.replace("UInt8, peer: only, qos: {reliability: best_effort}, queue: 1", "String, peer: only")
+    _PEER.replace(
+        "UInt8, peer: only, qos: {reliability: best_effort}, queue: 1", "String, peer: only"
+    ).replace("/sure, type: std_msgs/msg/UInt8", "/sure, type: std_msgs/msg/String")
     + "limits: {'*': {string: 200}}\n"
 )
 _CHIP = (

@@ -130,7 +130,7 @@ bool cdr_loan_sequence(cdr_in_t * in, void * sequence, uint32_t bound, uint32_t 
     if (in->swap) {
       loan_swap(numbers, count, width);
     }
-    found.data = loan_align(numbers, (size_t)count * (size_t)width, (size_t)width);
+    found.data = loan_align(numbers, (size_t)count * (size_t)width, width);
     found.size = (size_t)count;
     found.capacity = (size_t)count;
   }

@@ -76,7 +76,7 @@ static rmw_ret_t local_get(
   const rmw_local_queue_t * queue = &rmw_local_queues[index];
 
   sample->arrived_ms = queue->published_ms[rmw_local_states[index].head];
-  return queue->take(message)
+  return queue->remove(message)
            ? RMW_RET_OK
            : microros_error_named(RMW_RET_ERROR, microros_error_local_capacity, endpoint->name);
 }

@@ -96,7 +96,7 @@ bool rmw_local_take(const xrce_endpoint_t * reader, void * message, rmw_ret_t * 
     return false;
   }
   *result = RMW_RET_OK;
-  if (!rmw_local_queues[index].take(message)) {
+  if (!rmw_local_queues[index].remove(message)) {
     *result = microros_error_named(RMW_RET_ERROR, microros_error_local_capacity, reader->name);
   }
   return true;

@@ -26,7 +26,9 @@ static bool ping_over_session(xrce_client_t * client, uint32_t timeout_ms)
   const uint32_t start = port_time_ms();
   const uint8_t replies = client->ping.replies;
 
+  xrce_turn_borrow();
   xrce_ping_request(client);
+  xrce_turn_return(client);
   for (;;) {
     xrce_session_pump(client);
     if (client->ping.replies != replies) {

@@ -12,10 +12,11 @@ enum { TURN_LONGEST_MS = 3600000 };
 static bool turn_rounds[MICROROS_TASKS]; /* tasks in a round of their executor */
 static bool turn_is_taken;               /* the task of the session runs */
 static bool turn_is_requested;           /* once is enough until it looks */
+static bool turn_is_borrowed;            /* with the lock, by its holder */
 
 bool xrce_turn_is_mine(void)
 {
-  return !turn_is_taken || port_task_self() == (uint8_t)MICROROS_TASKS - 1u;
+  return !turn_is_taken || turn_is_borrowed || port_task_self() == (uint8_t)MICROROS_TASKS - 1u;
 }
 
 bool xrce_turn_is_taken(void)
@@ -43,6 +44,19 @@ void xrce_turn_request(const xrce_client_t * client)
     if (client->waiting != 0u) {
       port_wake();
     }
+  }
+}
+
+void xrce_turn_borrow(void)
+{
+  turn_is_borrowed = true;
+}
+
+void xrce_turn_return(const xrce_client_t * client)
+{
+  turn_is_borrowed = false;
+  if (!xrce_turn_is_mine()) {
+    xrce_turn_request(client);
   }
 }
 

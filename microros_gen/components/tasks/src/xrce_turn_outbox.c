@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Messages that were sent and are not written yet, one after the other, each after two bytes with its size. Only the task
- * of the session adds and removes some, and it does not touch the oldest one while it writes that without the lock.
+ * of the session removes some, and nobody touches the oldest one while that task writes it without the lock.
  */
 #include "microros/lock.h"
 #include "microros/xrce_client.h"

@@ -32,7 +32,9 @@ static bool sync_wait(xrce_client_t * client, uint32_t timeout_ms)
     now = port_time_ms();
     over = now - start >= timeout_ms;
     if (client->session.state == (uint8_t)XRCE_READY && xrce_is_due(now, due) && (!over || due == start)) {
+      xrce_turn_borrow();
       xrce_time_sync_request(client);
+      xrce_turn_return(client);
       due = now + xrce_session_short_pause(now - start);
     }
     if (over || client->session.state == (uint8_t)XRCE_CLOSED) {

@@ -33,7 +33,7 @@ typedef struct rmw_local_queue_t {
   bool (*put)(uint8_t index, const void * message);
 
   /* Moves the oldest message to `message`; false: that has too little memory, and the message is lost. */
-  bool (*take)(void * message);
+  bool (*remove)(void * message);
   void (*bind)(void);           /* gives each slot its storage; NULL: the type needs none */
   uint32_t * published_ms;      /* one for each slot, port_time_ms() */
   rmw_local_origin_t * origins; /* one for each slot; NULL for a subscription */

@@ -17,11 +17,7 @@ typedef enum cdr_fault_kind_t {
 } cdr_fault_kind_t;
 
 /* No index: the nested message is not an element. Where a size has 16 bits, no array has so many elements either. */
-#if SIZE_MAX < UINT32_MAX
-#define CDR_NO_INDEX SIZE_MAX
-#else
-#define CDR_NO_INDEX UINT32_MAX
-#endif
+#define CDR_NO_INDEX ((uint32_t)SIZE_MAX)
 
 /*
  * Why a message was refused. If the member belongs to a nested message (`depth` above 0), `within` is the

@@ -35,6 +35,16 @@ static inline void xrce_turn_request(const xrce_client_t * client)
   (void)client;
 }
 
+/* A message outside of all streams, which whoever asks the agent sends itself, is between these two. */
+static inline void xrce_turn_borrow(void)
+{
+}
+
+static inline void xrce_turn_return(const xrce_client_t * client)
+{
+  (void)client;
+}
+
 /* Called when another task may have given the session something to do that no message shows. */
 static inline void xrce_turn_change(const xrce_client_t * client)
 {

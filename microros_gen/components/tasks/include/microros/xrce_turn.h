@@ -28,6 +28,11 @@ bool xrce_turn_begin(xrce_client_t * client);
 /* Asks the task of the session to receive and send, and ends its wait. */
 void xrce_turn_request(const xrce_client_t * client);
 
+/* Between these two the calling task may send, without giving up the lock: a message outside of all streams, for which
+ * nothing else waits. Then the task of the session has it written, if the transport has not. */
+void xrce_turn_borrow(void);
+void xrce_turn_return(const xrce_client_t * client);
+
 /* Called when another task may have given the session something to do that no message shows. In a round of an executor, its
  * end asks the session instead. */
 void xrce_turn_change(const xrce_client_t * client);

@@ -47,7 +47,6 @@ void rmw_receiver_close(const xrce_endpoint_t * endpoint)
   microros_unlock();
 }
 
-/* After rcl_shutdown the client has no endpoints. */
 bool rmw_receiver_report(const xrce_endpoint_t * endpoint)
 {
   uint16_t fits;
