@@ -54,8 +54,8 @@ OF_A_BOARD = frozenset(
         *(("target.data_model", "ip16"), ("target.data_model", "any")),
     }
 )
-"""Conditions of files for the line of a board, which has no path and whose interrupt takes messages where they are, and for
-processors of 16 bits."""
+"""Conditions of files for processors of 16 bits, and for the line of a board, which has no path and whose interrupt takes
+messages where they are."""
 CPP_FLAGS = ("-std=c++11", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror", "-x", "c++")
 
 
