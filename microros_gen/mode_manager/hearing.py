@@ -32,6 +32,7 @@ SILENT = "it does not answer"
 def hear_link(leaf: Leaf, link: Link) -> None:
     """Note how the part is reached from now on; ABSENT: it has left."""
     leaf.link, leaf.call, leaf.mode = link, None, ""
+    leaf.is_mode_late = False
     leaf.state = ACTIVE if link is Link.PLAIN else UNKNOWN
     leaf.values.clear()
     leaf.expected.clear()
@@ -50,6 +51,8 @@ def hear_state(leaf: Leaf, state: str, now: float, settings: Settings, by_event:
     if state == ACTIVE and leaf.state != ACTIVE and leaf.link in (Link.MODES, Link.SYSTEM):
         leaf.mode = ""
         leaf.stale.add(Kind.GET_MODE)
+    if leaf.state == ACTIVE and state != ACTIVE:
+        leaf.mode = ""
     leaf.state = state
     if not by_event:
         leaf.stale.discard(Kind.GET_STATE)
@@ -92,20 +95,35 @@ def hear_success(leaf: Leaf, call: Call, now: float, settings: Settings) -> None
         leaf.settle_until = now + settings.system_s
         return
     if call.kind is Kind.CHANGE_STATE:
-        leaf.state = _GOALS[call.transition]
-        if call.transition == ACTIVATE:
-            leaf.mode, leaf.reconfigures = "", False
+        _hear_transition(leaf, call.transition)
     elif call.kind is Kind.CHANGE_MODE:
         leaf.mode = call.mode
     else:
         leaf.values.update({name: value for name, value in call.values.items() if value is not None})
 
 
+def _hear_transition(leaf: Leaf, transition: int) -> None:
+    """Note a transition that was carried out. `mode` of an inactive node is the one that it got while inactive."""
+    leaf.state = _GOALS[transition]
+    if transition != ACTIVATE:
+        leaf.mode = ""
+        return
+    leaf.reconfigures = False
+    if leaf.link is Link.MODES and leaf.mode:
+        leaf.doubts.add(Kind.GET_MODE)  # a node may forget it when it is activated
+    elif leaf.link is Link.MODES and leaf.restores:
+        leaf.stale.add(Kind.GET_MODE)
+
+
 def hear_refusal(leaf: Leaf, call: Call, reason: str, now: float, settings: Settings) -> None:
     """Note that a command was refused; what the part is now has to be asked."""
+    is_inactive = leaf.state == INACTIVE
     leaf.stale |= leaf.queries
-    if call.kind is Kind.SET_PARAMETERS and leaf.reconfigures and leaf.state == INACTIVE:
+    if call.kind in (Kind.SET_PARAMETERS, Kind.CHANGE_MODE) and leaf.reconfigures and is_inactive:
         leaf.restores = True
+        return
+    if call.kind is Kind.CHANGE_MODE and is_inactive and leaf.name not in settings.reconfigured:
+        leaf.is_mode_late = True
         return
     text = f"it refuses {call}"
     _count(leaf, f"{text}: {reason}" if reason else text, now, settings)

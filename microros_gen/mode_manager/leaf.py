@@ -68,7 +68,9 @@ class Leaf:
     reconfigures: bool = False
     """It was active and is inactive only until it has the parameters of its mode."""
     restores: bool = False
-    """The new parameters were refused while it was inactive: it gets active again as it was."""
+    """The new parameters or mode were refused while it was inactive: it gets active again as it was."""
+    is_mode_late: bool = False
+    """It refused its mode while it was inactive: it gets it when it is active."""
     polled: float = 0.0
     commanded: float = -1e9
     """When the last own command ended."""
@@ -129,16 +131,26 @@ class Leaf:
             return _change(CONFIGURE)
         by_parameters = self.link in (Link.PARAMETERS, Link.PLAIN)
         if status.state == INACTIVE:
-            if by_parameters and not self.restores and not self._has(wanted):
-                return _set(wanted)
-            return _change(ACTIVATE)
-        if not by_parameters:
-            return _mode(target.mode)
+            return self._prepare(target, wanted)
         if self.restores:
-            return "it refuses the parameters of the mode, and is active as before"
-        if inactive_first and self.link is Link.PARAMETERS:
+            what = "parameters of the mode" if by_parameters else f"mode {target.mode}"
+            return f"it refuses the {what}, and is active as before"
+        if inactive_first and self.link is not Link.PLAIN:
             return _change(DEACTIVATE)
-        return _set(wanted)
+        return _set(wanted) if by_parameters else _mode(target.mode)
+
+    def _prepare(self, target: Status, wanted: Values) -> Step:
+        """Return the next call for an inactive node: it gets its mode first, and is never active in a former one."""
+        if (
+            not self.restores
+            and self.link is Link.MODES
+            and not self.is_mode_late
+            and self.mode != target.mode
+        ):
+            return _mode(target.mode)
+        if not self.restores and self.link is Link.PARAMETERS and not self._has(wanted):
+            return _set(wanted)
+        return _change(ACTIVATE)
 
     def _stop(self, status: Status, target: Status) -> Step:
         if status.state == ACTIVE:

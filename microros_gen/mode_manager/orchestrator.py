@@ -375,6 +375,7 @@ class Orchestrator:
                 leaf.target, leaf.must_configure = goal, must_configure
                 leaf.attempts, leaf.settle_until, leaf.wait_until = 0, 0.0, 0.0
                 leaf.deviates = leaf.restores = leaf.reconfigures = leaf.has_reached = False
+                leaf.is_mode_late = False
                 if leaf.link is not Link.ABSENT and leaf.failure != SILENT:
                     leaf.failure = ""
 

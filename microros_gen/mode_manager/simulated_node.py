@@ -42,6 +42,7 @@ class SimulatedNode:
     link: Link = Link.PARAMETERS
     state: str = UNCONFIGURED
     mode: str = ""
+    """Of a node: it is kept while the node is not active, as firmware does; empty: __DEFAULT__."""
     values: dict[str, Scalar | tuple[Scalar, ...]] = field(default_factory=dict)
     refuses: Callable[[Call], bool] = lambda _: False
     reason: str = ""
@@ -67,7 +68,7 @@ class SimulatedNode:
         if call.kind is Kind.GET_STATE:
             return {"success": True, "state": self.state}
         if call.kind is Kind.GET_MODE:
-            return {"success": True, "mode": self.mode if self.state == ACTIVE else ""}
+            return {"success": True, "mode": (self.mode or DEFAULT) if self.state == ACTIVE else ""}
         if call.kind is Kind.GET_PARAMETERS:
             return {"success": True, "values": dict(self.values)}
         if self.refuses(call):
@@ -80,7 +81,8 @@ class SimulatedNode:
             return {"success": self._change_mode(call.mode)}
         goal = GOALS.get((self.state, call.transition))
         self.state = goal or self.state
-        self.mode = DEFAULT if goal == ACTIVE else ""
+        if self.link is Link.SYSTEM:
+            self.mode = DEFAULT if goal == ACTIVE else ""
         return {"success": goal is not None}
 
     def events(self, call: Call, before: str, success: bool) -> Iterator[tuple[Kind, Any]]:
@@ -92,8 +94,6 @@ class SimulatedNode:
             passed = success or self.state != before
             for state in (PASSING[call.transition], self.state) if passed else ():
                 yield Kind.GET_STATE, state
-            if success and self.state == ACTIVE and self.link is Link.MODES:
-                yield Kind.GET_MODE, self.mode
         elif call.kind is Kind.CHANGE_MODE and success and self.mode:
             yield Kind.GET_MODE, self.mode
         elif call.kind is Kind.SET_PARAMETERS and success:
@@ -104,6 +104,6 @@ class SimulatedNode:
             if self.settles:
                 self.state, self.mode = ACTIVE, mode
             return True
-        if self.state == ACTIVE:
-            self.mode = mode
-        return self.state == ACTIVE
+        accepts = self.state in (ACTIVE, INACTIVE)
+        self.mode = mode if accepts else self.mode
+        return accepts

@@ -151,7 +151,7 @@ def test_a_device_with_mode_services_and_its_agent(stack: ExitStack, domain: int
     asking.until(lambda: asking.rows["joint"].actual == "unconfigured")
     assert asking.change_mode("arm", "QUICK")
     asking.until_row("arm", "active.QUICK")
-    assert device.requests == ["configure", "activate", "RUSH"]
+    assert device.requests == ["configure", "RUSH", "activate"]
     graph = asking.peer.graph()
     asking.until(lambda: graph.count_servers("/joint/change_mode") > 0)
     assert graph.count_servers("/joint/change_mode") == 1
@@ -159,7 +159,7 @@ def test_a_device_with_mode_services_and_its_agent(stack: ExitStack, domain: int
     managing.wait_for("joint: it has left")
     asking.until_row("joint", "unknown")
     assert asking.rows["joint"].message == "it is not there"
-    device.state, device.mode = "unconfigured", ""
+    device.state, device.mode = "unconfigured", "__DEFAULT__"
     device.agent_says.append(0)
     asking.until_row("arm", "active.QUICK")
     assert device.mode == "RUSH"

@@ -60,8 +60,8 @@ def test_nodes_with_mode_services_get_their_mode_from_these() -> None:
     assert world.status("arm") == "active.QUICK"
     assert [c for c in world.commands() if "joint" in c] == [
         "joint change_state configure",
-        "joint change_state activate",
         "joint change_mode RUSH",
+        "joint change_state activate",
     ]
     assert world.nodes["joint"].mode == "RUSH"
 

@@ -10,6 +10,7 @@ import pytest
 
 from microros_gen.ros.peer import Peer
 from tests.support.mode_manager.arm import ARM, GRIPPER, JOINT, start
+from tests.support.mode_manager.device import Device, alive
 
 pytestmark = pytest.mark.ros
 
@@ -53,3 +54,18 @@ def test_a_node_that_refuses_parameters_while_it_is_active_needs_the_option(
     assert asking.change_mode("arm", "GENTLE")
     managing.wait_for("joint: it refuses set_parameters_atomically: only while inactive")
     assert asking.mode("joint") == "RUSH"
+
+
+def test_a_device_that_is_reconfigured_while_it_is_inactive(stack: ExitStack, domain: int) -> None:
+    """One with mode services is never active in a mode that was not requested."""
+    device = Device("joint", ("__DEFAULT__", "CRAWL", "RUSH"))
+    stack.enter_context(alive(device))
+    asking, _ = start(stack, domain, ARM, "--reconfigure", "joint", gripper=GRIPPER)
+    asking.until(lambda: asking.rows["joint"].actual == "unconfigured")
+    assert asking.change_mode("arm", "QUICK")
+    asking.until_row("arm", "active.QUICK")
+    assert asking.change_mode("arm", "GENTLE")
+    asking.until_row("arm", "active.GENTLE")
+    first, second = ["configure", "RUSH", "activate"], ["deactivate", "CRAWL", "activate"]
+    assert device.requests == [*first, *second]
+    assert (device.state, device.mode) == ("active", "CRAWL")

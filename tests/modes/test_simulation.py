@@ -208,8 +208,8 @@ def test_nodes_with_mode_services_and_nodes_that_are_reconfigured() -> None:
     calls = [line.split("call ")[1] for line in lines if " call " in line]
     assert [call for call in calls if "joint" in call] == [
         "joint change_state configure",
-        "joint change_state activate",
         "joint change_mode CRAWL",
+        "joint change_state activate",
         "joint change_mode RUSH",
     ]
     assert [call for call in calls if "gripper" in call][-3:] == [

@@ -18,11 +18,11 @@ from tests.support.ros.running import node_in_thread
 
 
 class Device:
-    """Its state and mode; `agent_says` is published as what an agent knows of its client: 0 connected, 1 silent."""
+    """Its state and mode, which it keeps while it is not active; `agent_says` is published as what an agent knows of its client: 0 connected, 1 silent."""
 
     def __init__(self, name: str, modes: tuple[str, ...]) -> None:
         self.name, self.modes = name, modes
-        self.state, self.mode = "unconfigured", ""
+        self.state, self.mode = "unconfigured", "__DEFAULT__"
         self.agent_says: list[int] = []
         self.requests: list[str] = []
 
@@ -46,16 +46,16 @@ class Device:
         self.requests.append(request["transition"]["label"])
         if goal is not None:
             self._states.publish(transition_event(Status(self.state), Status(goal)))
-            self.state, self.mode = goal, "__DEFAULT__" if goal == "active" else ""
+            self.state = goal
         return {"success": goal is not None}
 
     def _get_mode(self, _: Mapping[str, Any]) -> Mapping[str, Any]:
-        return {"current_mode": self.mode}
+        return {"current_mode": self.mode if self.state == "active" else ""}
 
     def _change_mode(self, request: Mapping[str, Any]) -> Mapping[str, Any]:
         mode = request["mode_name"]
         self.requests.append(mode)
-        if self.state != "active" or mode not in self.modes:
+        if self.state not in ("active", "inactive") or mode not in self.modes:
             return {"success": False}
         self._events.publish(mode_event(Status("active", self.mode), Status("active", mode)))
         self.mode = mode
