@@ -102,6 +102,12 @@ class Leaf:
         """Return the names of the parameters of its modes."""
         return tuple(dict.fromkeys(name for mode in self.part.modes.values() for name in mode.parameters))
 
+    @property
+    def inherited(self) -> tuple[str, ...]:
+        """Return the names of the parameters that have values of a parent in some mode."""
+        modes = self.part.modes.values()
+        return tuple(dict.fromkeys(n for mode in modes for n, v in mode.parameters.items() if v.parent))
+
     def is_settled(self, status: Status) -> bool:
         """Return whether it has its target, or none."""
         if self.target is None:

@@ -105,6 +105,10 @@ class Orchestrator:
         if link is Link.ABSENT:
             self._log(f"{name}: it has left")
         hear_link(leaf, link)
+        if link is Link.MODES and leaf.inherited:
+            self._log(
+                f"{name}: it has mode services, and does not get {', '.join(leaf.inherited)} of its parent"
+            )
         leaf.failure = _NOT_THERE if link is Link.ABSENT else ""
         leaf.attempts = 0
         if leaf.has_reached and link is not Link.ABSENT:

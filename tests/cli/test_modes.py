@@ -229,3 +229,104 @@ def test_monitor_refuses_a_page_for_other_machines(run: Runner) -> None:
     outcome = run("modes", "monitor", "arm.yaml", "--page", "0.0.0.0:8080")
     assert outcome.status == 2
     assert "'0.0.0.0:8080' is no place for a page" in outcome.err
+
+
+CELL = """\
+cell:
+  ros__parameters:
+    type: system
+    parts: [arm/device]
+    modes:
+      __DEFAULT__: {arm/device: active.SLOW, ros__parameters: {limit: 0.3}}
+"""
+DEVICE = """\
+version: 1
+profiles: [managed_service]
+nodes:
+  - name: device
+    namespace: /arm
+    parameters:
+      - {name: speed, type: double, default: 0.5, range: {min: 0.0, max: 2.0}}
+      - {name: limit, type: double, default: 1.0}
+    modes:
+      SLOW: {speed: 0.2}
+"""
+
+
+@pytest.fixture
+def cell(folder: Path) -> Path:
+    """The current folder with a model whose part is in an application file alone, and a script."""
+    (folder / "cell.yaml").write_text(CELL, encoding="utf-8")
+    (folder / "device.yaml").write_text(DEVICE, encoding="utf-8")
+    (folder / "s.yaml").write_text("- {at: 0 s, request: cell, target: active}\n", encoding="utf-8")
+    return folder
+
+
+@pytest.mark.usefixtures("cell")
+def test_simulate_plays_a_device_of_an_application_file_with_its_mode_services(run: Runner) -> None:
+    outcome = run("modes", "simulate", "cell.yaml", "s.yaml", "--application", "device.yaml")
+    assert (outcome.status, outcome.err) == (0, "")
+    calls = [line.split("call ")[1] for line in outcome.out.splitlines() if "call " in line]
+    device = "arm/device change"
+    assert calls == [f"{device}_state configure", f"{device}_mode SLOW", f"{device}_state activate"]
+
+
+@pytest.mark.usefixtures("cell")
+def test_graph_draws_a_device_of_an_application_file(run: Runner) -> None:
+    outcome = run("modes", "graph", "cell.yaml", "--application", "device.yaml")
+    assert (outcome.status, outcome.err) == (0, "")
+    assert "arm/device" in outcome.out
+    assert ">SLOW</text>" in outcome.out
+
+
+@pytest.mark.usefixtures("cell")
+@pytest.mark.parametrize(
+    ("words", "options", "error"),
+    [
+        (("manage", "cell.yaml"), ("--scope", "cel"), "MG-8870"),
+        (("monitor", "cell.yaml"), ("--page", "0.0.0.0:1"), "MG-8875"),
+        (("simulate", "cell.yaml", "s.yaml"), ("--reconfigure", "cell"), "MG-8873"),
+        (("graph", "cell.yaml"), ("--output", "there/is/no/folder.svg"), ""),
+    ],
+)
+def test_a_part_of_an_application_file_is_known_with_the_option_alone(
+    run: Runner, words: tuple[str, ...], options: tuple[str, ...], error: str
+) -> None:
+    """With the option, the first mistake is the one of the other options."""
+    assert "MG-8806" in run("modes", *words).err
+    outcome = run("modes", *words, "--application", "device.yaml", *options)
+    assert "MG-8806" not in outcome.err
+    assert error in outcome.err
+
+
+@pytest.mark.parametrize("words", [("manage", "cell.yaml"), ("simulate", "cell.yaml", "s.yaml")])
+def test_values_of_a_parent_cannot_be_given_to_a_device(
+    run: Runner, cell: Path, words: tuple[str, ...]
+) -> None:
+    text = changed(
+        DEVICE,
+        "      SLOW: {speed: 0.2}",
+        "      __DEFAULT__: {limit: $(parent limit)}\n      SLOW: {speed: 0.2}",
+    )
+    (cell / "device.yaml").write_text(text, encoding="utf-8")
+    assert run("modes", "check", "cell.yaml", "--application", "device.yaml").status == 0
+    outcome = run("modes", *words, "--application", "device.yaml")
+    assert (outcome.status, outcome.out) == (2, "")
+    assert (
+        outcome.err
+        == """\
+device.yaml:10:28: error: 'arm/device' has mode services: the manager cannot give it 'limit' of its parent. \
+Write its value in each mode [MG-8880]
+        __DEFAULT__: {limit: $(parent limit)}
+                             ^~~~~~~~~~~~~~~
+"""
+    )
+
+
+@pytest.mark.usefixtures("cell")
+@pytest.mark.parametrize("words", [("manage", "cell.yaml"), ("simulate", "cell.yaml", "s.yaml")])
+def test_an_application_file_that_is_not_there(run: Runner, words: tuple[str, ...]) -> None:
+    outcome = run("modes", *words, "--application", "devices.yaml")
+    assert (outcome.status, outcome.out) == (2, "")
+    assert "devices.yaml" in outcome.err
+    assert "MG-8806" not in outcome.err

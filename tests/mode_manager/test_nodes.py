@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 from contextlib import ExitStack
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -163,6 +164,28 @@ def test_a_device_with_mode_services_and_its_agent(stack: ExitStack, domain: int
     device.agent_says.append(0)
     asking.until_row("arm", "active.QUICK")
     assert device.mode == "RUSH"
+
+
+def test_a_device_that_is_a_part_by_its_application_file(
+    stack: ExitStack, domain: int, tmp_path: Path
+) -> None:
+    model, application = tmp_path / "cell.yaml", tmp_path / "device.yaml"
+    modes = "{__DEFAULT__: {device: inactive}, SLOW: {device: active.SLOW}}"
+    model.write_text(
+        f"cell: {{ros__parameters: {{type: system, parts: [device], modes: {modes}}}}}\n", encoding="utf-8"
+    )
+    application.write_text(
+        "version: 1\nprofiles: [managed_service]\nnodes:\n  - name: device\n    parameters:\n"
+        "      - {name: speed, type: double, default: 0.5}\n    modes:\n      SLOW: {speed: 0.2}\n",
+        encoding="utf-8",
+    )
+    device = Device("device", ("__DEFAULT__", "SLOW"))
+    stack.enter_context(alive(device))
+    asking, _ = start(stack, domain, str(model), "--application", str(application))
+    asking.until(lambda: "device" in asking.rows and asking.rows["device"].actual == "unconfigured")
+    assert asking.change_mode("cell", "SLOW")
+    asking.until_row("cell", "active.SLOW")
+    assert device.requests == ["configure", "SLOW", "activate"]
 
 
 @pytest.mark.system

@@ -7,11 +7,12 @@ from pathlib import Path
 
 import click
 
-from microros_gen.cli.modes.options import model_argument
+from microros_gen.cli.modes.options import application_option, model_argument
 
 
 @click.command()
 @model_argument
+@application_option
 @click.option(
     "-o",
     "--output",
@@ -19,16 +20,16 @@ from microros_gen.cli.modes.options import model_argument
     metavar="FILE",
     help="Write the picture to this file instead of stdout.",
 )
-def graph_command(model: Path, output: Path | None) -> None:
+def graph_command(model: Path, applications: tuple[Path, ...], output: Path | None) -> None:
     """Draw the systems, nodes, modes and rules of a model file as SVG.
 
     \b
     microros-gen modes graph robot.yaml -o robot.svg
     """
+    from microros_gen.cli.modes.devices import read_system
     from microros_gen.modes.picture import draw
-    from microros_gen.modes.reader import read_model
 
-    picture = draw(read_model(model))
+    picture = draw(read_system(model, applications)[0])
     if output is None:
         click.echo(picture, nl=False)
     else:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from microros_gen.cli.modes.options import (
+    application_option,
     domain_option,
     model_argument,
     modes_peer,
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
 @click.command()
 @model_argument
+@application_option
 @click.option(
     "--scope",
     "roots",
@@ -41,6 +43,7 @@ if TYPE_CHECKING:
 @domain_option
 def manage_command(
     model: Path,
+    applications: tuple[Path, ...],
     roots: tuple[str, ...],
     without: tuple[str, ...],
     reconfigure: tuple[str, ...],
@@ -57,18 +60,20 @@ def manage_command(
     microros-gen modes manage robot.yaml
     microros-gen modes manage robot.yaml --scope base
     microros-gen modes manage robot.yaml --without base
+    microros-gen modes manage robot.yaml --application arm/microros.yaml
 
     Prints 'mode manager ready: PARTS' on stdout, and failures, rules and changes by others on stderr. SIGINT and
     SIGTERM end it with status 0.
     """
     from microros_gen.agent.server import stopped_by_signals
+    from microros_gen.cli.modes.devices import read_system, refuse_templates
     from microros_gen.mode_manager.scope import select_nodes, select_scope
     from microros_gen.mode_manager.server import ModeManager
     from microros_gen.mode_manager.turns import ManagerInTurn
-    from microros_gen.modes.reader import read_model
 
-    system = read_model(model)
+    system, devices = read_system(model, applications)
     scope = select_scope(system, roots, without)
+    refuse_templates(system, devices.intersection(scope.names))
     settings = Settings(call_s=timeout, reconfigured=select_nodes(system, scope, reconfigure))
     turn = ManagerInTurn(
         scope,

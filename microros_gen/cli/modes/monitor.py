@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from microros_gen.cli.modes.options import domain_option, model_argument, modes_peer
+from microros_gen.cli.modes.options import application_option, domain_option, model_argument, modes_peer
 from microros_gen.cli.options import format_option, json_text
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ _CLEAR = "\x1b[2J\x1b[H"
 
 @click.command()
 @model_argument
+@application_option
 @click.option(
     "--once", is_flag=True, help="Print the parts when all are known and none is on its way, and end."
 )
@@ -42,7 +43,13 @@ _CLEAR = "\x1b[2J\x1b[H"
 @format_option
 @domain_option
 def monitor_command(
-    model: Path, once: bool, wait: float, page: str | None, kind: str, domain: int | None
+    model: Path,
+    applications: tuple[Path, ...],
+    once: bool,
+    wait: float,
+    page: str | None,
+    kind: str,
+    domain: int | None,
 ) -> int:
     """Show target and actual state of the parts of a system, as mode managers report them.
 
@@ -57,12 +64,12 @@ def monitor_command(
     microros-gen modes monitor robot.yaml --page 127.0.0.1:8080
     """
     from microros_gen.agent.server import stopped_by_signals
+    from microros_gen.cli.modes.devices import read_system
     from microros_gen.mode_manager.diagnosis import OK
     from microros_gen.mode_manager.monitor import Monitor
     from microros_gen.mode_manager.page import check_place, served_page
-    from microros_gen.modes.reader import read_model
 
-    system = read_model(model)
+    system = read_system(model, applications)[0]
     if page is not None:
         check_place(page)
     with modes_peer("mode_monitor", domain) as peer, ExitStack() as stack:

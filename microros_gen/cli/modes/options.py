@@ -16,12 +16,21 @@ if TYPE_CHECKING:
 
 model_argument = click.argument("model", metavar="SYSTEM.yaml", type=click.Path(path_type=Path))
 
+application_option = click.option(
+    "--application",
+    "applications",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Application file whose nodes with modes are parts of the model, which need not repeat them; can be repeated.",
+)
+
 reconfigure_option = click.option(
     "--reconfigure",
     multiple=True,
     metavar="NODE",
-    help="Node that takes parameters only while it is inactive: it is deactivated, gets those of the mode and is"
-    " activated again; can be repeated.",
+    help="Node that takes parameters, or its mode, only while it is inactive: it is deactivated, gets those of the"
+    " mode and is activated again; can be repeated.",
 )
 
 timeout_option = click.option(

@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from microros_gen.cli.modes.options import (
+    application_option,
     model_argument,
     reconfigure_option,
     timeout_option,
@@ -19,12 +20,13 @@ from microros_gen.mode_manager.settings import Settings
 @click.command()
 @model_argument
 @click.argument("script", metavar="SCRIPT", type=click.Path(path_type=Path))
+@application_option
 @click.option(
     "--mode-services",
     "with_services",
     multiple=True,
     metavar="NODE",
-    help="Node that serves its modes itself, as firmware does; can be repeated.",
+    help="Node that serves its modes itself, as firmware does (nodes of --application do); can be repeated.",
 )
 @reconfigure_option
 @timeout_option
@@ -32,6 +34,7 @@ from microros_gen.mode_manager.settings import Settings
 def simulate_command(
     model: Path,
     script: Path,
+    applications: tuple[Path, ...],
     with_services: tuple[str, ...],
     reconfigure: tuple[str, ...],
     timeout: float,
@@ -44,15 +47,16 @@ def simulate_command(
     \b
     microros-gen modes simulate robot.yaml faults.yaml
     """
+    from microros_gen.cli.modes.devices import read_system, refuse_templates
     from microros_gen.mode_manager.scope import select_nodes, select_scope
     from microros_gen.mode_manager.simulation import simulate
-    from microros_gen.modes.reader import read_model
     from microros_gen.modes.script import read_script
 
-    system = read_model(model)
+    system, devices = read_system(model, applications)
+    refuse_templates(system, devices)
     scope = select_scope(system)
     settings = Settings(call_s=timeout, reconfigured=select_nodes(system, scope, reconfigure))
-    services = select_nodes(system, scope, with_services)
+    services = select_nodes(system, scope, with_services) | devices
     played = simulate(system, read_script(script, system), settings, services)
     click.echo(json_text(played.data()) if kind == "json" else played.text(), nl=False)
     return 0 if played.is_stable else 1
