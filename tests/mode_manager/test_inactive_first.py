@@ -127,15 +127,15 @@ def test_a_reconfigured_node_that_refuses_before_it_was_active_stays_inactive() 
     assert world.manager.leaves["joint"].failure == "it refuses change_mode CRAWL"
 
 
-def test_values_of_a_parent_that_are_not_sent_are_told() -> None:
+def test_values_of_a_parent_that_are_not_sent_are_logged() -> None:
     text = changed(model_text("arm"), "speed: 0.2\n", "speed: $(parent limit)\n")
     text = changed(
         text,
         "      __DEFAULT__:\n        gripper: inactive\n",
         "      __DEFAULT__:\n        ros__parameters: {limit: 0.3}\n        gripper: inactive\n",
     )
-    told = "joint: it has mode services, and does not get speed of its parent"
+    line = "joint: it has mode services, and does not get speed of its parent"
     for link, count in ((Link.MODES, 1), (Link.PARAMETERS, 0)):
         world = World(model_of(text), {"gripper": Node(), "joint": Node(link)})
         world.let(3)
-        assert world.log.count(told) == count
+        assert world.log.count(line) == count

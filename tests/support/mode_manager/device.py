@@ -18,7 +18,10 @@ from tests.support.ros.running import node_in_thread
 
 
 class Device:
-    """Its state and mode, which it keeps while it is not active; `agent_says` is published as what an agent knows of its client: 0 connected, 1 silent."""
+    """Its state and mode; it keeps the mode while it is not active.
+
+    `agent_says` is published as what an agent knows of its client: 0 connected, 1 silent.
+    """
 
     def __init__(self, name: str, modes: tuple[str, ...]) -> None:
         self.name, self.modes = name, modes
