@@ -11,11 +11,16 @@ from typing import Any
 
 import pytest
 
+from microros_gen.mode_manager.scope import select_scope
+from microros_gen.mode_manager.server import ModeManager
+from microros_gen.mode_manager.settings import Settings
+from microros_gen.modes.model import active
 from microros_gen.ros.peer import Peer
 from tests.support.agent.process import environment
 from tests.support.e2e.commanded import CommandedProgram
 from tests.support.e2e.images import C_FILES, Images, ends_well, started
 from tests.support.e2e.relay import Relay
+from tests.support.modes.models import model_of
 from tests.support.patience import deadline, seconds
 
 pytestmark = pytest.mark.ros
@@ -35,6 +40,23 @@ nodes:
       __DEFAULT__: {limit: $(parent limit)}
       SLOW: {speed: 0.25}
       FAST: {speed: 2.0}
+"""
+CELL = """\
+cell:
+  ros__parameters:
+    type: system
+    parts: [arm/device]
+    modes:
+      __DEFAULT__: {arm/device: inactive}
+      GENTLE: {arm/device: active.SLOW}
+      QUICK: {arm/device: active.FAST}
+arm/device:
+  ros__parameters:
+    type: node
+    modes:
+      __DEFAULT__: {ros__parameters: {speed: 0.5}}
+      SLOW: {ros__parameters: {speed: 0.25}}
+      FAST: {ros__parameters: {speed: 2.0}}
 """
 STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror")
 KINDS = {
@@ -175,3 +197,34 @@ def test_reconfiguration_by_the_device(asker: Asker) -> None:
     assert asker.mode() == "SLOW"
     assert asker.shown() == "0.25 active"
     assert asker.await_events(1) == [("__DEFAULT__", "SLOW")]
+
+
+def test_a_manager_changes_the_mode_while_the_device_is_inactive(asker: Asker, domain: int) -> None:
+    """Before the first activation, and between two with `--reconfigure`: no request is refused."""
+    states: list[str] = []
+    lines: list[str] = []
+    asker.peer.subscribe(
+        "/arm/device/transition_event",
+        "lifecycle_msgs/msg/TransitionEvent",
+        lambda event: states.append(event["goal_state"]["label"]),
+    )
+    model = model_of(CELL)
+    with Peer(f"manager_{os.getpid()}", domain=domain) as peer:
+        settings = Settings(reconfigured=frozenset({"arm/device"}))
+        manager = ModeManager(peer, model, select_scope(model), lines.append, settings)
+        orchestrator = manager.orchestrator
+        end = deadline(60)
+        while orchestrator.statuses()["arm/device"].state != "unconfigured":
+            manager.turn()
+            assert time.monotonic() < end, lines
+        for mode, shown in (("GENTLE", "0.25 active"), ("QUICK", "2.00 active")):
+            orchestrator.request("cell", active(mode))
+            while orchestrator.statuses()["cell"] != active(mode):
+                manager.turn()
+                assert time.monotonic() < end, lines
+            assert asker.shown() == shown
+    assert asker.await_events(2) == [("__DEFAULT__", "SLOW"), ("SLOW", "FAST")]
+    reached = ["inactive", "active", "inactive", "active"]
+    asker.peer.spin(lambda: [s for s in states if not s.endswith("ing")] == reached, seconds(20))
+    assert [s for s in states if not s.endswith("ing")] == reached
+    assert not any("refuse" in line for line in lines)
