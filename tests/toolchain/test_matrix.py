@@ -54,7 +54,7 @@ OF_A_BOARD = frozenset(
         *(("target.data_model", "ip16"), ("target.data_model", "any")),
     }
 )
-"""Conditions of files for processors of 16 bits, and for the line of a board, which has no path and whose interrupt takes
+"""Conditions of files for processors of 16 bits, and for the line of a board: it has no path, and its interrupt takes
 messages where they are."""
 CPP_FLAGS = ("-std=c++11", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror", "-x", "c++")
 
