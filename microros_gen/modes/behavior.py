@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where the systems of a model end for every combination of failed nodes, computed system by system.
 
-A node follows its commands, or it is stuck: in one of its modes, or in a state that is not active. Seen from its
+A node follows its commands, or it is stuck: in a state of the life cycle, on the way between two of them, or active in
+one of its modes or in none. Seen from its
 system, a part is therefore a function from commands to statuses, a *behavior*; a subsystem has one for each
 combination of failures below it, and many combinations have the same. A part belongs to one system, so the behaviors
 of the parts of a system are independent of each other.
@@ -25,8 +26,8 @@ from microros_gen.modes.model import (
     ACTIVE,
     DEACTIVATING,
     ERROR,
-    FINALIZED,
     INACTIVE,
+    STATES,
     UNCONFIGURED,
     UNKNOWN,
     Model,
@@ -75,9 +76,9 @@ class _TooManyError(Exception):
 
 
 def failure_states(node: Part) -> tuple[Status, ...]:
-    """Return where a node can be stuck."""
-    states = (UNCONFIGURED, INACTIVE, FINALIZED, UNKNOWN, ERROR)
-    return (*map(Status, states), *map(active, node.modes))
+    """Return where a node can be stuck: in each state, those between two others included, and active in no mode."""
+    resting = (Status(state) for state in STATES if state != ACTIVE)
+    return (*resting, *map(active, node.modes), Status(ACTIVE))
 
 
 def targets_of(model: Model, part: Part) -> tuple[Status, ...]:

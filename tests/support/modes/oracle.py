@@ -8,7 +8,21 @@ from dataclasses import dataclass
 from itertools import product
 
 DEFAULT = "active.__DEFAULT__"
-STUCK = ("unconfigured", "inactive", "finalized", "unknown", "errorprocessing")
+STUCK = (
+    "unknown",
+    "unconfigured",
+    "inactive",
+    "finalized",
+    "configuring",
+    "cleaningup",
+    "shuttingdown",
+    "activating",
+    "deactivating",
+    "errorprocessing",
+)
+"""Where a node can stay without being active: the states of lifecycle_msgs/msg/State."""
+NO_MODE = "active."
+"""Active, with parameters of which no mode is."""
 
 
 @dataclass(frozen=True)
@@ -72,9 +86,19 @@ class PlainModel:
 
     def failures(self) -> Iterator[dict[str, str]]:
         """Yield every combination of stuck nodes, the one without any first."""
-        choices = [("", *STUCK, *(f"active.{mode}" for mode in modes)) for modes in self.nodes.values()]
-        for states in product(*choices):
+        for states in product(*self._choices()):
             yield {node: state for node, state in zip(self.nodes, states, strict=True) if state}
+
+    def failure(self, number: int) -> dict[str, str]:
+        """Return one of the combinations of stuck nodes; they come again when `number` is above their count."""
+        found = {}
+        for node, choices in zip(self.nodes, self._choices(), strict=True):
+            number, at = divmod(number, len(choices))
+            found[node] = choices[at]
+        return {node: state for node, state in found.items() if state}
+
+    def _choices(self) -> list[tuple[str, ...]]:
+        return [("", *STUCK, NO_MODE, *(f"active.{mode}" for mode in modes)) for modes in self.nodes.values()]
 
 
 class OscillatesError(Exception):
