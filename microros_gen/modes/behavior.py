@@ -43,6 +43,8 @@ Failures = tuple[tuple[str, Status], ...]
 _Behaviors = dict[tuple[Status, ...], Failures]
 """For each target of a part in `targets_of` order what it ends in, with the fewest failures that this takes."""
 
+_Led = Mapping[Status, frozenset[Status]]
+
 _Seen = tuple[bool, bool, int, int]
 """Error processing, deviates, the index of the rule that holds or -1, the modes that fit as bits."""
 
@@ -59,11 +61,16 @@ class Oscillation:
 
 @dataclass(frozen=True)
 class Settled:
-    """What is known of all systems. `open`: those with too many combinations; `kept`: how many different ones exist."""
+    """What is known of all systems. `open`: those with too many combinations; `kept`: how many different ones exist.
+
+    `led` has for each target of a system the targets that rules lead to from there, each for some combination of
+    failures. Open systems are not in it, nor those above one that oscillates.
+    """
 
     oscillations: tuple[Oscillation, ...]
     open: tuple[str, ...]
     kept: int
+    led: Mapping[str, _Led]
 
 
 _STABLE = -1
@@ -93,6 +100,8 @@ def settle_all(model: Model, most: int) -> Settled:
     behaviors: dict[str, _Behaviors] = {node.name: _of_node(model, node) for node in model.nodes}
     oscillations: list[Oscillation] = []
     unproven: list[str] = []
+    led: dict[str, _Led] = {}
+    vague: set[str] = set()
     kept = 0
     for system in model.systems:
         if any(name in unproven for name in system.part_names):
@@ -104,9 +113,13 @@ def settle_all(model: Model, most: int) -> Settled:
             unproven.append(system.name)
             continue
         kept += len(combined)
-        found, behaviors[system.name] = _outcomes(model, system, combined)
+        found, behaviors[system.name], following = _outcomes(model, system, combined)
         oscillations += found
-    return Settled(tuple(oscillations), tuple(unproven), kept)
+        if vague.isdisjoint(system.part_names):
+            led[system.name] = following
+        if found or not vague.isdisjoint(system.part_names):
+            vague.add(system.name)
+    return Settled(tuple(oscillations), tuple(unproven), kept, led)
 
 
 def _of_node(model: Model, node: Part) -> _Behaviors:
@@ -182,16 +195,18 @@ def _seen(model: Model, system: Part, name: str, outcomes: tuple[Status, ...]) -
 
 def _outcomes(
     model: Model, system: Part, combined: Mapping[tuple[_Seen, ...], Failures]
-) -> tuple[list[Oscillation], _Behaviors]:
+) -> tuple[list[Oscillation], _Behaviors, _Led]:
     targets = model.targets(system)
     cycles: dict[frozenset[str], Oscillation] = {}
     behaviors: _Behaviors = {}
+    led: dict[Status, set[Status]] = {target: set() for target in targets}
     for seen, failures in sorted(combined.items(), key=lambda item: len(item[1])):
         following = [_next(system, targets, i, seen) for i in range(len(targets))]
         outcomes: list[Status] = []
         for start, target in enumerate(targets):
             path = _path(start, following)
             last = path[-1]
+            led[target].update(targets[i] for i in path[1:])
             if following[last] == _STABLE:
                 outcomes.append(_infer(system, targets[last], seen[last]))
                 continue
@@ -199,7 +214,7 @@ def _outcomes(
             rules = tuple(system.rules[seen[i][2]].name for i in path[path.index(following[last]) :])
             cycles.setdefault(frozenset(rules), Oscillation(system.name, target, failures, rules))
         behaviors.setdefault(tuple(outcomes), failures)
-    return list(cycles.values()), behaviors
+    return list(cycles.values()), behaviors, {target: frozenset(after) for target, after in led.items()}
 
 
 def _next(system: Part, targets: tuple[Status, ...], at: int, seen: tuple[_Seen, ...]) -> int:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Properties that follow from the structure of a model: modes differ from outside and are used, commands are single."""
+"""Properties that follow from the structure of a model: modes differ from outside, commands are single."""
 
 from __future__ import annotations
 
@@ -65,41 +65,6 @@ def _outside(model: Model, part: Part, status: Status, targets: dict[str, Status
     below = {**targets, part.name: status}
     commands = ((name, mode.commands[name].target) for name in part.part_names)
     return ACTIVE, tuple((n, _outside(model, model.parts[n], target, below)) for n, target in commands)
-
-
-def check_reachable(model: Model, diagnostics: Diagnostics) -> Property:
-    """Report modes of parts that no mode of their system commands, and no rule of theirs leads to.
-
-    A part that is in no system is requested from outside, and `__DEFAULT__` is what activation leads to.
-    """
-    before = len(tuple(diagnostics))
-    count = 0
-    for part in model.parts.values():
-        used = _used_modes(model, part)
-        count += len(part.modes)
-        for mode in part.modes.values():
-            if mode.name not in used:
-                message = f"the mode '{mode.name}' of '{part.name}' is never reached"
-                hint = f"Command it in a mode of '{model.parents[part.name]}', or remove it"
-                trace = f"  '{model.parents[part.name]}' commands {', '.join(sorted(used))}"
-                diagnostics.add(Diagnostic(message, mode.span, hint, block=(trace,), id="MG-8843"))
-    refuted = len(tuple(diagnostics)) > before
-    return Property("reachable modes", REFUTED if refuted else PROVEN, f"modes: {count}")
-
-
-def _used_modes(model: Model, part: Part) -> set[str]:
-    if part.name not in model.parents:
-        return set(part.modes)
-    parent = model.parts[model.parents[part.name]]
-    used = {DEFAULT} | {mode.commands[part.name].target.mode for mode in parent.modes.values()}
-    while (
-        more := {
-            r.new_target.mode for r in part.rules if r.if_target.mode in used or r.if_target.state != ACTIVE
-        }
-        - used
-    ):
-        used |= more
-    return used - {""}
 
 
 def check_commands(model: Model) -> Property:

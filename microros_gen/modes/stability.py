@@ -6,7 +6,7 @@ from __future__ import annotations
 from math import prod
 
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Severity
-from microros_gen.modes.behavior import Failures, Oscillation, failure_states, settle_all
+from microros_gen.modes.behavior import Failures, Oscillation, Settled, failure_states
 from microros_gen.modes.manager import Manager
 from microros_gen.modes.model import Model, Status
 from microros_gen.modes.report import OPEN, PROVEN, REFUTED, Property
@@ -17,9 +17,11 @@ MOST_COMBINATIONS = 100_000
 _LONGEST_TRACE = 40
 
 
-def check_stability(model: Model, most: int, diagnostics: Diagnostics) -> Property:
-    """Report each cycle of rules with a trace, and each system of which `most` combinations do not say enough."""
-    settled = settle_all(model, most)
+def check_stability(model: Model, settled: Settled, most: int, diagnostics: Diagnostics) -> Property:
+    """Report each cycle of rules with a trace, and each system of which `most` combinations do not say enough.
+
+    `settled` is what `settle_all` returns of the model.
+    """
     for oscillation in settled.oscillations:
         diagnostics.add(_oscillation(model, oscillation))
     for name in settled.open:

@@ -11,15 +11,16 @@ from microros_gen.application.model import NodeDecl
 from microros_gen.application.parameter_find import with_parameter_files
 from microros_gen.application.parser import parse_application
 from microros_gen.diagnostics import Diagnostics
+from microros_gen.modes.behavior import settle_all
 from microros_gen.modes.leaf_parameters import check_parameters
 from microros_gen.modes.leaflets import parts_of
 from microros_gen.modes.model import Model
 from microros_gen.modes.properties import (
     check_commands,
     check_inference,
-    check_reachable,
     check_start_orders,
 )
+from microros_gen.modes.reachability import check_reachable
 from microros_gen.modes.reader import parse_model, read_source
 from microros_gen.modes.report import Report
 from microros_gen.modes.stability import MOST_COMBINATIONS, check_stability
@@ -51,12 +52,13 @@ def check(path: Path, applications: Sequence[Path] = (), most: int = MOST_COMBIN
 def check_model(model: Model, nodes: Sequence[NodeDecl] = (), most: int = MOST_COMBINATIONS) -> Report:
     """Return what is proven of a model; `nodes` are those of application files."""
     diagnostics = Diagnostics()
+    settled = settle_all(model, most)
     properties = (
         check_parameters(model, nodes, diagnostics),
         check_start_orders(model),
         check_inference(model, diagnostics),
-        check_reachable(model, diagnostics),
-        check_stability(model, most, diagnostics),
+        check_reachable(model, settled, diagnostics),
+        check_stability(model, settled, most, diagnostics),
         check_commands(model),
     )
     return Report(model.source.name, properties, tuple(diagnostics))

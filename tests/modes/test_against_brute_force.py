@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -10,9 +12,20 @@ from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.mode_manager.simulation import simulate
 from microros_gen.modes import Event, Manager, Model, Status, parse_model
 from microros_gen.modes.behavior import settle_all
+from microros_gen.modes.reachability import check_reachable
+from microros_gen.modes.report import OPEN, PROVEN
 from microros_gen.modes.stability import MOST_COMBINATIONS, trace
 from tests.support.examples import examples
-from tests.support.modes.oracle import STUCK, OscillatesError, PlainModel, PlainSystem, settle
+from tests.support.modes.oracle import (
+    STUCK,
+    OscillatesError,
+    PlainModel,
+    PlainRule,
+    PlainSystem,
+    reached,
+    reached_in_time,
+    settle,
+)
 from tests.support.modes.random_models import plain_models
 
 _FEW = settings(max_examples=examples(40), deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -53,6 +66,47 @@ def test_the_proof_finds_exactly_the_oscillations(plain: PlainModel) -> None:
     assert settled.open == ()
     found = [o.system for o in settled.oscillations]
     assert set(found[:1]) == oscillating(plain)
+
+
+@_FEW
+@given(plain_models())
+def test_modes_are_reached_as_trying_says(plain: PlainModel) -> None:
+    """What is proven is reached by one request, what is refuted never, in whatever order nodes fail and recover."""
+    model, diagnostics = parsed(plain), Diagnostics()
+    settled = settle_all(model, MOST_COMBINATIONS)
+    result = check_reachable(model, settled, diagnostics).result
+    names = list(plain.systems)
+    for name, above in pairwise(names):
+        surely = {target for target in reached(plain, name, above) if target != "inactive"}
+        found = {d.message.split("'")[1]: d.id for d in diagnostics if d.message.split("'")[3] == name}
+        unreached = {mode for mode in plain.systems[name].modes if f"active.{mode}" not in surely}
+        assert unreached <= found.keys()
+        assert settled.oscillations or unreached == found.keys()
+        failures = list(plain.failures())
+        in_time = reached_in_time(plain, names[-1], failures[:: 1 + len(failures) // 250])[name]
+        assert not {f"active.{mode}" for mode, identity in found.items() if identity == "MG-8843"} & in_time
+        assert result != PROVEN or not unreached
+
+
+def test_a_mode_whose_rule_follows_from_changing_failures_is_not_refuted() -> None:
+    """b leads to C only while q alone has failed after p."""
+    rules = (
+        PlainRule("a", "active.A", "p", "inactive", "active.B"),
+        PlainRule("b", "active.B", "q", "inactive", "active.C"),
+        PlainRule("c", "active.A", "q", "inactive", "inactive"),
+    )
+    idle = {"p": "inactive", "q": "inactive"}
+    modes = {"__DEFAULT__": idle, **{m: {"p": "active", "q": f"active.{m}"} for m in "ABC"}}
+    top = PlainSystem({"__DEFAULT__": {"low": "active.A"}}, ())
+    nodes = {"p": ("__DEFAULT__",), "q": ("__DEFAULT__", "A", "B", "C")}
+    plain = PlainModel(nodes, {"low": PlainSystem(modes, rules), "top": top})
+    model, diagnostics = parsed(plain), Diagnostics()
+    assert check_reachable(model, settle_all(model, MOST_COMBINATIONS), diagnostics).result == OPEN
+    found = {d.message: d for d in diagnostics}
+    assert "the mode 'B' of 'q' is never reached" not in found
+    assert found["not proven: the mode 'C' of 'low' is reached"].id == "MG-8846"
+    assert "active.C" not in reached(plain, "low", "top")
+    assert "active.C" in reached_in_time(plain, "top", list(plain.failures()))["low"]
 
 
 @_FEW

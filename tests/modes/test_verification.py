@@ -122,6 +122,40 @@ def test_a_mode_that_only_a_rule_leads_to_is_reached() -> None:
     assert results(checked(with_rule))["reachable modes"] == "proven"
 
 
+def test_a_mode_that_only_a_rule_that_never_holds_leads_to() -> None:
+    """A system of one part that is what its target commands is in its target, where no rule is applied."""
+    text = """\
+top:
+  ros__parameters: {type: system, parts: [arm], modes: {__DEFAULT__: {arm: active.A}}}
+arm:
+  ros__parameters:
+    type: system
+    parts: [p]
+    modes:
+      __DEFAULT__: {p: inactive}
+      A: {p: active.X}
+      B: {p: active.Y}
+    rules:
+      a: {if_target: active.A, if_part: [p, active.X], new_target: active.B}
+p:
+  ros__parameters:
+    type: node
+    modes: {__DEFAULT__: {ros__parameters: {v: 1}}, X: {ros__parameters: {v: 2}}, Y: {ros__parameters: {v: 3}}}
+"""
+    report = checked(text)
+    assert (results(report)["reachable modes"], report.exit_status) == ("refuted", 2)
+    assert findings(report)[-1].splitlines() == [
+        "m.yaml:10:7: error: the mode 'B' of 'arm' is never reached. "
+        "Command it in a mode of 'top', or remove it [MG-8843]",
+        "        B: {p: active.Y}",
+        "        ^",
+        "  'top' commands A, __DEFAULT__",
+        "  never applied: 'a'",
+    ]
+    other = changed(text, "if_part: [p, active.X]", "if_part: [p, active.Y]")
+    assert results(checked(other))["reachable modes"] == "proven"
+
+
 @pytest.mark.parametrize("state", [state for state in STATES if state != "active"])
 def test_rules_oscillate_for_a_node_that_stays_in_any_state(state: str) -> None:
     text = changed(OSCILLATING, "        if_part: [joint, inactive]", f"        if_part: [joint, {state}]")

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import product
 
@@ -105,28 +106,91 @@ class OscillatesError(Exception):
     """The rules of the named system never end."""
 
 
-def settle(model: PlainModel, part: str, target: str, failures: Mapping[str, str]) -> str:
-    """Return the status that a part ends in; raises OscillatesError."""
+def settle(
+    model: PlainModel, part: str, target: str, failures: Mapping[str, str], known: set[str] | None = None
+) -> str:
+    """Return the status that a part ends in; raises OscillatesError. `known` gets the targets that it has."""
     system = model.systems.get(part)
     if system is None:
         return failures.get(part, target)
-    known = {target}
+    known = set() if known is None else known
+    known.add(target)
     while True:
         actual = {p: settle(model, p, _commanded(system, target, p), failures) for p in system.parts}
         status = _infer(system, target, actual)
-        holding = sorted(
-            (rule.name, rule.new_target)
-            for rule in system.rules
-            if rule.if_target == target
-            and actual[rule.part].split(".")[0] == rule.status.split(".")[0]
-            and (not rule.status.startswith("active.") or actual[rule.part] == rule.status)
-        )
-        if status == target or not holding:
+        following = _following(system, target, status, actual)
+        if not following:
             return status
-        target = holding[-1][1]
+        target = following
         if target in known:
             raise OscillatesError(part)
         known.add(target)
+
+
+def _following(system: PlainSystem, target: str, status: str, actual: Mapping[str, str]) -> str:
+    """Return the target after a rule; empty: none holds."""
+    holding = sorted(
+        (rule.name, rule.new_target)
+        for rule in system.rules
+        if rule.if_target == target
+        and actual[rule.part].split(".")[0] == rule.status.split(".")[0]
+        and (not rule.status.startswith("active.") or actual[rule.part] == rule.status)
+    )
+    return holding[-1][1] if holding and status != target else ""
+
+
+def reached(model: PlainModel, name: str, above: str) -> set[str]:
+    """Return the targets that the system `name` has when `above` commands it, for some combination of failures."""
+    parent = model.systems[above]
+    found: set[str] = set()
+    for target in {DEFAULT, *(_commanded(parent, target, name) for target in parent.targets)}:
+        for failures in model.failures():
+            with suppress(OscillatesError):
+                settle(model, name, target, failures, found)
+    return found
+
+
+def reached_in_time(
+    model: PlainModel, top: str, failures: Sequence[Mapping[str, str]]
+) -> dict[str, set[str]]:
+    """Return the targets that systems have while `top` is requested and failures follow each other in any order."""
+    found: dict[str, set[str]] = {name: set() for name in model.systems}
+    waiting: list[dict[str, str]] = []
+    for target in model.systems[top].targets:
+        waiting.append({})
+        _command(model, top, target, waiting[-1])
+    known = set()
+    while waiting:
+        targets = waiting.pop()
+        if (state := tuple(sorted(targets.items()))) in known:
+            continue
+        known.add(state)
+        for name, target in targets.items():
+            found.get(name, set()).add(target)
+        for stuck in failures:
+            after = dict(targets)
+            if _apply_one(model, after, stuck):
+                waiting.append(after)
+    return found
+
+
+def _command(model: PlainModel, part: str, target: str, targets: dict[str, str]) -> None:
+    targets[part] = target
+    if part in model.systems:
+        for below in model.systems[part].parts:
+            _command(model, below, _commanded(model.systems[part], target, below), targets)
+
+
+def _apply_one(model: PlainModel, targets: dict[str, str], failures: Mapping[str, str]) -> bool:
+    """Apply the rule that holds in the lowest system."""
+    actual = {node: failures.get(node, targets[node]) for node in model.nodes}
+    for name, system in model.systems.items():
+        actual[name] = _infer(system, targets[name], {part: actual[part] for part in system.parts})
+        following = _following(system, targets[name], actual[name], actual)
+        if following:
+            _command(model, name, following, targets)
+            return True
+    return False
 
 
 def _commanded(system: PlainSystem, target: str, part: str) -> str:

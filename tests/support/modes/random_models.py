@@ -12,16 +12,17 @@ MODES = ("__DEFAULT__", "A", "B")
 
 @st.composite
 def plain_models(draw: st.DrawFn) -> PlainModel:
-    """Draw a system of one to three nodes, or one above a node and a system of one or two."""
-    nested = draw(st.booleans())
-    count = draw(st.integers(1, 2 if nested else 3))
+    """Draw a system of one to three nodes, or one or two above it, each with the next one below and perhaps a node."""
+    above = draw(st.sampled_from(((), ("top",), ("mid", "top"))))
+    count = draw(st.integers(1, 3 - len(above)))
     nodes = {f"n{i}": MODES[: draw(st.integers(1, 3))] for i in range(count)}
-    lower = draw(_system(nodes))
-    systems = {"low": lower}
-    if nested:
-        nodes["extra"] = MODES[:2]
-        parts = {"low": tuple(lower.modes), "extra": nodes["extra"]}
-        systems["top"] = draw(_system(parts, systems=("low",)))
+    systems = {"low": draw(_system(nodes))}
+    for name in above:
+        below, system = list(systems.items())[-1]
+        parts = {below: tuple(system.modes)}
+        if draw(st.booleans()):
+            parts[f"extra_{name}"] = nodes[f"extra_{name}"] = MODES[:2]
+        systems[name] = draw(_system(parts, systems=(below,)))
     return PlainModel(nodes, systems)
 
 
