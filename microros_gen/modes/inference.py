@@ -34,7 +34,8 @@ from microros_gen.modes.model import (
 from microros_gen.modes.templates import resolve
 from microros_gen.records import dataclass
 
-_RESTING = (INACTIVE, UNCONFIGURED)
+RESTING = (INACTIVE, UNCONFIGURED)
+"""States that look the same to whoever infers modes: an unconfigured part counts as inactive."""
 
 
 def fulfills(actual: Status, command: Status) -> bool:
@@ -56,7 +57,7 @@ class Inference:
         if target is None:
             return Status(states[0]) if len(set(states)) == 1 else Status(UNKNOWN)
         if target.state != ACTIVE:
-            return Status(INACTIVE if all(state in _RESTING for state in states) else DEACTIVATING)
+            return Status(INACTIVE if all(state in RESTING for state in states) else DEACTIVATING)
         commands = system.modes[target.mode].commands
         if all(fulfills(actual[name], commands[name].target) for name in system.part_names):
             return target

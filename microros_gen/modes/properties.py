@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from itertools import combinations
 
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Severity
-from microros_gen.modes.model import ACTIVE, DEFAULT, Model, Part, Rule, Status, active
+from microros_gen.modes.inference import RESTING
+from microros_gen.modes.model import DEFAULT, Mode, Model, Part, Rule, Status, active
 from microros_gen.modes.report import PROVEN, REFUTED, Property
 from microros_gen.modes.templates import resolve
 
@@ -14,8 +16,9 @@ from microros_gen.modes.templates import resolve
 def check_inference(model: Model, diagnostics: Diagnostics) -> Property:
     """Report two modes of a system that look the same from outside.
 
-    From outside a node has a state and parameter values: two of its modes with the same values look the same. Two
-    modes of a node, neither of which is `__DEFAULT__`, are a warning: inference takes the target, else the first.
+    From outside a node has a state and parameter values: two of its modes with the same values look the same, and one
+    that is unconfigured fits a mode that wants it inactive. Two modes of a node, neither of which is `__DEFAULT__`, are
+    a warning: inference takes the target, else the first.
     """
     systems = [part for part in model.parts.values() if part.is_system]
     found = [d for system in systems for d in _same_modes(model, system)]
@@ -30,13 +33,26 @@ def _same_modes(model: Model, system: Part) -> list[Diagnostic]:
     found = []
     known: dict[object, str] = {}
     for mode in system.modes.values():
-        first = known.setdefault(_outside(model, system, active(mode.name), {}), mode.name)
+        first = known.setdefault(tuple(_outside(model, system, active(mode.name), {})), mode.name)
         if first != mode.name:
-            trace = [f"  {name}: {mode.commands[name].target}" for name in system.part_names]
+            trace = _both(system, system.modes[first], mode)
             message = f"the modes '{first}' and '{mode.name}' of '{system.name}' look the same from outside"
             hint = "Command another mode or state of a part in one of them"
             found.append(Diagnostic(message, mode.span, hint, block=tuple(trace), id="MG-8841"))
     return found
+
+
+def _both(system: Part, first: Mode, second: Mode) -> list[str]:
+    """Return a line for each part: what two modes command it to be."""
+    lines = []
+    for name in system.part_names:
+        one, other = first.commands[name].target, second.commands[name].target
+        lines.append(
+            f"  {name}: {one}"
+            if one.is_same(other)
+            else f"  {name}: {one} in '{first.name}', {other} in '{second.name}'"
+        )
+    return lines
 
 
 def _same_node_modes(model: Model, node: Part) -> list[Diagnostic]:
@@ -54,17 +70,20 @@ def _same_node_modes(model: Model, node: Part) -> list[Diagnostic]:
     return found
 
 
-def _outside(model: Model, part: Part, status: Status, targets: dict[str, Status]) -> object:
-    """Return what can be seen of a part that is `status` while the systems above it have `targets`."""
-    if status.state != ACTIVE:
-        return status.state
-    mode = part.modes[status.mode]
-    if not part.is_system:
-        values = resolve(model, part, mode, targets)
-        return ACTIVE, tuple((name, type(value), value) for name, value in sorted(values.items()))
-    below = {**targets, part.name: status}
-    commands = ((name, mode.commands[name].target) for name in part.part_names)
-    return ACTIVE, tuple((n, _outside(model, model.parts[n], target, below)) for n, target in commands)
+def _outside(model: Model, part: Part, status: Status, targets: Mapping[str, Status]) -> Iterator[object]:
+    """Yield what can be seen of each node of a part that is commanded to be `status`, below systems with `targets`.
+
+    Nodes are all that can be seen: the state of a system is inferred from them.
+    """
+    if part.is_system:
+        below = {**targets, part.name: status}
+        for name in part.part_names:
+            yield from _outside(model, model.parts[name], model.command(part, status, name), below)
+    elif status.state in RESTING:
+        yield part.name, RESTING
+    else:
+        values = resolve(model, part, part.modes[status.mode], targets)
+        yield part.name, tuple((name, type(value), value) for name, value in sorted(values.items()))
 
 
 def check_commands(model: Model) -> Property:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -12,6 +12,7 @@ from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.mode_manager.simulation import simulate
 from microros_gen.modes import Event, Manager, Model, Status, parse_model
 from microros_gen.modes.behavior import settle_all
+from microros_gen.modes.properties import check_inference
 from microros_gen.modes.reachability import check_reachable
 from microros_gen.modes.report import OPEN, PROVEN
 from microros_gen.modes.stability import MOST_COMBINATIONS, trace
@@ -22,6 +23,7 @@ from tests.support.modes.oracle import (
     PlainModel,
     PlainRule,
     PlainSystem,
+    looking_the_same,
     reached,
     reached_in_time,
     settle,
@@ -66,6 +68,22 @@ def test_the_proof_finds_exactly_the_oscillations(plain: PlainModel) -> None:
     assert settled.open == ()
     found = [o.system for o in settled.oscillations]
     assert set(found[:1]) == oscillating(plain)
+
+
+@_FEW
+@given(plain_models())
+def test_modes_look_the_same_as_trying_says(plain: PlainModel) -> None:
+    diagnostics = Diagnostics()
+    result = check_inference(parsed(plain), diagnostics).result
+    words = [d.message.split("'") for d in diagnostics if d.id == "MG-8841"]
+    for name in plain.systems:
+        groups: dict[str, set[str]] = {}
+        for _, first, _, second, _, system, _ in words:
+            if system == name:
+                groups.setdefault(first, {first}).add(second)
+        found = {frozenset(pair) for group in groups.values() for pair in combinations(group, 2)}
+        assert found == looking_the_same(plain, name)
+    assert (result == PROVEN) == (not words)
 
 
 @_FEW

@@ -66,10 +66,28 @@ def test_modes_that_look_the_same_because_nodes_have_the_same_values() -> None:
         "Command another mode or state of a part in one of them [MG-8841]",
         "        QUICK:",
         "        ^~~~~",
-        "  gripper: active.__DEFAULT__",
+        "  gripper: active.SOFT in 'GENTLE', active.__DEFAULT__ in 'QUICK'",
         "  joint: active.CRAWL",
     ]
     assert report.exit_status == 2
+
+
+def test_modes_that_look_the_same_because_unconfigured_counts_as_inactive() -> None:
+    sleep = "      SLEEP:\n        gripper: unconfigured\n        joint: active\n    rules:\n"
+    report = checked(changed(ARM, "    rules:\n", sleep))
+    assert results(report)["inference"] == "refuted"
+    assert "the modes '__DEFAULT__' and 'SLEEP' of 'arm' look the same from outside" in findings(report)[0]
+    assert findings(report)[0].splitlines()[-2:] == [
+        "  gripper: inactive in '__DEFAULT__', unconfigured in 'SLEEP'",
+        "  joint: active.__DEFAULT__",
+    ]
+
+
+def test_a_stopped_system_looks_like_one_in_a_mode_that_stops_all_of_its_parts() -> None:
+    text = changed(model_text("robot"), "        base: active.DRIVE\n", "        base: inactive\n")
+    report = checked(text)
+    assert results(report)["inference"] == "refuted"
+    assert "  base: active.__DEFAULT__ in '__DEFAULT__', inactive in 'FAST'" in findings(report)[0]
 
 
 def test_a_node_whose_modes_have_the_same_values_is_a_warning() -> None:

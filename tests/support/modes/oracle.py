@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from itertools import product
+from itertools import combinations, product
 
 DEFAULT = "active.__DEFAULT__"
 STUCK = (
@@ -148,6 +148,25 @@ def reached(model: PlainModel, name: str, above: str) -> set[str]:
             with suppress(OscillatesError):
                 settle(model, name, target, failures, found)
     return found
+
+
+def looking_the_same(model: PlainModel, name: str) -> set[frozenset[str]]:
+    """Return the pairs of modes of a system that some statuses of all nodes are both of."""
+    modes = model.systems[name].modes
+    wanted: dict[str, dict[str, str]] = {mode: {} for mode in modes}
+    for mode, targets in wanted.items():
+        _command(model, name, f"active.{mode}", targets)
+    found = set()
+    for statuses in model.failures():
+        fitting = [mode for mode in modes if all(_fits(statuses, n, wanted[mode]) for n in model.nodes)]
+        found |= {frozenset(pair) for pair in combinations(fitting, 2)}
+    return found
+
+
+def _fits(statuses: Mapping[str, str], node: str, wanted: Mapping[str, str]) -> bool:
+    """Return whether a node is what is wanted; one of which nothing is wanted is."""
+    target, actual = wanted.get(node), statuses.get(node)
+    return target in (None, actual) or (target == "inactive" and actual == "unconfigured")
 
 
 def reached_in_time(

@@ -29,7 +29,7 @@ def plain_models(draw: st.DrawFn) -> PlainModel:
 @st.composite
 def _system(draw: st.DrawFn, parts: dict[str, tuple[str, ...]], systems: tuple[str, ...] = ()) -> PlainSystem:
     names = MODES[: draw(st.integers(1, 3))]
-    modes = {mode: {p: draw(_command(modes)) for p, modes in parts.items()} for mode in names}
+    modes = {mode: {p: draw(_command(modes, p in systems)) for p, modes in parts.items()} for mode in names}
     targets = st.sampled_from(("inactive", *(f"active.{mode}" for mode in names)))
     rules = [
         PlainRule(f"r{i}", draw(targets), part, draw(_status(part, parts, systems)), draw(targets))
@@ -38,8 +38,9 @@ def _system(draw: st.DrawFn, parts: dict[str, tuple[str, ...]], systems: tuple[s
     return PlainSystem(modes, tuple(rules))
 
 
-def _command(modes: tuple[str, ...]) -> st.SearchStrategy[str]:
-    return st.sampled_from(("inactive", "active", *(f"active.{mode}" for mode in modes)))
+def _command(modes: tuple[str, ...], is_system: bool) -> st.SearchStrategy[str]:
+    resting = ("inactive",) if is_system else ("inactive", "unconfigured")
+    return st.sampled_from((*resting, "active", *(f"active.{mode}" for mode in modes)))
 
 
 def _status(part: str, parts: dict[str, tuple[str, ...]], systems: tuple[str, ...]) -> st.SearchStrategy[str]:
