@@ -46,12 +46,9 @@ def _both(system: Part, first: Mode, second: Mode) -> list[str]:
     """Return a line for each part: what two modes command it to be."""
     lines = []
     for name in system.part_names:
-        one, other = first.commands[name].target, second.commands[name].target
-        lines.append(
-            f"  {name}: {one}"
-            if one.is_same(other)
-            else f"  {name}: {one} in '{first.name}', {other} in '{second.name}'"
-        )
+        before, after = first.commands[name].target, second.commands[name].target
+        differ = f" in '{first.name}', {after} in '{second.name}'" if not before.is_same(after) else ""
+        lines.append(f"  {name}: {before}{differ}")
     return lines
 
 
