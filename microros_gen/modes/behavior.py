@@ -18,7 +18,7 @@ system again, and from there on the functions above say what follows.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 from microros_gen.modes.inference import fulfills
 from microros_gen.modes.model import (
@@ -40,7 +40,7 @@ from microros_gen.records import dataclass
 Failures = tuple[tuple[str, Status], ...]
 """The nodes that are stuck, and where."""
 
-_Behaviors = dict[tuple[Status, ...], Failures]
+Behaviors = dict[tuple[Status, ...], Failures]
 """For each target of a part in `targets_of` order what it ends in, with the fewest failures that this takes."""
 
 _Led = Mapping[Status, frozenset[Status]]
@@ -95,9 +95,21 @@ def targets_of(model: Model, part: Part) -> tuple[Status, ...]:
     return (Status(UNCONFIGURED), Status(INACTIVE), *map(active, part.modes))
 
 
-def settle_all(model: Model, most: int) -> Settled:
-    """Return what is known of all systems; one with more than `most` different combinations stays open."""
-    behaviors: dict[str, _Behaviors] = {node.name: _of_node(model, node) for node in model.nodes}
+def every_failure(model: Model, node: Part) -> Behaviors:
+    """Return what a node ends in for each target: it follows, or is stuck in one status."""
+    targets = targets_of(model, node)
+    stuck = {(status,) * len(targets): ((node.name, status),) for status in failure_states(node)}
+    return {targets: (), **stuck}
+
+
+def settle_all(
+    model: Model, most: int, of_node: Callable[[Model, Part], Behaviors] = every_failure
+) -> Settled:
+    """Return what is known of all systems; one with more than `most` different combinations stays open.
+
+    `of_node` says what a node can end in.
+    """
+    behaviors: dict[str, Behaviors] = {node.name: of_node(model, node) for node in model.nodes}
     oscillations: list[Oscillation] = []
     unproven: list[str] = []
     led: dict[str, _Led] = {}
@@ -122,14 +134,8 @@ def settle_all(model: Model, most: int) -> Settled:
     return Settled(tuple(oscillations), tuple(unproven), kept, led)
 
 
-def _of_node(model: Model, node: Part) -> _Behaviors:
-    targets = targets_of(model, node)
-    stuck = {(status,) * len(targets): ((node.name, status),) for status in failure_states(node)}
-    return {targets: (), **stuck}
-
-
 def _combine(
-    model: Model, system: Part, behaviors: Mapping[str, _Behaviors], most: int
+    model: Model, system: Part, behaviors: Mapping[str, Behaviors], most: int
 ) -> dict[tuple[_Seen, ...], Failures]:
     """Return what can be seen of all parts together, by target, with the fewest failures that this takes."""
     targets = model.targets(system)
@@ -195,10 +201,10 @@ def _seen(model: Model, system: Part, name: str, outcomes: tuple[Status, ...]) -
 
 def _outcomes(
     model: Model, system: Part, combined: Mapping[tuple[_Seen, ...], Failures]
-) -> tuple[list[Oscillation], _Behaviors, _Led]:
+) -> tuple[list[Oscillation], Behaviors, _Led]:
     targets = model.targets(system)
     cycles: dict[frozenset[str], Oscillation] = {}
-    behaviors: _Behaviors = {}
+    behaviors: Behaviors = {}
     led: dict[Status, set[Status]] = {target: set() for target in targets}
     for seen, failures in sorted(combined.items(), key=lambda item: len(item[1])):
         following = [_next(system, targets, i, seen) for i in range(len(targets))]

@@ -11,22 +11,25 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Severity
-from microros_gen.modes.behavior import Settled
+from microros_gen.modes.alike import alike_modes, without_alike
+from microros_gen.modes.behavior import Settled, settle_all
 from microros_gen.modes.model import Model, Part, Status, active
 from microros_gen.modes.report import OPEN, PROVEN, REFUTED, Property
 
 
-def check_reachable(model: Model, settled: Settled, diagnostics: Diagnostics) -> Property:
+def check_reachable(model: Model, settled: Settled, most: int, diagnostics: Diagnostics) -> Property:
     """Report modes of parts that no mode of their system commands, and no rule of theirs leads to.
 
-    A part that is in no system is requested from outside, and `__DEFAULT__` is what activation leads to.
+    A part that is in no system is requested from outside, and `__DEFAULT__` is what activation leads to. `settled` is
+    what `settle_all` returns of the model with `most`.
     """
+    certain = settle_all(model, most, without_alike) if any(map(alike_modes, model.nodes)) else settled
     results = [PROVEN]
     for part in model.parts.values():
         if part.name not in model.parents:
             continue
         commanded = _commanded(model, part)
-        sure = _surely(part, settled, commanded)
+        sure = _surely(part, certain, commanded)
         possible = _possibly(model, part, settled, commanded)
         for mode in part.modes.values():
             if active(mode.name) in sure:

@@ -6,7 +6,8 @@ from __future__ import annotations
 from math import prod
 
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Severity
-from microros_gen.modes.behavior import Failures, Oscillation, Settled, failure_states
+from microros_gen.modes.alike import alike_modes, with_inferred
+from microros_gen.modes.behavior import Failures, Oscillation, Settled, failure_states, settle_all
 from microros_gen.modes.manager import Manager
 from microros_gen.modes.model import Model, Status
 from microros_gen.modes.report import OPEN, PROVEN, REFUTED, Property
@@ -22,18 +23,31 @@ def check_stability(model: Model, settled: Settled, most: int, diagnostics: Diag
 
     `settled` is what `settle_all` returns of the model.
     """
+    inferred = settle_all(model, most, with_inferred) if any(map(alike_modes, model.nodes)) else settled
     for oscillation in settled.oscillations:
         diagnostics.add(_oscillation(model, oscillation))
-    for name in settled.open:
+    for name in inferred.open:
         message = f"not proven for '{name}': more than {most} different combinations of failures"
         hint = "Raise --limit, or split the system"
         span = model.parts[name].span
         diagnostics.add(Diagnostic(message, span, hint, Severity.WARNING, id="MG-8845"))
-    result = REFUTED if settled.oscillations else OPEN if settled.open else PROVEN
+    vague = [] if settled.oscillations else [_undecided(model, found) for found in inferred.oscillations]
+    diagnostics.extend(vague)
+    result = REFUTED if settled.oscillations else OPEN if inferred.open or vague else PROVEN
     count = prod(1 + len(failure_states(node)) for node in model.nodes)
     rules = sum(len(part.rules) for part in model.parts.values())
     detail = f"rules: {rules}; combinations of failures: {count:,}, different: {settled.kept:,}"
     return Property("stable rules", result, detail)
+
+
+def _undecided(model: Model, found: Oscillation) -> Diagnostic:
+    """Return a warning: rules may oscillate because modes of a node have the same values."""
+    rules = ", ".join(f"'{name}'" for name in found.rules)
+    message = f"not proven for '{found.system}': its rules {rules} take modes with the same values for others"
+    hint = "Let the modes of a node differ in a value"
+    block = tuple(f"  failed {node} {status}" for node, status in found.failures)
+    span = model.parts[found.system].span
+    return Diagnostic(message, span, hint, Severity.WARNING, block=block, id="MG-8847")
 
 
 def _oscillation(model: Model, found: Oscillation) -> Diagnostic:

@@ -57,7 +57,7 @@ def check_model(model: Model, nodes: Sequence[NodeDecl] = (), most: int = MOST_C
         check_parameters(model, nodes, diagnostics),
         check_start_orders(model),
         check_inference(model, diagnostics),
-        check_reachable(model, settled, diagnostics),
+        check_reachable(model, settled, most, diagnostics),
         check_stability(model, settled, most, diagnostics),
         check_commands(model),
     )

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.modes import Report, check
+from microros_gen.mode_manager.simulation import simulate
+from microros_gen.modes import Event, Report, Status, check
 from microros_gen.modes.model import STATES
 from microros_gen.modes.verification import check_model
 from tests.support.modes.large import large_model
@@ -140,9 +141,7 @@ def test_a_mode_that_only_a_rule_leads_to_is_reached() -> None:
     assert results(checked(with_rule))["reachable modes"] == "proven"
 
 
-def test_a_mode_that_only_a_rule_that_never_holds_leads_to() -> None:
-    """A system of one part that is what its target commands is in its target, where no rule is applied."""
-    text = """\
+REACHED_BY_RULE = """\
 top:
   ros__parameters: {type: system, parts: [arm], modes: {__DEFAULT__: {arm: active.A}}}
 arm:
@@ -160,7 +159,11 @@ p:
     type: node
     modes: {__DEFAULT__: {ros__parameters: {v: 1}}, X: {ros__parameters: {v: 2}}, Y: {ros__parameters: {v: 3}}}
 """
-    report = checked(text)
+
+
+def test_a_mode_that_only_a_rule_that_never_holds_leads_to() -> None:
+    """A system of one part that is what its target commands is in its target, where no rule is applied."""
+    report = checked(REACHED_BY_RULE)
     assert (results(report)["reachable modes"], report.exit_status) == ("refuted", 2)
     assert findings(report)[-1].splitlines() == [
         "m.yaml:10:7: error: the mode 'B' of 'arm' is never reached. "
@@ -170,7 +173,7 @@ p:
         "  'top' commands A, __DEFAULT__",
         "  never applied: 'a'",
     ]
-    other = changed(text, "if_part: [p, active.X]", "if_part: [p, active.Y]")
+    other = changed(REACHED_BY_RULE, "if_part: [p, active.X]", "if_part: [p, active.Y]")
     assert results(checked(other))["reachable modes"] == "proven"
 
 
@@ -191,6 +194,56 @@ RETRY = """\
 OSCILLATING = changed(ARM, "      # in __DEFAULT__ nothing is left to degrade to\n", RETRY).replace(
     "        new_target: inactive\n", "        new_target: active.__DEFAULT__\n"
 )
+
+
+ALIKE = """\
+arm:
+  ros__parameters:
+    type: system
+    parts: [p, q]
+    modes:
+      __DEFAULT__: {p: active.A, q: inactive}
+      T1: {p: active.B, q: active}
+      T3: {p: active.C, q: active}
+    rules:
+      a: {if_target: active.T1, if_part: [p, active.B], new_target: active.T3}
+      b: {if_target: active.T3, if_part: [p, active.A], new_target: active.T1}
+p:
+  ros__parameters:
+    type: node
+    modes:
+      __DEFAULT__: {ros__parameters: {v: 1}}
+      A: {ros__parameters: {v: 2}}
+      B: {ros__parameters: {v: 2}}
+      C: {ros__parameters: {v: 3}}
+q:
+  ros__parameters: {type: node, modes: {__DEFAULT__: {ros__parameters: {v: 1}}}}
+"""
+"""The node p that stays in v: 2 is seen in B when that is its target, else in A."""
+
+
+def test_rules_that_may_oscillate_for_modes_with_the_same_values_are_not_proven() -> None:
+    report = checked(ALIKE)
+    assert (results(report)["stable rules"], report.exit_status) == ("not proven", 1)
+    (found,) = (text for text in findings(report) if "MG-8847" in text)
+    assert "not proven for 'arm': its rules 'a', 'b' take modes with the same values for others" in found
+    assert found.splitlines()[-2:] == ["  failed p active.A", "  failed q unknown"]
+    failed = [Event(0, "fail", "q", Status("inactive")), Event(0, "fail", "p", Status("active", "B"))]
+    requested = Event(10**6, "request", "arm", Status("active", "T1"))
+    assert not simulate(model_of(ALIKE), (*failed, requested)).is_stable
+    assert results(checked(changed(ALIKE, "{v: 3}", "{v: 4}").replace("{v: 2}", "{v: 3}", 1)))[
+        "stable rules"
+    ] == ("proven")
+
+
+def test_a_rule_that_takes_a_mode_for_another_one_with_the_same_values() -> None:
+    """A node that is inferred from values is in its target there, and no rule holds."""
+    assert results(checked(changed(REACHED_BY_RULE, "[p, active.X]", "[p, active.Y]")))[
+        "reachable modes"
+    ] == ("proven")
+    alike = changed(REACHED_BY_RULE, "{v: 3}", "{v: 2}")
+    report = checked(changed(alike, "[p, active.X]", "[p, active.Y]"))
+    assert results(report)["reachable modes"] == "not proven"
 
 
 def test_an_oscillation_is_shown_as_a_trace() -> None:

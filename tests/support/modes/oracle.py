@@ -55,10 +55,14 @@ class PlainSystem:
 
 @dataclass(frozen=True)
 class PlainModel:
-    """`nodes`: node → its modes. The last system contains, or is, all others."""
+    """`nodes`: node → its modes. The last system contains, or is, all others.
+
+    `alike` are nodes of which all modes but the first have the same values.
+    """
 
     nodes: Mapping[str, tuple[str, ...]]
     systems: Mapping[str, PlainSystem]
+    alike: frozenset[str] = frozenset()
 
     def text(self) -> str:
         """Return the model as a file."""
@@ -83,7 +87,8 @@ class PlainModel:
         for name, modes in self.nodes.items():
             yield f"{name}:\n  ros__parameters:\n    type: node\n    modes:"
             for i, mode in enumerate(modes):
-                yield f"      {mode}:\n        ros__parameters:\n          level: {i}"
+                level = min(i, 1) if name in self.alike else i
+                yield f"      {mode}:\n        ros__parameters:\n          level: {level}"
 
     def failures(self) -> Iterator[dict[str, str]]:
         """Yield every combination of stuck nodes, the one without any first."""
