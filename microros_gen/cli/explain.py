@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import click
 
 from microros_gen.cli.offers import output_or_id
-from microros_gen.cli.options import check_map, image_option, map_option
+from microros_gen.cli.options import check_map, format_option, image_option, map_option
 from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.diagnostics.explanations import explanations
 
@@ -26,14 +26,7 @@ if TYPE_CHECKING:
 @click.argument("what", metavar="[SYMBOL|FILE|COMPONENT]", required=False)
 @image_option("Your own image to explain, linked with the library of OUT. Default: the image that was built.")
 @map_option
-@click.option(
-    "--format",
-    "kind",
-    type=click.Choice(("table", "json")),
-    default="table",
-    show_default=True,
-    help="Lines for people, or JSON for programs.",
-)
+@format_option
 def command(out: Path, what: str | None, image: Path | None, linker_map: Path | None, kind: str) -> None:
     """Show where SYMBOL, FILE or COMPONENT of OUT comes from and why it is there, or what the diagnostic ID means.
 

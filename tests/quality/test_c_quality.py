@@ -92,7 +92,6 @@ def test_corpus_holds_every_source(trees: list[Tree]) -> None:
         folder = load_catalogue()[name].folder / "src"
         wanted |= {f"{name}/{path.name.removesuffix('.j2')}" for path in folder.glob("*.c*")}
     narrow = {"port_bare/port_bare_serial_narrow.c", "port_bare/port_bare_time_narrow.c"}
-    narrow |= {"cdr/cdr_double.c", "cdr/cdr_put_double.c", "cdr_decode/cdr_decode_double.c"}
     narrow |= {"support/error_text_flash.c"}
     assert sorted(wanted - covered(trees) - narrow) == []
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from microros_gen.cli.offers import ways
+from microros_gen.cli.options import format_option
 
 if TYPE_CHECKING:
     from microros_gen.cli.doctor.finding import Finding
@@ -20,14 +21,7 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("names", metavar="[WAY]…", nargs=-1, shell_complete=ways)
 @click.option("--fix", is_flag=True, help="Fix what needs neither root nor a network, then check again.")
-@click.option(
-    "--format",
-    "kind",
-    type=click.Choice(("table", "json")),
-    default="table",
-    show_default=True,
-    help="Lines for people, or JSON for programs.",
-)
+@format_option
 def command(names: tuple[str, ...], fix: bool, kind: str) -> int:
     """Show what this machine lacks to build and run, what it is needed for, and the command that installs it.
 

@@ -17,7 +17,7 @@ static xrce_write_t full_best_effort(xrce_endpoint_t * writer, uint8_t ** room)
   if (xrce_output_queue_exists() && xrce_write_failure(writer) != XRCE_WRITE_NO_SESSION) {
     const uint8_t * dropped = xrce_output_queue_drop_oldest();
 
-    /* cppcheck-suppress knownConditionTrueFalse ; without tasks of the application file there is no queue */
+    /* cppcheck-suppress knownConditionTrueFalse ; a queue exists only with tasks of the application file */
     if (dropped != NULL) {
       xrce_drops_add(client, xrce_object_index(xrce_get_be16(&dropped[XRCE_SUBMESSAGE_HEADER + 2])));
       *room = xrce_route_reserve(client, false);
