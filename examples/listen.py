@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An rclpy subscriber of any topic: prints each sample on a line. `ros2 topic echo` where there is no ros2cli."""
+"""An rclpy subscriber of any topic: prints each sample on a line."""
 
 from __future__ import annotations
 

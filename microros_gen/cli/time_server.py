@@ -56,14 +56,14 @@ def time_peer(domain: int | None) -> Peer:
 def command(domain: int | None, rate: float, speed: float, start: float, paused: bool) -> None:
     """Publish /clock for nodes with use_sim_time and for firmware with `clock: ros`.
 
-    The node /microros_time has the parameters paused, speed and time, which any node and `ros2 param set` can change:
-    the time stands still, runs faster or slower, and jumps forward or back. It is published also while it stands
-    still, so that nodes that start later get it. One server per domain. Needs ROS 2 Jazzy, like the agent.
+    The node /microros_time has the parameters paused, speed and time, which any node and `microros-gen param set`
+    can change: the time stands still, runs faster or slower, and jumps forward or back. It is published also while it
+    stands still, so that nodes that start later get it. One server per domain. Needs ROS 2 Jazzy, like the agent.
 
     \b
     microros-gen time-server --speed 0.5
-    ros2 param set /microros_time paused true
-    ros2 param set /microros_time time 12.5
+    microros-gen param set /microros_time paused true
+    microros-gen param set /microros_time time 12.5
 
     Prints 'time server ready: /microros_time' on stdout. SIGINT and SIGTERM end it with status 0.
     """

@@ -26,6 +26,9 @@ from microros_gen.ros.names import ServiceName
 from microros_gen.ros.raw_types import RawTypes
 
 Value = dict[str, Any]
+MessageInfo = Mapping[str, Any]
+"""What rmw says of a received message (rmw_message_info_t): `source_timestamp` and `received_timestamp` in nanoseconds
+since 1970, `publication_sequence_number`, `reception_sequence_number`."""
 Spin = Callable[[Callable[[], object], float], bool]
 """Spins until something is true, at most so many seconds; returns whether it is."""
 Respond = Callable[[Mapping[str, Any]], object]
@@ -68,25 +71,31 @@ class _Waited:
         return int(getattr(waits, f"add_{self.kind}")(self.handle))
 
 
-class Subscription(_Waited):
-    """Passes received messages to a callback as dicts."""
+class RawSubscription(_Waited):
+    """Passes received messages to a callback as they were on the wire, with what ROS 2 says of them."""
 
     kind = "subscription"
 
-    def __init__(self, handle: Any, known: KnownType, callback: Callable[[Value], object]) -> None:
+    def __init__(self, handle: Any, callback: Callable[[bytes, MessageInfo], object]) -> None:
         self.handle = handle
-        self._known = known
-        self._callback = callback
+        self._received = callback
 
     def publishers(self) -> int:
         """Return the number of matched publishers."""
         return int(self.handle.get_publisher_count())
 
     def look(self) -> None:
-        """Take at most one message and call back. Raises CodecError if a publisher uses another type of this name."""
+        """Take at most one message and call back. Raises what the callback raises."""
         taken = self.handle.take_message(None, True)
         if taken is not None:
-            self._callback(self._known.codec.decode(self._known.name, taken[0]))
+            self._received(taken[0], taken[1])
+
+
+class Subscription(RawSubscription):
+    """Passes received messages to a callback as dicts."""
+
+    def __init__(self, handle: Any, known: KnownType, callback: Callable[[Value], object]) -> None:
+        super().__init__(handle, lambda data, _: callback(known.codec.decode(known.name, data)))
 
 
 class _ServiceEnd(_Waited):

@@ -16,7 +16,7 @@ from microros_gen.ros.errors import RosError
 
 
 class KnownType:
-    """A message or service from an interface file, with the codec of its messages."""
+    """A message, service or action from an interface file, with the codec of its messages."""
 
     def __init__(self, name: TypeName, interfaces: InterfaceSet) -> None:
         self.name = name
@@ -59,6 +59,16 @@ class KnownTypes:
         known = self._find(text, "srv")
         if known.name not in known.interfaces.services:
             raise RosError(f"{known.name} is not a service")
+        return known
+
+    def action(self, text: str) -> KnownType:
+        """Return the action `pkg/action/Type` or `pkg/Type`.
+
+        Raises UserError if no interface file declares it or the file is invalid, RosError if it is not an action.
+        """
+        known = self._find(text, "action")
+        if known.name not in known.interfaces.actions:
+            raise RosError(f"{known.name} is not an action")
         return known
 
     def _find(self, text: str, kind: str) -> KnownType:

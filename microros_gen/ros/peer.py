@@ -20,7 +20,17 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
-from microros_gen.ros.endpoints import Client, Publisher, Respond, Server, Subscription, Value
+from microros_gen.interfaces.types import TypeName
+from microros_gen.ros.endpoints import (
+    Client,
+    MessageInfo,
+    Publisher,
+    RawSubscription,
+    Respond,
+    Server,
+    Subscription,
+    Value,
+)
 from microros_gen.ros.errors import RosError
 from microros_gen.ros.graph import Graph, GraphChanges
 from microros_gen.ros.known_types import KnownType, KnownTypes
@@ -30,7 +40,7 @@ from microros_gen.ros.names import ServiceName
 from microros_gen.ros.qos import Qos, c_profile
 from microros_gen.ros.raw_types import raw_types
 
-_Waited = Subscription | Client | Server | GraphChanges
+_Waited = RawSubscription | Client | Server | GraphChanges
 """What a peer waits for."""
 _WAITED_KINDS = ("subscription", "guard_condition", "timer", "client", "service", "event")
 """In the order of the arguments of rclpy's wait set."""
@@ -81,6 +91,11 @@ class Peer:
         """Return the fully qualified name of the node."""
         return str(self._node.get_fully_qualified_name())
 
+    @property
+    def types(self) -> KnownTypes:
+        """The types that have an interface file."""
+        return self._types
+
     def publisher(self, topic: str, type_name: str, qos: Qos | None = None) -> Publisher:
         """Create a publisher; topics are absolute (`/a/b`) or relative to the node's namespace.
 
@@ -98,6 +113,24 @@ class Peer:
         subscription = Subscription(
             self._topic(self._handles.Subscription, topic, known, qos), known, callback
         )
+        self._waited.append(subscription)
+        return subscription
+
+    def subscribe_raw(
+        self,
+        topic: str,
+        name: TypeName,
+        type_hash: str | None,
+        callback: Callable[[bytes, MessageInfo], object],
+        qos: Qos | None = None,
+    ) -> RawSubscription:
+        """Create a subscription of a type that needs no interface file; `callback` gets encapsulation and CDR body.
+
+        `type_hash` is RIHS01 text, or None if it is not known. Errors as for `publisher`.
+        """
+        raw = self._raw.message_class(name, type_hash)
+        handle = self._made(self._handles.Subscription, raw, topic, c_profile(qos or Qos()))
+        subscription = RawSubscription(handle, callback)
         self._waited.append(subscription)
         return subscription
 
@@ -126,7 +159,7 @@ class Peer:
         self._waited.append(server)
         return server
 
-    def remove(self, waited: Subscription | Client | Server) -> None:
+    def remove(self, waited: RawSubscription | Client | Server) -> None:
         """Destroy a subscription, client or server, which cannot be used afterwards. Raises RosError in a callback."""
         if self._spinning:
             raise RosError("a callback cannot remove an entity: do it after `spin_once`")

@@ -14,6 +14,7 @@ class Qos:
     """QoS policies with ROS 2's defaults (rmw_qos_profile_default).
 
     `depth`: keep the last samples, 1 or more; None keeps all. `deadline_ms`, `lifespan_ms`: 0 or more; 0 sets none.
+    `lease_ms`: lease duration of the liveliness, 0 sets none; `manual_liveliness`: by topic instead of automatic.
     """
 
     reliable: bool = True
@@ -21,6 +22,8 @@ class Qos:
     depth: int | None = 10
     deadline_ms: int = 0
     lifespan_ms: int = 0
+    manual_liveliness: bool = False
+    lease_ms: int = 0
 
 
 def c_profile(qos: Qos) -> Any:
@@ -42,4 +45,8 @@ def c_profile(qos: Qos) -> Any:
         profile.deadline = duration(nanoseconds=qos.deadline_ms * 1_000_000)
     if qos.lifespan_ms:
         profile.lifespan = duration(nanoseconds=qos.lifespan_ms * 1_000_000)
+    if qos.manual_liveliness:
+        profile.liveliness = module.LivelinessPolicy.MANUAL_BY_TOPIC
+    if qos.lease_ms:
+        profile.liveliness_lease_duration = duration(nanoseconds=qos.lease_ms * 1_000_000)
     return profile.get_c_qos_profile()

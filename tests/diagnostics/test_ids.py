@@ -28,6 +28,7 @@ PASSED_ON = {
     "MG-9416": "an exception of the check of DDS names",
     "MG-9421": "an error of the XML parser",
     "MG-9423": "an error of an XML element",
+    "MG-9810": "a reason of ROS 2, or of a node",
     "MG-9707": "a message about an agent file, for --limit",
 }.keys()
 """Ids whose text comes from elsewhere as a whole, with its source; no further ones."""

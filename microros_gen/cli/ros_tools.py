@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the commands on a ROS graph share: their options, their node, and errors as diagnostics."""
+
+from __future__ import annotations
+
+import os
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from microros_gen.cli.options import interface_path_option
+from microros_gen.diagnostics import Diagnostic, UserError
+
+if TYPE_CHECKING:
+    from microros_gen.ros.peer import Peer
+    from microros_gen.ros.qos import Qos
+    from microros_gen.ros_tools.discovery import Discovery
+
+F = TypeVar("F", bound=Callable[..., Any])
+TURN_S = 0.1
+_PRESETS = (
+    "default",
+    "sensor_data",
+    "services_default",
+    "parameters",
+    "parameter_events",
+    "action_status_default",
+)
+
+domain_option = click.option(
+    "--domain", type=click.IntRange(0, 232), metavar="ID", help="ROS domain. Default: ROS_DOMAIN_ID, else 0."
+)
+stdin_option = click.option(
+    "--stdin", "from_stdin", is_flag=True, help="Read the values from standard input."
+)
+
+
+def graph_options(function: F) -> F:
+    """Add the options of every command on a graph; they are passed on as `**graph` to `on_graph`."""
+    for option in (
+        click.option(
+            "--spin-time",
+            type=click.FloatRange(0, 3600),
+            metavar="SECONDS",
+            default=3.0,
+            show_default=True,
+            help="Longest wait until nodes, topics and services are discovered.",
+        ),
+        domain_option,
+        interface_path_option,
+    ):
+        function = option(function)
+    return function
+
+
+def qos_options(preset: str) -> Callable[[F], F]:
+    """Add the options for the QoS; `preset` is the default of --qos-profile."""
+
+    def add(function: F) -> F:
+        for option in reversed(
+            (
+                click.option(
+                    "--qos-profile",
+                    type=click.Choice(_PRESETS),
+                    metavar="NAME",
+                    help=f"Preset: {', '.join(_PRESETS)}. Default: {preset}.",
+                ),
+                click.option(
+                    "--qos-depth", type=click.IntRange(1, 100_000), metavar="N", help="Samples to keep."
+                ),
+                click.option(
+                    "--qos-history",
+                    type=click.Choice(("keep_last", "keep_all")),
+                    help="Overrides the preset.",
+                ),
+                click.option(
+                    "--qos-reliability",
+                    type=click.Choice(("reliable", "best_effort")),
+                    help="Overrides the preset.",
+                ),
+                click.option(
+                    "--qos-durability",
+                    type=click.Choice(("volatile", "transient_local")),
+                    help="Overrides the preset.",
+                ),
+                click.option(
+                    "--qos-liveliness",
+                    type=click.Choice(("automatic", "manual_by_topic")),
+                    help="Overrides the preset.",
+                ),
+                click.option(
+                    "--qos-liveliness-lease-duration-seconds",
+                    type=click.FloatRange(0, min_open=True),
+                    metavar="SECONDS",
+                    help="Overrides the preset.",
+                ),
+            )
+        ):
+            function = option(function)
+        return function
+
+    return add
+
+
+def chosen_qos(preset: str, options: dict[str, Any]) -> tuple[Qos, bool]:
+    """Return the QoS that the options of `qos_options` choose, and whether any of them was chosen."""
+    from dataclasses import replace
+
+    from microros_gen.ros_tools.quality import PRESETS
+
+    chosen = {name.removeprefix("qos_"): value for name, value in options.items() if value is not None}
+    qos = PRESETS[chosen.get("profile", preset)]
+    changes: dict[str, Any] = {}
+    if "depth" in chosen:
+        changes["depth"] = chosen["depth"]
+    if chosen.get("history") == "keep_all":
+        changes["depth"] = None
+    if "reliability" in chosen:
+        changes["reliable"] = chosen["reliability"] == "reliable"
+    if "durability" in chosen:
+        changes["transient_local"] = chosen["durability"] == "transient_local"
+    if "liveliness" in chosen:
+        changes["manual_liveliness"] = chosen["liveliness"] == "manual_by_topic"
+    if "liveliness_lease_duration_seconds" in chosen:
+        changes["lease_ms"] = max(1, round(chosen["liveliness_lease_duration_seconds"] * 1000))
+    return replace(qos, **changes), bool(chosen)
+
+
+@contextmanager
+def on_graph(
+    spin_time: float, domain: int | None, interface_paths: tuple[Path, ...], node: str | None = None
+) -> Iterator[tuple[Peer, Discovery]]:
+    """Give the node of a command and what it discovers; `node` names it, else its name is a hidden one.
+
+    Raises UserError without a usable ROS 2, and for what ROS 2 or a node refuses.
+    """
+    from microros_gen.cli.ros_node import node_of
+    from microros_gen.ros.errors import CodecError, RosError
+    from microros_gen.ros_tools.discovery import Discovery
+
+    name = node or f"_microros_gen_{os.getpid()}"
+    try:
+        with node_of(name, domain, _unusable, interface_paths) as peer:
+            yield peer, Discovery(peer, spin_time)
+    except (RosError, CodecError) as error:
+        raise UserError([Diagnostic(str(error), id="MG-9810")], status=1) from error
+
+
+class Interrupted:
+    """Becomes true when SIGINT or SIGTERM arrives within `until_interrupted`."""
+
+    def __init__(self) -> None:
+        self._event = threading.Event()
+
+    def __bool__(self) -> bool:
+        return self._event.is_set()
+
+    def stop(self) -> None:
+        """Become true."""
+        self._event.set()
+
+    def wait(self, seconds: float) -> bool:
+        """Sleep, at most until it is true; return whether it is."""
+        return self._event.wait(seconds)
+
+
+@contextmanager
+def until_interrupted() -> Iterator[Interrupted]:
+    """Let SIGINT and SIGTERM end a loop instead of the program."""
+    from microros_gen.agent.server import stopped_by_signals
+
+    interrupted = Interrupted()
+    with stopped_by_signals(interrupted):
+        yield interrupted
+
+
+def values_text(values: str | None, from_stdin: bool) -> str:
+    """Return the text of the values; UsageError for both."""
+    if from_stdin and values is not None:
+        raise click.UsageError("--stdin takes the place of the values: give one of them.")
+    return sys.stdin.read() if from_stdin else values or ""
+
+
+def show(text: str) -> None:
+    """Print lines at once, also into a pipe."""
+    click.echo(text)
+    sys.stdout.flush()
+
+
+def _unusable(error: Any) -> Diagnostic:
+    return Diagnostic(f"the command {error.reason}", hint=error.hint, id="MG-9817")

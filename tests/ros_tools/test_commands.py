@@ -1,0 +1,270 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The commands on a graph of rclpy's nodes, as a user calls them."""
+
+from __future__ import annotations
+
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+import yaml
+from rosbags.highlevel import AnyReader
+
+from tests.support.agent.process import environment, own_domain
+from tests.support.patience import deadline, seconds
+from tests.support.ros.running import Running, running
+
+pytestmark = [pytest.mark.ros, pytest.mark.system]
+WAIT_S = 10
+
+
+@dataclass(frozen=True)
+class Done:
+    status: int
+    out: str
+    err: str
+
+
+@pytest.fixture(scope="module")
+def arm() -> Iterator[Running]:
+    with running(own_domain(), "tests.support.ros.arm") as nodes:
+        nodes.wait_for("ready")
+        yield nodes
+
+
+def command(*arguments: str) -> list[str]:
+    return [sys.executable, "-m", "microros_gen", *arguments]
+
+
+def call(*arguments: str, text: str | None = None) -> Done:
+    done = subprocess.run(
+        [*command(*arguments), "--spin-time", str(WAIT_S)],
+        env=environment(own_domain()),
+        input=text,
+        capture_output=True,
+        text=True,
+        timeout=seconds(60),
+        check=False,
+    )
+    assert "Traceback" not in done.stderr
+    return Done(done.returncode, done.stdout, done.stderr)
+
+
+def interrupted(*arguments: str, after: str) -> Done:
+    """Run a command without an end, and interrupt it once it printed a text."""
+    process = subprocess.Popen(
+        command(*arguments),
+        env=environment(own_domain()),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    assert process.stdout is not None
+    lines: list[str] = []
+    try:
+        end = deadline(60)
+        while not any(re.search(after, line) for line in lines):
+            assert time.monotonic() < end, lines
+            lines.append(process.stdout.readline())
+        process.send_signal(signal.SIGINT)
+        rest, _ = process.communicate(timeout=seconds(20))
+    finally:
+        process.kill()
+    return Done(process.returncode, "".join(lines) + rest, "")
+
+
+def test_topics_are_listed_with_types(arm: Running) -> None:
+    done = call("topic", "list", "-t")
+    assert done.status == 0
+    assert {"/count [std_msgs/msg/Int32]", "/imu [sensor_msgs/msg/Imu]"} <= set(done.out.splitlines())
+    assert "/_" not in done.out
+    assert call("topic", "find", "std_msgs/msg/Int32").out.splitlines() == ["/count", "/numbers"]
+
+
+def test_the_endpoints_of_a_topic_are_shown(arm: Running) -> None:
+    lines = call("topic", "info", "-v", "imu").out.splitlines()
+    assert lines[0] == "Type: sensor_msgs/msg/Imu"
+    assert {
+        "Publisher count: 1",
+        "Node name: arm",
+        "  Reliability: BEST_EFFORT",
+        "Subscription count: 0",
+    } <= set(lines)
+
+
+def test_a_topic_is_printed(arm: Running) -> None:
+    done = call("topic", "echo", "--once", "/imu", "--field", "header.frame_id")
+    assert (done.status, done.out) == (0, "base\n---\n")
+    once = call("topic", "echo", "--once", "/count").out
+    assert yaml.safe_load(once.removesuffix("---\n"))["data"] > 0
+
+
+def test_a_topic_is_printed_until_an_interrupt(arm: Running) -> None:
+    done = interrupted("topic", "echo", "/count", "--flow-style", after=r"\{data: \d+\}")
+    assert done.status == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "identity", "hint"),
+    [
+        (("topic", "info", "/coun"), "MG-9812", "Did you mean '/count'?"),
+        (("topic", "echo", "/imu", "--field", "heade"), "MG-9819", "Did you mean 'header'?"),
+        (("topic", "delay", "/count"), "MG-9821", "microros-gen topic hz"),
+        (("service", "type", "/enabl"), "MG-9813", "Did you mean '/enable'?"),
+        (("node", "info", "/arms"), "MG-9811", "Did you mean '/arm'?"),
+        (("param", "get", "/arm", "gian"), "MG-9827", "Did you mean 'gain'?"),
+        (("lifecycle", "set", "/gripper", "activate"), "MG-9825", "Available now: configure, shutdown"),
+        (("action", "info", "/fibonaci"), "MG-9824", "Did you mean '/fibonacci'?"),
+        (("lifecycle", "get", "/arm"), "MG-9810", ""),
+    ],
+)
+def test_a_mistake_has_a_proposal(arm: Running, arguments: tuple[str, ...], identity: str, hint: str) -> None:
+    done = call(*arguments)
+    assert done.status in (1, 2)
+    assert f"[{identity}]" in done.err
+    assert hint in done.err
+
+
+def test_a_message_is_published(arm: Running) -> None:
+    done = call(
+        "topic",
+        "pub",
+        "--times",
+        "2",
+        "-r",
+        "50",
+        "/numbers",
+        "std_msgs/msg/Int32",
+        "--stdin",
+        text="data: 41",
+    )
+    assert done.status == 0, done.err
+    assert "publishing #2: std_msgs.msg.Int32(data=41)" in done.out
+    end = deadline(10)
+    while arm.count("number 41") < 2:
+        assert time.monotonic() < end, arm.lines
+        time.sleep(0.05)
+
+
+def test_a_publisher_without_subscriptions_gives_a_reason(arm: Running) -> None:
+    done = call(
+        "topic", "pub", "--once", "--max-wait-time-secs", "0.3", "/nobody", "std_msgs/msg/Int32", "data: 1"
+    )
+    assert done.status == 1
+    assert "0 of 1 subscriptions matched within 0.3 s" in done.err
+
+
+@pytest.mark.parametrize(
+    ("verb", "topic", "line"),
+    [
+        ("hz", "/count", r"average rate: (9|10|11)\.\d{3}"),
+        ("bw", "/imu", r"B/s from \d+ messages"),
+        ("delay", "/imu", r"average delay: \d\.\d{3}"),
+    ],
+)
+def test_topics_are_measured(arm: Running, verb: str, topic: str, line: str) -> None:
+    assert interrupted("topic", verb, topic, after=line).status == 0
+
+
+def test_topics_are_recorded(arm: Running, tmp_path: Path) -> None:
+    path = tmp_path / "x.mcap"
+    done = call("topic", "record", "--regex", "^/(count|imu)$", "-o", str(path), "-d", "5")
+    assert done.status == 0, done.err
+    with AnyReader([path]) as reader:
+        numbers = [
+            vars(reader.deserialize(data, c.msgtype))["data"]
+            for c, _, data in reader.messages()
+            if c.topic == "/count"
+        ]
+        assert numbers == list(range(numbers[0], numbers[0] + len(numbers)))
+        assert {c.topic for c in reader.connections} == {"/count", "/imu"}
+    again = call("topic", "record", "-a", "-o", str(path))
+    assert (again.status, "[MG-9822]" in again.err) == (2, True)
+
+
+def test_a_service_is_called(arm: Running) -> None:
+    done = call("service", "call", "/enable", "std_srvs/srv/SetBool", "data: true")
+    assert done.status == 0, done.err
+    assert "response:\nstd_srvs.srv.SetBool_Response(success=True, message='enabled')\n" in done.out
+
+
+def test_nodes_are_shown(arm: Running) -> None:
+    assert call("node", "list").out.splitlines() == ["/arm", "/gripper"]
+    shown = call("node", "info", "/arm").out
+    assert "  Service Servers:\n    /arm/describe_parameters" in shown
+    assert "  Action Servers:\n    /fibonacci: test_msgs/action/Fibonacci\n" in shown
+
+
+def test_parameters_are_set_dumped_and_loaded(arm: Running, tmp_path: Path) -> None:
+    assert call("param", "set", "/arm", "gain", "2.5").out == "Set parameter successful\n"
+    assert call("param", "get", "/arm", "gain").out == "Double value is: 2.5\n"
+    refused = call("param", "set", "/arm", "gain", "-1.0")
+    assert refused.status == 1
+    assert "out of range" in refused.err
+    described = call("param", "describe", "/arm", "gain").out
+    assert (
+        "  Description: how\n  Constraints:\n    Min value: 0.0\n    Max value: 10.0\n    Step: 0.5\n"
+        in described
+    )
+    file = tmp_path / "arm.yaml"
+    dumped = yaml.safe_load(call("param", "dump", "/arm").out)
+    values = dumped["/arm"]["ros__parameters"]
+    assert (values["gain"], values["limits"], values["names"]) == (2.5, {"low": 3}, ["a", "b"])
+    file.write_text(yaml.safe_dump({"/**": {"ros__parameters": {"gain": 3.5, "limits": {"low": 4}}}}))
+    loaded = call("param", "load", "/arm", str(file))
+    assert loaded.out.splitlines() == ["Set parameter gain successful", "Set parameter limits.low successful"]
+    assert call("param", "get", "/arm", "limits.low", "--hide-type").out == "4\n"
+
+
+def test_a_life_cycle_is_driven(arm: Running) -> None:
+    assert call("lifecycle", "nodes").out == "/gripper\n"
+    assert call("lifecycle", "set", "/gripper", "configure").out == "Transitioning successful\n"
+    assert call("lifecycle", "get", "/gripper").out == "inactive [2]\n"
+    transitions = call("lifecycle", "list", "/gripper").out
+    assert "- activate [3]\n\tStart: inactive\n\tGoal: activating\n" in transitions
+    assert call("lifecycle", "set", "/gripper", "cleanup").status == 0
+
+
+def test_a_goal_is_sent_and_canceled(arm: Running) -> None:
+    fibonacci = ("/fibonacci", "test_msgs/action/Fibonacci")
+    done = call("action", "send-goal", "--feedback", *fibonacci, "order: 4")
+    assert done.status == 0, done.err
+    assert done.out.count("Feedback:") == 3
+    result = done.out.partition("Result:\n")[2].partition("\nGoal finished")[0]
+    assert yaml.safe_load(result) == {"sequence": [0, 1, 1, 2, 3]}
+    assert done.out.endswith("Goal finished with status: SUCCEEDED\n")
+    canceled = interrupted("action", "send_goal", *fibonacci, "order: 1000", after="Goal accepted")
+    assert canceled.status == 1
+    assert canceled.out.endswith("Goal canceled.\n")
+    arm.wait_for("canceled")
+
+
+def test_a_type_without_a_build_is_used(arm: Running, tmp_path: Path) -> None:
+    folder = tmp_path / "own_msgs"
+    (folder / "msg").mkdir(parents=True)
+    (folder / "package.xml").write_text("<package><name>own_msgs</name></package>")
+    (folder / "msg" / "Speed.msg").write_text("float32 left\nfloat32 right 2.0\n")
+    options = ("--interface-path", str(folder))
+    publish = command("topic", "pub", "-r", "20", "/speed", "own_msgs/msg/Speed", "left: 1", *options)
+    with subprocess.Popen(publish, env=environment(own_domain()), stdout=subprocess.DEVNULL) as publisher:
+        try:
+            done = call("topic", "echo", "--once", "--csv", "/speed", *options)
+            assert (done.status, done.out) == (0, "1.0,2.0\n")
+        finally:
+            publisher.send_signal(signal.SIGINT)
+    assert publisher.returncode == 0
+
+
+def test_the_graph_is_drawn(arm: Running, tmp_path: Path) -> None:
+    picture = tmp_path / "graph.svg"
+    assert call("graph", "-o", str(picture)).status == 0
+    text = picture.read_text(encoding="utf-8")
+    assert {"node /arm", "topic /count", "service /enable", "action /fibonacci"} <= set(
+        re.findall(r"<title>(.*?)</title>", text)
+    )
