@@ -34,6 +34,7 @@ _SUBJECTS = {
     "ros": "ROS 2",
     "parameter_server": "The parameter server",
     "modes": "System modes",
+    "ros_tools": "Commands on a ROS graph",
     "mode_manager": "The mode manager",
     "agent": "The agent",
     "components": "Components",
