@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Mapping
+from functools import cache
 from typing import Any, Union
 
 import yaml
@@ -49,6 +50,9 @@ _LOADERS_DIFFER = re.compile(r"[\t!?]|[|>][0-9+-]*#")
 _NULLS = ("", "~", "null", "Null", "NULL")
 _TRUES = ("true", "True", "TRUE")
 _FALSES = ("false", "False", "FALSE")
+_OF_TEXTS = frozenset("abcdeghijklmopqrsuvwxyzABCDEGHIJKLMOPQRSUVWXYZ_/")
+"""First characters of plain scalars that are texts: no number, boolean or null begins with them."""
+
 _INFINITY = re.compile(r"[-+]?\.(inf|Inf|INF)")
 _NOT_A_NUMBER = (".nan", ".NaN", ".NAN")
 
@@ -130,7 +134,7 @@ def _compose(source: Source, diagnostics: Diagnostics, c_loader: bool) -> yaml.N
     may_use_c = c_loader and hasattr(yaml, "CBaseLoader") and not _may_be_deep(text)
     if may_use_c and not _LOADERS_DIFFER.search(text):
         try:
-            return yaml.compose(text, Loader=yaml.CBaseLoader)
+            return yaml.compose(text, Loader=_c_loader())
         except (yaml.YAMLError, ValueError, RecursionError):
             pass  # the loader in Python says it again, the same on every machine
     try:
@@ -138,6 +142,17 @@ def _compose(source: Source, diagnostics: Diagnostics, c_loader: bool) -> yaml.N
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         diagnostics.extend([yaml_fault(source, error)])
         return None
+
+
+@cache
+def _c_loader() -> type[yaml.CBaseLoader]:
+    """Return libyaml's loader without the tags of YAML 1.1, which this module does not read, and which take time."""
+
+    class Loader(yaml.CBaseLoader):
+        def resolve(self, kind: object, value: object, implicit: object) -> str:
+            return ""
+
+    return Loader
 
 
 def _may_be_deep(text: str) -> bool:
@@ -157,6 +172,7 @@ class _Builder:
         self._source = source
         self._diagnostics = diagnostics
         self._may_have_tags = "!" in source.text
+        self._may_have_aliases = "*" in source.text
         self._sizes: dict[int, int] = {}
         self._built: dict[int, YamlNode] = {}
 
@@ -191,13 +207,16 @@ class _Builder:
 
     def build(self, node: yaml.Node) -> YamlNode:
         """Return the tree below `node`."""
+        if not self._may_have_aliases:
+            return self._build(node)
         known = self._built.get(id(node))
         if known is None:
             known = self._built[id(node)] = self._build(node)
         return known
 
     def _build(self, node: yaml.Node) -> YamlNode:
-        self._check_tag(node)
+        if self._may_have_tags:
+            self._check_tag(node)
         if isinstance(node, yaml.ScalarNode):
             return self._scalar(node)
         if isinstance(node, yaml.SequenceNode):
@@ -208,7 +227,8 @@ class _Builder:
         return MappingNode(entries, self._span(node))
 
     def _add_entry(self, entries: dict[str, Entry], key: yaml.Node, value: YamlNode) -> None:
-        self._check_tag(key)
+        if self._may_have_tags:
+            self._check_tag(key)
         if not isinstance(key, yaml.ScalarNode):
             self._error(key, "a key must be a word", "Write `key: value`", id="MG-1042")
         elif key.value == "<<" and _is_plain(key):
@@ -233,6 +253,8 @@ class _Builder:
             return ScalarNode(None, text.replace("\0", ""), True, span)
         if not _is_plain(node):
             return ScalarNode(text, text, False, span)
+        if text[:1] in _OF_TEXTS:
+            return ScalarNode(text, text, True, span)
         if _LEADING_ZERO.fullmatch(text):
             number = text.lstrip("+-").lstrip("0") or "0"
             hint = f"Write {number} (decimal), 0o{number} (octal) or '{text}' (text)"
@@ -250,8 +272,6 @@ class _Builder:
         return ScalarNode(_plain_value(text), text, True, span)
 
     def _check_tag(self, node: yaml.Node) -> None:
-        if not self._may_have_tags:
-            return
         start = node.start_mark.index
         if isinstance(node, yaml.MappingNode) and node.value and node.value[0][0].start_mark.index == start:
             return  # a block mapping begins with its first key, whose tag it is
@@ -280,11 +300,18 @@ def _children(node: yaml.Node) -> list[yaml.Node]:
 def _is_small(root: yaml.Node) -> bool:
     """Return whether the tree is certainly within the limits: level by level, so a cycle is too deep for that."""
     level, total = [root], 1
-    for _ in range(DEEPEST_TREE):
-        total += sum(2 * len(node.value) for node in level if not isinstance(node, yaml.ScalarNode))
+    for _ in range(DEEPEST_TREE - 1):
+        children: list[yaml.Node] = []
+        for node in level:
+            if isinstance(node, yaml.MappingNode):
+                for pair in node.value:
+                    children += pair
+            elif isinstance(node, yaml.SequenceNode):
+                children += node.value
+        total += len(children)
         if total > LARGEST_TREE:
             return False
-        level = [child for node in level for child in _children(node)]
+        level = [child for child in children if not isinstance(child, yaml.ScalarNode)]
         if not level:
             return True
     return False

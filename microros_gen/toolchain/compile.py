@@ -15,6 +15,7 @@ from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.records import dataclass
 from microros_gen.toolchain.contents import Contents
 from microros_gen.toolchain.identity import CALL_GRAPH, Identity, identify
+from microros_gen.toolchain.library import write_library
 from microros_gen.toolchain.object_store import ObjectStore
 from microros_gen.toolchain.objects import Objects, Progress, Unit
 from microros_gen.toolchain.stamps import Stamps
@@ -29,6 +30,8 @@ SCRIPT_STAMP = f"{OBJECTS}/linker_script.sha256"
 # What programs that write flash take, next to the ELF file: endings and objcopy's names.
 SELFTEST_SOURCES = "selftest/sources.txt"
 _FLASH_FORMATS = {".hex": "ihex", ".bin": "binary"}
+_PIPE = "-pipe"
+"""gcc's assembler reads while the compiler writes; they exchange no file."""
 _OVERFLOW = re.compile(r"region `?(\w+)'? overflowed by (\d+) bytes")
 _REGIONS = {"text": "FLASH", "data": "RAM"}
 """Memory regions of linker scripts of C libraries (AVR), as this project's scripts name them."""
@@ -137,7 +140,7 @@ def object_name(source: str) -> str:
 def _unit(source: str, tools: Toolchain, identity: Identity) -> Unit:
     target = object_name(source)
     depends = target.removesuffix(".o") + ".d"
-    facts = (CALL_GRAPH,) if identity.call_graph else ()
+    facts = (CALL_GRAPH, _PIPE) if identity.call_graph else ()
     # -MD, not -MMD: headers of the system count, too.
     flags = (*WARNINGS, *tools.c_flags, *facts, "-Iinclude", "-MD", "-MF", depends)
     return Unit(source, target, (tools.compiler, *flags, "-c", source, "-o", target), identity.digest)
@@ -153,7 +156,8 @@ def _archive(out: Path, objects: Sequence[str], tools: Toolchain) -> None:
     (out / LIBRARY).parent.mkdir(parents=True, exist_ok=True)
     fresh = f"{OBJECTS}/libmicroros.a"
     (out / fresh).unlink(missing_ok=True)
-    _must_succeed([tools.archiver, "rcsD", fresh, *objects], out, "the library cannot be archived")
+    if tools.archives or not write_library(out / fresh, [out / name for name in objects]):
+        _must_succeed([tools.archiver, "rcsD", fresh, *objects], out, "the library cannot be archived")
     (out / fresh).replace(out / LIBRARY)
 
 

@@ -75,8 +75,12 @@ class Objects:
         return [unit for unit in units if not self._copied(unit)]
 
     def compile(self, units: Sequence[Unit]) -> None:
-        """Compile the units. Raises UserError with status 1 and the compiler's output if one fails."""
-        failed = []
+        """Compile the units, long sources first: so no processor is left with one of them at the end.
+
+        Raises UserError with status 1 and the compiler's output if one fails.
+        """
+        units = sorted(units, key=lambda unit: -len(self._contents.read(unit.source) or b""))
+        failed = {}
         with ThreadPoolExecutor(max_workers=(os.cpu_count() or 1) + _WAITING) as pool:
             results = pool.map(lambda unit: run(unit.command, self._out), units)
             for done, (unit, result) in enumerate(zip(units, results, strict=True), start=1):
@@ -86,9 +90,9 @@ class Objects:
                     self._keep(unit)
                 else:
                     message = f"{unit.source} does not compile:\n{result.stdout.rstrip()}"
-                    failed.append(Diagnostic(message, id="MG-8201"))
+                    failed[unit.source] = Diagnostic(message, id="MG-8201")
         if failed:
-            raise UserError(failed, status=1)
+            raise UserError([failed[source] for source in sorted(failed)], status=1)
 
     def close(self) -> None:
         """Reduce the store to its maximum size."""

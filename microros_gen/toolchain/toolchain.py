@@ -28,7 +28,10 @@ LIBRARY_FLAGS = ("-ffunction-sections", "-fdata-sections")
 
 @dataclass(frozen=True)
 class Toolchain:
-    """The programs of one target, as absolute paths, and the flags of every call."""
+    """The programs of one target, as absolute paths, and the flags of every call.
+
+    `archives`: the user has chosen the archiver, so that it makes the library and not this program.
+    """
 
     compiler: str
     archiver: str
@@ -36,6 +39,7 @@ class Toolchain:
     link_flags: tuple[str, ...]
     libraries: tuple[str, ...]
     objcopy: str | None = None
+    archives: bool = False
 
 
 def find_toolchain(target: Target, environ: Mapping[str, str]) -> Toolchain:
@@ -45,7 +49,8 @@ def find_toolchain(target: Target, environ: Mapping[str, str]) -> Toolchain:
     """
     is_host = target.name == "host"
     compilers = ((environ["CC"],) if is_host and environ.get("CC") else ()) or target.compilers
-    archivers = ((environ["AR"],) if is_host and environ.get("AR") else ()) or target.archivers
+    chosen = environ.get("AR") if is_host else None
+    archivers = (chosen,) if chosen else target.archivers
     extra = tuple(environ.get("CFLAGS", "").split()) if is_host else ()
     path = environ.get("PATH")
     compiler = _first_of(compilers, "a C compiler", target, path)
@@ -57,6 +62,7 @@ def find_toolchain(target: Target, environ: Mapping[str, str]) -> Toolchain:
         (*target.link_flags, *extra),
         target.libraries,
         None if target.hosted else sibling(archiver, "ar", "objcopy"),
+        bool(chosen),
     )
 
 
