@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import Enum
+from typing import NamedTuple
 
 from microros_gen.diagnostics import Span
 from microros_gen.records import dataclass
@@ -93,9 +94,11 @@ class StringType:
     bound: int | None = None
 
 
-@dataclass(frozen=True, order=True)
-class TypeName:
-    """The full name of an interface type: `sensor_msgs/msg/Imu`. `kind` is msg, srv or action."""
+class TypeName(NamedTuple):
+    """The full name of an interface type: `sensor_msgs/msg/Imu`. `kind` is msg, srv or action.
+
+    A tuple, because names are compared and hashed more often than anything else.
+    """
 
     package: str
     kind: str
