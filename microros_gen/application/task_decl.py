@@ -14,7 +14,7 @@ CRITICALITIES = ("high", "middle", "low")
 """Bands of priority, the highest first."""
 
 AUTO = "auto"
-"""In place of the size of a stack that follows from the image."""
+"""In place of the size of a stack, and of the time that a lock is held, that follow from the image."""
 
 OVERRUNS = ("skip", "catch_up", "call")
 """What happens to releases that a task has missed."""
@@ -27,7 +27,8 @@ class TaskDecl:
     `node` is the position of the executor's node. `period_us` 0: its handles release it, at most once in
     `interval_us`. `instructions` is the longest run where no time is said, `lock_us` (or `lock_instructions`) the
     longest that it holds the library's lock. Numbers that are 0, `stack` None and `criticality` empty: not said.
-    `priority` 1 is the highest. `stack_auto`: an image says how large the stack is.
+    `priority` 1 is the highest. `stack_auto`: an image says how large the stack is; `lock_auto`: and how many
+    instructions the lock is held.
     """
 
     name: str
@@ -41,12 +42,14 @@ class TaskDecl:
     instructions: int = 0
     lock_us: int = 0
     lock_instructions: int = 0
+    lock_auto: bool = False
     overrun: str = "skip"
     stack: int | None = None
     stack_auto: bool = False
     priority: int = 0
     span: Span | None = None
     stack_span: Span | None = None
+    lock_span: Span | None = None
     priority_span: Span | None = None
 
     @property

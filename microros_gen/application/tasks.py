@@ -72,12 +72,14 @@ def _task(item: YamlNode, nodes: Sequence[NodeDecl], diagnostics: Diagnostics) -
         instructions=int_of(child(item, "instructions")) or 0,
         lock_us=times["lock"],
         lock_instructions=int_of(child(item, "lock_instructions")) or 0,
+        lock_auto=text_of(child(item, "lock")) == AUTO,
         overrun=text_of(child(item, "overrun")) or TaskDecl.overrun,
         stack=size_of(child(item, "stack")),
         stack_auto=text_of(child(item, "stack")) == AUTO,
         priority=int_of(child(item, "priority")) or 0,
         span=item.span,
         stack_span=span_of(child(item, "stack")),
+        lock_span=span_of(child(item, "lock")),
         priority_span=span_of(child(item, "priority")),
     )
     _check_times(item, task, diagnostics)
@@ -164,13 +166,16 @@ def _check_times(item: YamlNode, task: TaskDecl, diagnostics: Diagnostics) -> No
 
 
 def _check_lock(item: YamlNode, task: TaskDecl, diagnostics: Diagnostics) -> None:
-    for key, number in (("lock", task.lock_us), ("lock_instructions", task.lock_instructions)):
+    for key, number in (
+        ("lock", task.lock_us or task.lock_auto),
+        ("lock_instructions", task.lock_instructions),
+    ):
         if number and not (task.time_us or task.instructions):
             message = (
                 f"'{key}' of the task '{task.name}' has no effect without 'time', its longest execution time"
             )
             diagnostics.error(message, span_of(child(item, key)), "Add `time`, or remove it", id="MG-3235")
-    if task.lock_us and task.lock_instructions:
+    if (task.lock_us or task.lock_auto) and task.lock_instructions:
         message = f"the task '{task.name}' has lock and lock_instructions"
         hint = "Keep one: the time follows from the instructions"
         diagnostics.error(message, span_of(child(item, "lock_instructions")), hint, id="MG-3293")

@@ -30,6 +30,7 @@ _COMMANDS = {
     "size": "Show flash, RAM and stack of what was built, per component and entity.",
     "schedule": "Show whether the tasks of what was built meet their deadlines.",
     "stacks": "Show the stack that each task of an image needs, and write the sizes.",
+    "locks": "Show for how long each task of an image holds the library's lock.",
     "explain": "Show why a symbol, file or component is in the image, and what would remove it.",
     "resolve": "Print components, XRCE profiles, pools and sizes, each with its reason.",
     "profiles": "List the profiles, or show what one of them selects.",

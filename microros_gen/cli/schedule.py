@@ -42,7 +42,8 @@ def command(out: Path, kind: str, name: str | None, output: Path | None) -> None
 
     OUT is a folder that `build` or `generate` wrote, or a CMake build folder. T is the period or the shortest interval
     of a task, C its longest execution time, B how long a task of lower priority can block it, R its longest response,
-    D its deadline; priority 1 is the highest. The build refuses a deadline that is missed (R greater than D).
+    D its deadline. C FROM and B FROM say what these numbers follow from; priority 1 is the highest. The build refuses
+    a deadline that is missed (R greater than D).
 
     \b
     microros-gen schedule build/robot

@@ -10,10 +10,10 @@ from pathlib import Path
 from types import MappingProxyType
 
 from microros_gen.application.find import APPLICATION_FILE
+from microros_gen.application.image_files import image_paths
 from microros_gen.application.kinds import KIND, SERVICE_KINDS, TOPIC_KINDS
 from microros_gen.application.model import Application, EndpointDecl
 from microros_gen.application.parameter_find import parameter_paths
-from microros_gen.application.stack_file import stack_path
 from microros_gen.application.system_find import system_paths
 from microros_gen.client.plan.agent_files import check_entities
 from microros_gen.client.plan.declared import (
@@ -251,8 +251,7 @@ def read_paths(planned: Planned) -> Iterator[Path]:
     yield from (candidate for path in own for candidate in (path, path.with_suffix(".yaml")))
     yield near / request.application.target.name
     yield from parameter_paths(request.application, near)
-    if any(task.stack_auto for task in request.application.tasks):
-        yield stack_path(request.config or near / APPLICATION_FILE)
+    yield from image_paths(request.application, request.config or near / APPLICATION_FILE)
     yield from system_paths(request.application, near)
     yield from (Path(s.name) for s in (*request.found_target.own, *request.found_target.boards))
     yield from (path for _, path in _outside_files(planned.resolved))

@@ -15,10 +15,10 @@ from microros_gen.application.agent_places import (
     parse_discover,
 )
 from microros_gen.application.find import APPLICATION_FILE, read_application
+from microros_gen.application.image_files import with_image_files
 from microros_gen.application.model import Application, component_change
 from microros_gen.application.parameter_find import with_parameter_files
 from microros_gen.application.parser import parse_application
-from microros_gen.application.stack_file import with_stacks
 from microros_gen.application.system_find import with_system
 from microros_gen.application.transport_decl import Transport
 from microros_gen.compiler.options import Options
@@ -75,9 +75,10 @@ def request_of(source: Source | None, near: Path, options: Options, diagnostics:
     application, parameter_files = with_parameter_files(application, near, diagnostics)
     diagnostics.check()
     inputs |= {f"parameter file {Path(file.name).name}": file.text.encode() for file in parameter_files}
-    application, stacks = with_stacks(application, options.config or near / APPLICATION_FILE, diagnostics)
+    config = options.config or near / APPLICATION_FILE
+    application, of_image = with_image_files(application, config, diagnostics)
     diagnostics.check()
-    inputs |= {"sizes of stacks": stacks.text.encode()} if stacks is not None else {}
+    inputs |= of_image
     application, system_files = with_system(application, options.config, near, diagnostics)
     diagnostics.check()
     inputs |= {f"system {name}": file.text.encode() for name, file in system_files.items()}

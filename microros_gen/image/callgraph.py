@@ -113,7 +113,7 @@ def build_call_graph(folder: Folder, image: Elf, chunks: Iterable[Chunk]) -> Cal
     for code in disassembled:
         for address in code.pointers:
             place = places.get(address, f"{address:#x}")
-            _add_targets(nodes[code.address], place, *_reached(folder, place, functions, pointers))
+            _add_targets(nodes[code.address], place, *reached(folder, place, functions, pointers))
     return CallGraph(nodes, image.machine, bool(frames or (image.machine == AVR and disassembled)))
 
 
@@ -147,19 +147,25 @@ def _file(chunk: Chunk) -> str:
     return (chunk.source or "the application").rpartition("/")[2]
 
 
-def _disassembled(folder: Folder, image: Elf, functions: Mapping[int, Chunk]) -> tuple[Code, ...]:
+def disassembly_text(folder: Folder, image: Elf) -> str:
+    """Return what objdump of its tool chain says of an image; empty: there is none, or it fails."""
     archiver = str(folder.tools.get("archiver") or _ARCHIVERS.get(image.machine, "ar"))
     program = sibling(archiver, "ar", "objdump")
     if program is None:
-        return ()
-    extents = {s.address: s.size for s in image.symbols if s.function and s.size}
+        return ""
     result = run([program, "-d", "--no-show-raw-insn", str(image.path.resolve())], folder.path)
+    return result.stdout if result.returncode == 0 else ""
+
+
+def _disassembled(folder: Folder, image: Elf, functions: Mapping[int, Chunk]) -> tuple[Code, ...]:
+    extents = {s.address: s.size for s in image.symbols if s.function and s.size}
+    text = disassembly_text(folder, image)
     if image.machine == AVR:
         of_libraries = {a for a, p in functions.items() if p.owner.group in ("compiler", "C library")}
         extents = {address: size for address, size in extents.items() if address not in of_libraries}
         wide = image.flags & _AVR_ARCHITECTURE == _AVR_6
-        return parse_avr(result.stdout, extents, wide) if result.returncode == 0 else ()
-    return parse_disassembly(result.stdout, image.machine, extents) if result.returncode == 0 else ()
+        return parse_avr(text, extents, wide)
+    return parse_disassembly(text, image.machine, extents)
 
 
 def _is_external(image: Elf, code: Code) -> bool:
@@ -207,14 +213,14 @@ def _add_compiled(
                 nodes[address].calls.add(to)
         for place in frame.pointers:
             place = place.rpartition(":")[0]
-            member, targets = _reached(folder, place, functions, pointers)
+            member, targets = reached(folder, place, functions, pointers)
             if member is None and (chunk.source or "").startswith("src/port_"):
                 nodes[address].calls |= constructors
                 continue
             _add_targets(nodes[address], place, member, targets)
 
 
-def _reached(
+def reached(
     folder: Folder, place: str, functions: Mapping[int, Chunk], pointers: Pointers
 ) -> tuple[str | None, frozenset[int] | None]:
     """Return the member that a call at `file:line` goes through, and the functions that it can hold.

@@ -43,13 +43,14 @@ def parse_disassembly(text: str, machine: str, extents: Mapping[int, int]) -> tu
 
     `extents` are the sizes of functions by address: a label inside of one does not start another function.
     """
-    found = _functions(text, extents)
+    found = functions_of(text, extents)
     return tuple(_function(name, address, lines, machine) for name, address, lines in found)
 
 
-def _functions(
+def functions_of(
     text: str, extents: Mapping[int, int]
 ) -> Iterator[tuple[str, int, list[tuple[int, str, str]]]]:
+    """Yield name, address and instructions of each function (address, mnemonic, operands), as parse_disassembly."""
     name, address, lines = "", 0, list[tuple[int, str, str]]()
     for line in text.splitlines():
         head = _HEAD.match(line)

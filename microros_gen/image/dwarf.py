@@ -241,11 +241,11 @@ def source_places(image: Elf, addresses: Collection[int]) -> Mapping[int, str]:
             within = () if here.end_sequence else range(here.address, after.address)
             for address in addresses:
                 if address in within:
-                    found[address] = f"{_file_name(unit, program, here.file)}:{here.line}"
+                    found[address] = f"{file_name(unit, program, here.file)}:{here.line}"
     return found
 
 
-def _file_name(unit: Any, program: Any, index: int) -> str:
+def file_name(unit: Any, program: Any, index: int) -> str:
     """Return the path of a file of a line table, from 1 on; that of an object's folder where it is relative."""
     entry = program["file_entry"][index - 1]
     folders = [unit.get_top_DIE().attributes["DW_AT_comp_dir"].value, *program["include_directory"]]

@@ -8,9 +8,9 @@ from fractions import Fraction
 from typing import Any
 
 from microros_gen.schedule.response import Blocker, Interference, Response
-from microros_gen.schedule.task import BANDS, MIDDLE, SESSION, Task
+from microros_gen.schedule.task import BANDS, DECLARED, MIDDLE, SESSION, Task
 
-HEAD = ("TASK", "BAND", "PRIORITY", "T", "C", "B", "R", "D", "SLACK", "C FROM", "BLOCKED BY")
+HEAD = ("TASK", "BAND", "PRIORITY", "T", "C", "B", "R", "D", "SLACK", "C FROM", "B FROM", "BLOCKED BY")
 UNKNOWN = "-"
 """In place of a response that has no bound."""
 
@@ -21,7 +21,14 @@ def schedule_rows(responses: Sequence[Response]) -> Iterator[tuple[str, ...]]:
         task = response.task
         times = (task.period_us, task.time_us, response.blocking_us, response.response_us, task.due_us)
         shown = (UNKNOWN if time is None else str(time) for time in (*times, response.slack_us))
-        yield (task.name, task.band, str(response.priority), *shown, task.time_from, blocked_by(response))
+        sources = (task.time_from, blocking_from(response))
+        yield (task.name, task.band, str(response.priority), *shown, *sources, blocked_by(response))
+
+
+def blocking_from(response: Response) -> str:
+    """Return what the numbers of B follow from, each once: `declared`, `call graph`, …; empty where B is 0."""
+    outside = [DECLARED] if response.task.blocking_us else []
+    return ", ".join(dict.fromkeys([*(b.source for b in response.blockers), *outside]))
 
 
 def blocked_by(response: Response) -> str:
@@ -48,12 +55,15 @@ def schedule_data(responses: Sequence[Response]) -> list[dict[str, object]]:
             "instructions_per_us": _ratio(r.task.instructions_per_us),
             "j": r.task.jitter_us,
             "b": r.blocking_us,
+            "b_from": blocking_from(r),
             "r": r.response_us,
             "d": r.task.due_us,
             "slack": r.slack_us,
             "meets": r.meets,
             "overloaded": r.overloaded,
-            "blocked_by": [{"task": b.task, "lock": b.lock, "time": b.time_us} for b in r.blockers],
+            "blocked_by": [
+                {"task": b.task, "lock": b.lock, "time": b.time_us, "from": b.source} for b in r.blockers
+            ],
             "delayed_by": [{"task": i.task, "times": i.times, "time": i.time_us} for i in r.interference],
         }
         for r in responses
@@ -76,7 +86,7 @@ def _response(row: Mapping[str, Any]) -> Response:
     band = row["band"]
     if band not in (*BANDS, SESSION):
         raise ValueError(f"no band '{band}'")
-    held = tuple(Blocker(b["task"], b["lock"], b["time"]) for b in row["blocked_by"])
+    held = tuple(Blocker(b["task"], b["lock"], b["time"], b["from"]) for b in row["blocked_by"])
     task = Task(
         row["task"],
         row["t"],

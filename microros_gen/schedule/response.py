@@ -19,7 +19,7 @@ from fractions import Fraction
 
 from microros_gen.records import dataclass
 from microros_gen.schedule.priorities import by_priority
-from microros_gen.schedule.task import Task
+from microros_gen.schedule.task import DECLARED, Task
 
 MOST_STEPS = 20_000
 """Steps of the iteration after which the analysis of a task ends; a load that is a hair below 1 takes more."""
@@ -27,11 +27,12 @@ MOST_STEPS = 20_000
 
 @dataclass(frozen=True)
 class Blocker:
-    """`task`, of lower priority, holds `lock` for `time_us`."""
+    """`task`, of lower priority, holds `lock` for `time_us`, which follows from `source` (Section)."""
 
     task: str
     lock: str
     time_us: int
+    source: str = DECLARED
 
 
 @dataclass(frozen=True)
@@ -98,7 +99,7 @@ def blockers(order: Sequence[Task], index: int) -> tuple[Blocker, ...]:
     """
     taken = {section.lock for task in order[: index + 1] for section in task.sections}
     found = [
-        Blocker(task.name, s.lock, s.time_us)
+        Blocker(task.name, s.lock, s.time_us, s.source)
         for task in order[index + 1 :]
         for s in task.sections
         if s.lock in taken

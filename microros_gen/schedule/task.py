@@ -16,6 +16,9 @@ SESSION = "session"
 
 TIME, INSTRUCTIONS = "time", "instructions"
 """What the execution time of a task follows from."""
+DECLARED, CALL_GRAPH = "declared", "call graph"
+"""What the time of a section follows from besides INSTRUCTIONS: a time of the application file, or the code of an
+image. TIME: it is all of the task's."""
 
 LONGEST_US = 1_000_000_000
 """Longest time that a task may have, and that is proposed: 1000 s."""
@@ -30,12 +33,13 @@ def time_of_instructions(count: int, instructions_per_us: Fraction) -> int:
 class Section:
     """`lock` is held for `time_us` at most, with priority inheritance; sections of a task are not nested.
 
-    `instructions_per_us`: as that of a task.
+    `instructions_per_us`: as that of a task. `source`: what the time follows from.
     """
 
     lock: str
     time_us: int
     instructions_per_us: Fraction | None = None
+    source: str = DECLARED
 
 
 @dataclass(frozen=True)

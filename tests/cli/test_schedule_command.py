@@ -50,9 +50,9 @@ def test_the_table_json_and_picture_are_those_of_the_analysis(run: Runner, folde
     assert (
         run("schedule", "out").out
         == """\
-TASK     BAND     PRIORITY  T      C     B   R     D      SLACK  C FROM  BLOCKED BY
-control  high     1         1000   200   60  260   800    540    time    session holds library for 60 us
-log      low      2         50000  3000  60  3860  50000  46140  time    session holds library for 60 us
+TASK     BAND     PRIORITY  T      C     B   R     D      SLACK  C FROM  B FROM    BLOCKED BY
+control  high     1         1000   200   60  260   800    540    time    declared  session holds library for 60 us
+log      low      2         50000  3000  60  3860  50000  46140  time    declared  session holds library for 60 us
 session  session  3         5000   100   0   3900  5000   1100   time
 """
     )

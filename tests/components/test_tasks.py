@@ -233,6 +233,8 @@ def test_a_stack_is_at_least_that_of_the_operating_system(tmp_path: Path) -> Non
         "criticality": "middle",
         "time_us": 0,
         "lock_us": 0,
+        "lock_instructions": 0,
+        "lock_auto": False,
         "overrun": "skip",
         "stack": 300_008,
         "stack_auto": False,
@@ -484,3 +486,21 @@ def test_the_component_without_tasks_is_refused(tmp_path: Path) -> None:
     text = HEAD.replace("+timers", "+timers, +tasks") + NODES
     with pytest.raises(UserError, match="the component 'tasks' is for the tasks that the application file"):
         planned(tmp_path, text)
+
+
+def test_the_time_of_a_hold_follows_from_what_was_found_in_the_image(tmp_path: Path) -> None:
+    text = TIMES.replace("time: 200 us", "instructions: 1991").replace("lock: 40 us", "lock: auto")
+    locks = tmp_path / "microros.locks.yaml"
+    with pytest.raises(UserError, match="blocking 2000: worker holds library for 2000 us"):
+        counted(tmp_path, text)  # all of its time, until an image was measured
+    locks.write_text("worker: 301\n", encoding="utf-8")
+    part = counted(tmp_path, text)
+    assert [(row["b"], row["b_from"]) for row in part.schedule] == [
+        (60, "declared"),
+        (31, "call graph"),
+        (30, "declared"),
+        (0, ""),
+    ]
+    locks.write_text("worker: 20001\n", encoding="utf-8")  # longer than a run can be
+    with pytest.raises(UserError, match="worker holds library for 2000 us"):
+        counted(tmp_path, text)

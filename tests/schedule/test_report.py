@@ -46,13 +46,14 @@ def test_a_row_for_each_task_the_highest_priority_first() -> None:
             "500",
             "260",
             "time",
+            "declared",
             "session holds session for 40 us",
         ),
         (
-            *("session", "session", "2", "5000", "300", "45", "545", "5000", "4455", "time"),
+            *("session", "session", "2", "5000", "300", "45", "545", "5000", "4455", "time", "declared"),
             "log holds session for 40 us, other code for 5 us",
         ),
-        ("log", "low", "3", "100000", "2000", "0", "2900", "100000", "97100", "time", ""),
+        ("log", "low", "3", "100000", "2000", "0", "2900", "100000", "97100", "time", "", ""),
     ]
     assert {len(row) for row in rows} == {len(HEAD)}
 
@@ -70,12 +71,13 @@ def test_the_data_has_the_names_of_the_table_in_lower_case() -> None:
         "instructions_per_us": None,
         "j": 0,
         "b": 45,
+        "b_from": "declared",
         "r": 545,
         "d": 5000,
         "slack": 4455,
         "meets": True,
         "overloaded": False,
-        "blocked_by": [{"task": "log", "lock": "session", "time": 40}],
+        "blocked_by": [{"task": "log", "lock": "session", "time": 40, "from": "declared"}],
         "delayed_by": [{"task": "control", "times": 1, "time": 200}],
     }
 

@@ -58,6 +58,7 @@ def command(
     """
     check_map(image, linker_map)
     from microros_gen.cli.budgets import check_recorded
+    from microros_gen.cli.locks import check_locks
     from microros_gen.cli.size.format import size_json, size_table
     from microros_gen.cli.stacks import check_stacks
     from microros_gen.image.folder import read_folder
@@ -67,6 +68,7 @@ def command(
     if check:
         check_recorded(folder)
         check_stacks(folder)
+        check_locks(folder)
         return
     report = measure_folder(folder)
     if kind == "html":

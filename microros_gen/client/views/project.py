@@ -118,6 +118,7 @@ def _budgets(application: Application) -> str:
     budgets = (("ram", memory.ram_budget), ("flash", memory.flash_budget), ("stack", memory.stack))
     texts = [f"{name} {size}" for name, size in budgets if size is not None]
     automatic = [f"stack of {task.name} {task.stack or 0}" for task in application.tasks if task.stack_auto]
+    automatic += [f"lock of {t.name} {t.lock_instructions}" for t in application.tasks if t.lock_auto]
     return ", ".join([*texts, *automatic])
 
 

@@ -13,7 +13,16 @@ from microros_gen.diagnostics import Diagnostics
 from microros_gen.platform.target import Target
 from microros_gen.schedule.check import check_deadlines
 from microros_gen.schedule.response import Response
-from microros_gen.schedule.task import LONGEST_US, MIDDLE, Section, Task, time_of_instructions
+from microros_gen.schedule.task import (
+    CALL_GRAPH,
+    INSTRUCTIONS,
+    LONGEST_US,
+    MIDDLE,
+    TIME,
+    Section,
+    Task,
+    time_of_instructions,
+)
 
 LOCK = "library"
 """Name of the lock of the library, which every task takes: publishers, executors and the session need it."""
@@ -55,6 +64,8 @@ def _timed(task: TaskDecl, target: Target, diagnostics: Diagnostics) -> TaskDecl
         hint = f"Write instructions: {floor(_deadline_us(task) * rate)} or less, or a later deadline"
         diagnostics.error(message, task.span, hint, id="MG-7144")
         return task
+    if lock_us > time_us and task.lock_auto:
+        lock_us = 0  # the run is what bounds it: that has a smaller bound than the call graph
     if lock_us > time_us:
         message = f"the task '{task.name}' holds the lock for {lock_us} us, longer than it runs"
         most = (
@@ -104,13 +115,20 @@ def task_of(task: TaskDecl, instructions_per_us: Fraction | None = None) -> Task
         task.time_us,
         task.criticality or MIDDLE,
         deadline_us=task.deadline_us or None,
-        sections=(
-            Section(
-                LOCK, task.lock_us or task.time_us, instructions_per_us if task.lock_instructions else None
-            ),
-        ),
+        sections=(_section(task, instructions_per_us),),
         priority=task.priority or None,
         sporadic=not task.period_us,
         session=is_placed_by_rule(task),
         instructions_per_us=instructions_per_us if task.instructions else None,
     )
+
+
+def _section(task: TaskDecl, instructions_per_us: Fraction | None) -> Section:
+    """Return what a task holds the lock for; without a number of its own that is all of its time."""
+    if not task.lock_us:
+        return Section(LOCK, task.time_us, source=TIME)
+    if task.lock_instructions:
+        return Section(
+            LOCK, task.lock_us, instructions_per_us, CALL_GRAPH if task.lock_auto else INSTRUCTIONS
+        )
+    return Section(LOCK, task.lock_us)

@@ -48,7 +48,7 @@ class TaskPlan:
     """A task; times are microseconds, 0: none. It begins in the function `entry`.
 
     `executor` is the position of its executor among the declared ones, None: the session. `stack_auto`: the size of its
-    stack follows from an image.
+    stack follows from an image, `lock_auto`: and the instructions for which it holds the lock.
 
     `priority` is 1 for the highest, `level` 1 for the lowest.
     """
@@ -62,6 +62,8 @@ class TaskPlan:
     criticality: str
     time_us: int
     lock_us: int
+    lock_instructions: int
+    lock_auto: bool
     overrun: str
     stack: int
     stack_auto: bool
@@ -218,6 +220,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> TasksPlan:
     open_gaps = gaps(tasks)
     os = context.target.os
     _warn_of_stacks(tasks, os.task_stack, diagnostics)
+    _warn_of_locks(tasks, diagnostics)
     return TasksPlan(
         stack_context=os.task_stack_context,
         tasks=tuple(
@@ -231,6 +234,8 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> TasksPlan:
                 criticality=task.criticality or (_CRITICALITY_OF_SESSION if task.is_session else _USUAL),
                 time_us=task.time_us,
                 lock_us=task.lock_us or task.time_us,
+                lock_instructions=task.lock_instructions,
+                lock_auto=task.lock_auto,
                 overrun=task.overrun,
                 stack=_aligned(max(task.stack or os.task_stack, os.task_stack_least)),
                 stack_auto=task.stack_auto,
@@ -286,6 +291,17 @@ def _warn_of_stacks(tasks: Iterable[TaskDecl], plain: int, diagnostics: Diagnost
             message = f"the stack that the task '{task.name}' needs is not known yet: it has {plain} bytes"
             hint = "Build the image, then run `microros-gen stacks OUT -o microros.stacks.yaml`"
             diagnostics.warning(message, task.stack_span, hint, id="MG-7146")
+
+
+def _warn_of_locks(tasks: Iterable[TaskDecl], diagnostics: Diagnostics) -> None:
+    """Warn of holds of the lock that are to follow from an image which nobody has measured yet."""
+    for task in tasks:
+        if task.lock_auto and not task.lock_instructions:
+            message = (
+                f"how long the task '{task.name}' holds the lock is not known yet: all of its time counts"
+            )
+            hint = "Build the image, then run `microros-gen locks OUT -o microros.locks.yaml`"
+            diagnostics.warning(message, task.lock_span, hint, id="MG-7150")
 
 
 def _aligned(size: int) -> int:

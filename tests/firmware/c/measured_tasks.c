@@ -9,6 +9,7 @@
 
 #include <microros/port_tasks.h>
 #include <microros/rclc_tasks.h>
+#include <microros/rmw_tasks.h>
 #include <microros/tasks.h>
 #include <rcl/rcl.h>
 #include <rclc/executor.h>
@@ -245,8 +246,10 @@ static void run(uint8_t task)
 #ifdef MEASURED_HOLDS
   is_measured = task == (uint8_t)MEASURED_HOLDS;
 #endif
+  rmw_tasks_take_line(); /* as while the task of the session runs, which it does not here while another one does */
   enter(task);
   is_measured = false;
+  rmw_tasks_leave_line();
   self = PORT_TASK_NONE;
 }
 

@@ -101,7 +101,14 @@ TASK_CASES = {
     "tasks[].interval": _time("interval", ""),
     "tasks[].deadline": _time("deadline"),
     "tasks[].time": _time("time"),
-    "tasks[].lock": _time("lock", "rate: 1 Hz, time: 30 ms, "),
+    "tasks[].lock": KeyCase(
+        _in_task("rate: 1 Hz, time: 30 ms, lock: auto"),
+        _task(lambda t: (t.lock_auto, t.lock_us)),
+        (True, 0),
+        _in_task("rate: 1 Hz, time: 30 ms, lock: 20"),
+        "3:62",
+        "'tasks[0].lock' must be a time as 40 us, or auto; it is 20",
+    ),
     "tasks[].instructions": KeyCase(
         _in_task("rate: 1 Hz, instructions: 5000"),
         _task(lambda t: (t.instructions, t.time_us)),

@@ -72,9 +72,9 @@ static inline const uint8_t * take(cdr_in_t * in, size_t count, uint32_t width, 
 /** Reverses the bytes of each of `count` numbers. */
 static void turn(uint8_t * numbers, size_t count, uint32_t width)
 {
-  for (size_t i = 0U; i < count; ++i) {
+  for (size_t i = 0U; i < count; ++i) { /* at most MICROROS_INPUT_BUFFER_SIZE + MICROROS_QUEUES_SIZE rounds */
     uint8_t * const number = &numbers[i * width];
-    for (uint32_t first = 0U; first < (width / 2U); ++first) {
+    for (uint32_t first = 0U; first < (width / 2U); ++first) { /* at most 4 rounds */
       const uint32_t last = (width - 1U) - first;
       const uint8_t byte = number[first];
       number[first] = number[last];
@@ -92,6 +92,7 @@ static inline void get_numbers(cdr_in_t * in, void * to, size_t count, uint32_t 
   if (from == NULL) {
     return;
   }
+  /* at most MICROROS_INPUT_BUFFER_SIZE + MICROROS_QUEUES_SIZE bytes */
   (void)memcpy(to, from, count * (size_t)width);
   if (in->swap) {
     turn((uint8_t *)to, count, width);

@@ -44,7 +44,7 @@ const xrce_endpoint_t * xrce_entities_endpoint(const xrce_client_t * client, uin
 
 uint8_t * xrce_describe_text(uint8_t * at, const char * text)
 {
-  while (*text != '\0') {
+  while (*text != '\0') { /* at most MICROROS_CREATION_SIZE or MICROROS_MTU rounds */
     *at++ = (uint8_t)*text++;
   }
   return at;
@@ -234,7 +234,7 @@ static void entities_begin(xrce_client_t * client, uint32_t now)
   xrce_entities_t * entities = &client->entities;
   size_t left = entities_is_one(entities) ? 1u : (size_t)XRCE_PLACES;
 
-  for (; left != 0u; --left) {
+  for (; left != 0u; --left) { /* at most XRCE_PLACES rounds */
     const uint8_t level = client->states[entities->cursor].level;
     const uint8_t goal = entities_goal(client, entities->cursor);
 

@@ -76,6 +76,7 @@ bool xrce_stream_best_effort_commit(xrce_session_t * session, size_t size)
 {
   best_effort.size[queue_place(best_effort.count)] = (uint16_t)(XRCE_MESSAGE_HEADER + size);
   ++best_effort.count;
+  /* at most MICROROS_BEST_EFFORT_SLOTS rounds */
   while (best_effort.count != 0u && queue_send_oldest(session)) {
     /* until the transport refuses one, or it is the turn of another task */
   }
@@ -118,7 +119,7 @@ void xrce_stream_best_effort_step(xrce_session_t * session)
   bool has_sent = false;
 
   best_effort.yields = false;
-  while (continues && best_effort.count != 0u) {
+  while (continues && best_effort.count != 0u) { /* at most MICROROS_BEST_EFFORT_SLOTS rounds */
     if (xrce_transport_take_turn(&session->transport)) {
       continues = queue_send_oldest(session);
       has_sent = has_sent || continues;

@@ -42,7 +42,7 @@ static bool stream_send(xrce_stream_reliable_t * stream, xrce_session_t * sessio
  * pump. */
 static void stream_flow(xrce_stream_reliable_t * stream, xrce_session_t * session)
 {
-  for (uint8_t i = 0; (uint32_t)stream->unsent >> i != 0u; ++i) {
+  for (uint8_t i = 0; (uint32_t)stream->unsent >> i != 0u; ++i) { /* at most MICROROS_RELIABLE_SLOTS rounds */
     const uint32_t bit = (uint32_t)1u << i;
 
     if ((stream->unsent & bit) != 0u) {
@@ -157,7 +157,7 @@ bool xrce_stream_reliable_on_acknack(
   } else if (missing != 0u) {
     stream->due_ms = now; /* the agent waits for the dropped message: send a HEARTBEAT */
   }
-  for (; missing != 0u; missing >>= 1) {
+  for (; missing != 0u; missing >>= 1) { /* at most 16 rounds */
     if ((missing & 1u) != 0u && place < stream->count && ((uint32_t)stream->unsent >> place & 1u) == 0u) {
       stream->unsent = (uint16_t)(stream->unsent | (uint32_t)1u << place);
       ++session->statistics.resent;

@@ -80,7 +80,7 @@ static bool input_is_whole(const uint8_t * message, size_t size)
   size_t at = XRCE_MESSAGE_HEADER;
   size_t end = at;
 
-  while (at + XRCE_SUBMESSAGE_HEADER <= size) {
+  while (at + XRCE_SUBMESSAGE_HEADER <= size) { /* at most MICROROS_INPUT_SIZE / 4 rounds */
     end = at + XRCE_SUBMESSAGE_HEADER + xrce_get_le16(&message[at + 2u]);
     at = (end + 3u) & ~(size_t)3u;
   }
@@ -101,7 +101,7 @@ static void input_deliver_stored(xrce_client_t * client, uint32_t now)
   size_t size = 0;
   const uint8_t * message = xrce_stream_reliable_input_kept(stream, stream->next, &size);
 
-  while (message != NULL) {
+  while (message != NULL) { /* at most MICROROS_RELIABLE_INPUT_SLOTS rounds */
     input_deliver(client, message, size, now);
     message = xrce_stream_reliable_input_kept(stream, stream->next, &size);
   }
@@ -147,7 +147,7 @@ void xrce_stream_reliable_input_continue(xrce_client_t * client, uint32_t now)
 /* Skips up to `count` unavailable messages, up to one that is stored. */
 static void input_skip(xrce_stream_reliable_input_t * stream, uint16_t count)
 {
-  for (uint16_t left = count; left != 0u && !input_can_deliver(stream); --left) {
+  for (uint16_t left = count; left != 0u && !input_can_deliver(stream); --left) { /* at most WINDOW rounds */
     input_advance(stream);
   }
 }

@@ -195,7 +195,7 @@ static bool executor_has_news(const rclc_executor_t * executor, int64_t * look_a
 {
   const rclc_executor_handle_t * handle = executor->handles;
 
-  for (size_t left = executor->index; left != 0u; --left) {
+  for (size_t left = executor->index; left != 0u; --left) { /* at most MICROROS_HANDLES_MAX rounds */
     bool is_ready = false;
 
     if (handle->kind->look(handle, &is_ready, look_again_ns) != RCL_RET_OK) {

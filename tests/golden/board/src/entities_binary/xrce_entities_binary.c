@@ -36,7 +36,7 @@ static uint8_t * binary_put_topic(uint8_t * blob, const xrce_endpoint_t * endpoi
 
   *end++ = 0;
   *end++ = 1;
-  while (xrce_size_between(blob, end) % 4u != 0u) {
+  while (xrce_size_between(blob, end) % 4u != 0u) { /* at most 3 rounds */
     *end++ = 0;
   }
   return binary_put_string(end, "", "", endpoint->type->dds_type_name);

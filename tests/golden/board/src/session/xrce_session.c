@@ -142,7 +142,7 @@ bool xrce_session_take_submessages(xrce_client_t * client, const uint8_t * messa
   size_t at = XRCE_MESSAGE_HEADER;
 
   client->session.in_session = message[0] == XRCE_SESSION_ID;
-  while (at < size) {
+  while (at < size) { /* at most MICROROS_INPUT_SIZE / 4 rounds */
     size_t length;
 
     if (size - at < XRCE_SUBMESSAGE_HEADER) {
@@ -177,6 +177,7 @@ static void session_receive(xrce_client_t * client, uint32_t now)
 {
   xrce_session_t * session = &client->session;
 
+  /* at most DATAGRAMS_PER_PUMP rounds */
   for (uint8_t i = 0; i < DATAGRAMS_PER_PUMP && session->transport_open; ++i) {
     const int32_t size = xrce_transport_receive(&session->transport, client->input, MICROROS_INPUT_SIZE);
 

@@ -74,6 +74,7 @@ void xrce_read_keep(
       return;
     }
   }
+  /* at most MICROROS_QUEUES_SIZE bytes */
   (void)memcpy(xrce_read_free_slot(client, receiver), sample->data, sample->size);
   xrce_read_fill(client, receiver, sample);
 }

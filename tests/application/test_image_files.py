@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sizes of stacks beside an application file, for the tasks with `stack: auto`."""
+"""Numbers of an image beside an application file, for the tasks with `stack: auto` and `lock: auto`."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from microros_gen.application.image_files import with_image_files
 from microros_gen.application.parser import parse_application
-from microros_gen.application.stack_file import with_stacks
 from microros_gen.diagnostics import Diagnostics, Source
 
 TEXT = """\
@@ -29,7 +29,7 @@ def sizes(folder: Path, content: str | None, text: str = TEXT) -> tuple[list[int
     assert application is not None
     if content is not None:
         (folder / "robot.stacks.yaml").write_text(content, encoding="utf-8")
-    found, _ = with_stacks(application, folder / "robot.yaml", diagnostics)
+    found, _ = with_image_files(application, folder / "robot.yaml", diagnostics)
     return [task.stack for task in found.tasks], [d.headline() for d in diagnostics]
 
 
@@ -66,3 +66,33 @@ def test_a_file_that_cannot_be_read_is_refused(tmp_path: Path) -> None:
     (tmp_path / "robot.stacks.yaml").write_bytes(b"\xff")
     _, (message,) = sizes(tmp_path, None)
     assert message.startswith("robot.yaml:5:39: error: cannot read the sizes of stacks in")
+
+
+LOCKS = TEXT.replace("stack: auto", "time: 2 ms, lock: auto")
+
+
+def holds(folder: Path, content: str | None, text: str = LOCKS) -> tuple[list[int], list[str]]:
+    """Return for how many instructions the tasks hold the lock, and what is wrong."""
+    diagnostics = Diagnostics()
+    application = parse_application(Source("robot.yaml", text), diagnostics)
+    assert application is not None
+    if content is not None:
+        (folder / "robot.locks.yaml").write_text(content, encoding="utf-8")
+    found, files = with_image_files(application, folder / "robot.yaml", diagnostics)
+    assert set(files) <= {"holds of the lock"}
+    return [task.lock_instructions for task in found.tasks], [d.headline() for d in diagnostics]
+
+
+def test_tasks_hold_the_lock_for_the_instructions_of_the_file(tmp_path: Path) -> None:
+    assert holds(tmp_path, None) == ([0, 0, 0], [])
+    assert holds(tmp_path, "first: 600\nsecond: 700\ngone: 800\n") == ([600, 0, 0], [])
+    assert holds(tmp_path, "- nonsense", LOCKS.replace("lock: auto", "lock: 1 ms")) == ([0, 0, 0], [])
+
+
+def test_other_holds_are_refused(tmp_path: Path) -> None:
+    found, (message,) = holds(tmp_path, "first: 600\nthird: some\n")
+    assert found == [0, 0, 0]
+    assert "robot.locks.yaml:2:8: error: the holds of the lock are no mapping of tasks to" in message
+    (tmp_path / "robot.locks.yaml").write_bytes(b"\xff")
+    _, (message,) = holds(tmp_path, None)
+    assert message.startswith("robot.yaml:5:50: error: cannot read the holds of the lock in")

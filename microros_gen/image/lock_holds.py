@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The longest time for which each task of an image holds the library's lock, in instructions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from microros_gen.image.attribution import Chunk
+from microros_gen.image.callgraph import disassembly_text, reached
+from microros_gen.image.dwarf import source_places
+from microros_gen.image.elf import Elf
+from microros_gen.image.flow import Flow, Step, read_flows
+from microros_gen.image.folder import Folder
+from microros_gen.image.holds import Hold, Holds, Rules
+from microros_gen.image.lines import Lines
+from microros_gen.image.paths import Length
+from microros_gen.image.pointers import read_pointers
+from microros_gen.image.report import SizeReport
+from microros_gen.image.rounds import Sources
+from microros_gen.records import dataclass
+
+OF_SESSION = "rclc_tasks_run_session"
+"""The entry of the task that receives and sends."""
+_ASKS_TURN = ("xrce_turn_is_mine", "xrce_turn_begin")
+"""Functions that say to all other tasks that they do not receive and send, unless one of them borrows the turn."""
+_BORROWS = "xrce_turn_borrow"
+_LIBRARIES = ("C library", "compiler")
+
+
+@dataclass(frozen=True)
+class TaskHold:
+    """How long the task `name` holds the lock: `holds`, the longest first. `automatic`: the application file wants the
+    number to follow from the image. `used`: instructions that the analysis used, 0: a time that the file has."""
+
+    name: str
+    holds: tuple[Hold, ...]
+    automatic: bool
+    used: int
+    found: bool = True
+
+    @property
+    def open(self) -> tuple[str, ...]:
+        """What keeps its longest hold from having a bound; empty: it has one."""
+        if not self.found:
+            return ("its entry is not in the image",)
+        return tuple(sorted({why for hold in self.holds for why in hold.length.open}))
+
+    @property
+    def instructions(self) -> int | None:
+        """The longest hold; None: nobody can say."""
+        return None if self.open else max((hold.length.count for hold in self.holds), default=0)
+
+
+class _Image:
+    """The code of an image, and what is known of it besides."""
+
+    def __init__(self, report: SizeReport, image: Elf, port: int | None) -> None:
+        folder = report.folder
+        self._functions: Mapping[int, Chunk] = {
+            p.address: p for p in report.chunks if p.function and p.symbol
+        }
+        self.flows = read_flows(disassembly_text(folder, image), image)
+        self.names = {a: str(p.symbol) for a, p in self._functions.items()}
+        self.names.update({a: flow.name for a, flow in self.flows.items() if a not in self.names})
+        self._lines, self._port = Lines(image), port
+        self._sources = Sources(_reader(folder), _headers(folder))
+        self._targets = _targets(folder, image, self._functions, self.flows)
+
+    def address(self, name: str) -> int | None:
+        """Return the address of a function, or None where the image has it not."""
+        return min((a for a, n in self.names.items() if n == name), default=None)
+
+    def rules(self, zero: frozenset[int] = frozenset()) -> Rules:
+        """Return what the code does not say."""
+        return Rules(self._rounds, self._targets.get, self._bytes, self._of_port, zero)
+
+    def _rounds(self, flow: Flow, head: int, part: frozenset[int], size: int | None) -> Length:
+        if head in flow.rounds:
+            return Length(flow.rounds[head])
+        if self._is_library(flow.address):
+            return self._of_library(flow, part, size)
+        ends = [a for a in part if any(to not in part for to in flow.steps[a].next) or flow.steps[a].returns]
+        places = (self._lines.place(address) for address in ends)
+        rounds = self._sources.rounds(place for place in places if place is not None)
+        if isinstance(rounds, int):
+            return Length(rounds)
+        return Length(1, frozenset({f"{flow.name}: a loop without a bound ({rounds})"}))
+
+    def _of_library(self, flow: Flow, part: frozenset[int], size: int | None) -> Length:
+        """Return the rounds of a loop of memcpy and the like: each stores bytes, and there is no more than `size`."""
+        if size is None:
+            return Length(1, frozenset({f"{flow.name}: called for an unknown number of bytes"}))
+        forks = sum(1 for a in part if sum(to in part for to in flow.steps[a].next) > 1)
+        stored = 0 if forks else sum(flow.steps[a].stored for a in part)
+        return Length(size // max(stored, 1))
+
+    def _is_library(self, address: int) -> bool:
+        chunk = self._functions.get(address)
+        return chunk is not None and chunk.owner.group in _LIBRARIES
+
+    def _bytes(self, flow: Flow, step: Step) -> int | None:
+        if step.call is None or not self._is_library(step.call):
+            return None
+        place = self._lines.place(step.address)
+        if step.size is not None or place is None:
+            return step.size
+        return self._sources.size(place)
+
+    def _of_port(self, name: str, length: Length) -> Length:
+        return Length(self._port) if length.open and self._port is not None else length
+
+
+def _reader(folder: Folder) -> Any:
+    folders = (folder.path, *(folder.linked.folders if folder.linked is not None else ()))
+
+    def read(name: str) -> str:
+        for base in folders:
+            try:
+                return (base / name).read_text(encoding="utf-8", errors="replace")
+            except OSError:
+                continue
+        return ""
+
+    return read
+
+
+def _headers(folder: Folder) -> list[str]:
+    paths = sorted(Path(folder.path / "include").rglob("*.h"))
+    return [path.read_text(encoding="utf-8", errors="replace") for path in paths]
+
+
+def _targets(
+    folder: Folder, image: Elf, functions: Mapping[int, Chunk], flows: Mapping[int, Flow]
+) -> Mapping[int, frozenset[int]]:
+    """Return where the calls through registers go, by their addresses; those that nobody knows are left out."""
+    pointers = read_pointers(folder, image, functions)
+    calls = [step.address for flow in flows.values() for step in flow.steps.values() if step.through]
+    places = source_places(image, calls)
+    found = ((at, reached(folder, place, functions, pointers)) for at, place in places.items())
+    return {at: to for at, (member, to) in found if to is not None and member is not None}
+
+
+def has_automatic(manifest: Mapping[str, Any]) -> bool:
+    """Return whether the number of a task is to follow from the image."""
+    return any(task.get("lock_auto") for task in _values(manifest).get("tasks", ()))
+
+
+def _values(manifest: Mapping[str, Any]) -> Mapping[str, Any]:
+    found: Mapping[str, Any] = manifest.get("features", {}).get("tasks", {}).get("values", {})
+    return found
+
+
+def task_holds(report: SizeReport, image: Elf, port: int | None) -> tuple[TaskHold, ...]:
+    """Return the holds of the tasks of what was built, in its order; none without tasks.
+
+    `port`: instructions of a call of a function of the port that has no bound of its own; None: it stays open.
+    """
+    tasks = _values(report.folder.manifest).get("tasks", ())
+    code = _Image(report, image, port) if tasks else None
+    known: dict[str, tuple[Hold, ...] | None] = {}
+    for task in tasks:
+        if code is not None and task["entry"] not in known:
+            known[task["entry"]] = _holds_of(code, task["entry"])
+    return tuple(
+        TaskHold(
+            task["name"],
+            known[task["entry"]] or (),
+            bool(task.get("lock_auto")),
+            int(task.get("lock_instructions", 0)),
+            known[task["entry"]] is not None,
+        )
+        for task in tasks
+    )
+
+
+def _holds_of(code: _Image, entry: str) -> tuple[Hold, ...] | None:
+    start = code.address(entry)
+    if start is None:
+        return None
+    asks = frozenset(a for a in map(code.address, _ASKS_TURN) if a is not None)
+    borrows = code.address(_BORROWS)
+    if entry != OF_SESSION:
+        found = Holds(code.flows, code.names, code.rules(asks))
+        holds = found.below(start)
+        if borrows is None or borrows not in found.visited:
+            return holds
+    return Holds(code.flows, code.names, code.rules()).below(start)

@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The largest number of rounds of a loop, and of bytes of a copy, as the source says it.
+
+A loop says it itself, as in `for (i = 0; i < MICROROS_TASKS; ++i)`, or a comment does, at its line or on one of its
+own before it: `/* at most MICROROS_TASKS rounds */`, and for a call `/* at most MICROROS_MTU bytes */`. Numbers are
+constants of the output, with `+ - * /` and parentheses; of `A or B` the first that the output has.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import cache
+
+from microros_gen.records import dataclass
+
+_COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
+_TEXT = re.compile(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'')
+_LOOP = re.compile(r"\b(for|while|do)\b")
+_COUNTED = re.compile(r"^[^;]*\b(\w+) = 0[uU]?;\s*(\w+) < ([^;&|?<>]+);\s*(?:\+\+(\w+)|(\w+)\+\+)\s*$")
+_DEFINED = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)[ \t]+([^\n]+?)[ \t]*$", re.MULTILINE)
+_ENUM = re.compile(r"\benum\b[^{;()]*\{([^}]*)\}")
+_CAST = re.compile(r"\(\s*(?:u?int(?:8|16|32|64)_t|size_t)\s*\)")
+_NUMBER = re.compile(r"\b(0[xX][0-9a-fA-F]+|\d+)[uUlL]*\b")
+_TOKEN = re.compile(r"\s*(\d+|\w+|[-+*/()])")
+_DEEPEST = 16
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A loop of a source: its first and last line, and its head as the source has it, without comments."""
+
+    first: int
+    last: int
+    head: str
+    body: str
+
+
+class Source:
+    """A source file: its loops, and what its comments say."""
+
+    def __init__(self, text: str) -> None:
+        """Take the text of a C file."""
+        self._lines = text.splitlines()
+        blank = _TEXT.sub(lambda m: " " * len(m[0]), _blanked(text))
+        self.plain = blank
+        self.loops = tuple(_loops(blank))
+        self.constants = read_constants(blank)
+
+    def innermost(self, line: int) -> Loop | None:
+        """Return the innermost loop that a line is in, or None."""
+        within = [loop for loop in self.loops if loop.first <= line <= loop.last]
+        return min(within, key=lambda loop: loop.last - loop.first, default=None)
+
+    def said(self, line: int, what: str) -> str | None:
+        """Return the number of `what` that a comment has at a line, or on a line of its own before it."""
+        for at in (line, line - 1):
+            text = self._lines[at - 1] if 0 < at <= len(self._lines) else ""
+            if at != line and not text.lstrip().startswith("/* at most"):
+                continue
+            match = re.search(rf"/\* at most ([^*]+?(?:\*[^*/]+)*) {what}\b", text)
+            if match:
+                return match[1]
+        return None
+
+
+def _blanked(text: str) -> str:
+    return _COMMENT.sub(lambda m: re.sub(r"[^\n]", " ", m[0]), text)
+
+
+def _loops(text: str) -> Iterator[Loop]:
+    closing: list[int] = []  # ends of `do` bodies, whose `while` is no loop of its own
+    for match in _LOOP.finditer(text):
+        first = text.count("\n", 0, match.start()) + 1
+        if match[1] == "do":
+            begin, end = text.find("{", match.end()), 0
+            end = _closing(text, begin, "{}")
+            closing.append(end)
+            yield Loop(first, text.count("\n", 0, text.find(";", end)) + 1, "", text[begin:end])
+            continue
+        if any(text[end + 1 : match.start()].strip() == "" and end < match.start() for end in closing):
+            continue
+        begin = text.find("(", match.end())
+        end = _closing(text, begin, "()")
+        after = end + 1
+        while after < len(text) and text[after].isspace():
+            after += 1
+        last = _closing(text, after, "{}") if text[after : after + 1] == "{" else text.find(";", after)
+        yield Loop(first, text.count("\n", 0, last) + 1, text[begin + 1 : end], text[after:last])
+
+
+def _closing(text: str, begin: int, pair: str) -> int:
+    depth = 0
+    for at in range(begin, len(text)):
+        if text[at] == pair[0]:
+            depth += 1
+        elif text[at] == pair[1]:
+            depth -= 1
+            if depth == 0:
+                return at
+    return len(text) - 1
+
+
+def read_constants(text: str) -> dict[str, str]:
+    """Return the macros and enumerators of a source without comments, as it has them."""
+    found: dict[str, str] = dict(_DEFINED.findall(text))
+    for body in _ENUM.findall(text):
+        before = "0"
+        for part in body.split(","):
+            name, is_set, value = (piece.strip() for piece in part.partition("="))
+            if name:
+                before = value if is_set else before
+                found[name] = before
+                before = f"({before}) + 1"
+    return found
+
+
+def value_of(text: str, constants: Mapping[str, str], depth: int = 0) -> int | None:
+    """Return the number that an expression of constants is, or None where it is none, or negative."""
+    plain = _NUMBER.sub(
+        lambda m: str(int(m[1], 0) if m[1][:2].lower() == "0x" else int(m[1])), _CAST.sub("", text)
+    )
+    tokens, at = [], 0
+    plain = plain.strip()
+    while at < len(plain):
+        match = _TOKEN.match(plain, at)
+        if not match:
+            return None
+        token, at = match[1], match.end()
+        if token[0].isalpha() or token[0] == "_":
+            inner = constants.get(token)
+            value = value_of(inner, constants, depth + 1) if inner is not None and depth < _DEEPEST else None
+            if value is None:
+                return None
+            token = str(value)
+        tokens.append(token)
+    try:
+        value = _sum(tokens)
+    except (IndexError, ValueError, ZeroDivisionError):
+        return None
+    return value if value >= 0 and not tokens else None
+
+
+def _sum(tokens: list[str]) -> int:
+    value = _product(tokens)
+    while tokens and tokens[0] in "+-":
+        sign = 1 if tokens.pop(0) == "+" else -1
+        value += sign * _product(tokens)
+    return value
+
+
+def _product(tokens: list[str]) -> int:
+    value = _atom(tokens)
+    while tokens and tokens[0] in "*/":
+        if tokens.pop(0) == "*":
+            value *= _atom(tokens)
+        else:
+            value //= _atom(tokens)
+    return value
+
+
+def _atom(tokens: list[str]) -> int:
+    token = tokens.pop(0)
+    if token == "(":
+        value = _sum(tokens)
+        if tokens.pop(0) != ")":
+            raise ValueError
+        return value
+    return int(token)
+
+
+class Sources:
+    """The sources of an image, read once."""
+
+    def __init__(self, read: Callable[[str], str], headers: Iterable[str]) -> None:
+        """Take what reads a file by the name that the line table has; `headers` have the constants of the output."""
+        self._source = cache(lambda name: Source(read(name)))
+        self._constants: dict[str, str] = {}
+        for text in headers:
+            self._constants.update(read_constants(_blanked(text)))
+
+    def rounds(self, places: Iterable[tuple[str, int]]) -> int | str:
+        """Return the most rounds of a loop whose edges are from these lines, or why nobody knows.
+
+        Each may be of a function within the loop: then the largest number of all the loops that they are in counts.
+        """
+        most, why = None, "no line of a source"
+        for name, line in sorted(set(places)):
+            loop = self._source(name).innermost(line)
+            if loop is None:
+                continue
+            rounds = self._of(name, loop)
+            if rounds is None:
+                return f"{_short(name)}:{loop.first}"
+            most = max(most or 0, rounds)
+        return why if most is None else most
+
+    def size(self, place: tuple[str, int]) -> int | None:
+        """Return the most bytes that a call handles, or None."""
+        said = self._source(place[0]).said(place[1], "bytes")
+        return self._value(place[0], said) if said is not None else None
+
+    def _value(self, name: str, said: str) -> int | None:
+        """Return the first of alternatives that this output has."""
+        values = (value_of(part, self._all(name)) for part in said.split(" or "))
+        return next((value for value in values if value is not None), None)
+
+    def _of(self, file: str, loop: Loop) -> int | None:
+        said = self._source(file).said(loop.first, "rounds")
+        if said is not None:
+            return self._value(file, said)
+        match = _COUNTED.match(" ".join(loop.head.split()))
+        if not match or not match[1] == match[2] == (match[4] or match[5]):
+            return None
+        name = rf"\b{match[1]}\b"
+        changed = rf"{name}\s*(?:[-+*/|&^]|<<|>>)?=(?!=)|(?:\+\+|--|&)\s*{name}|{name}\s*(?:\+\+|--)"
+        return None if re.search(changed, loop.body) else value_of(match[3], self._all(file))
+
+    def _all(self, name: str) -> Mapping[str, str]:
+        return {**self._constants, **self._source(name).constants}
+
+
+def _short(name: str) -> str:
+    """Return a file as people know it: from the `src` or `include` of the output on."""
+    match = re.search(r"(?:^|/)((?:src|include)/.*)$", name)
+    return match[1] if match else name

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The longest path through graphs with loops, against one that follows every path."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Mapping
+
+import pytest
+
+from microros_gen.image.paths import NOTHING, Length, longest
+
+Graph = Mapping[int, Mapping[int, int]]
+
+
+def measured(graph: Graph, rounds: Mapping[int, int], begin: int = 0) -> dict[int, int]:
+    edges = {node: {to: Length(weight) for to, weight in after.items()} for node, after in graph.items()}
+    found = longest(edges, {begin: NOTHING}, lambda head, _: Length(rounds[head]))
+    assert all(not length.open for length in found.values())
+    return {node: length.count for node, length in found.items()}
+
+
+def test_a_path_without_loops_is_the_heaviest() -> None:
+    assert measured({0: {1: 1, 2: 5}, 1: {3: 9}, 2: {3: 1}}, {}) == {0: 0, 1: 1, 2: 5, 3: 10}
+
+
+def test_a_loop_counts_its_longest_round_each_time() -> None:
+    graph = {0: {1: 2}, 1: {2: 1, 3: 4, 4: 1}, 2: {1: 1}, 3: {1: 1}}
+    assert measured(graph, {1: 10})[4] == 2 + 10 * 5 + 1
+
+
+def test_a_loop_in_a_loop_counts_in_each_of_its_rounds() -> None:
+    graph = {0: {1: 1}, 1: {2: 1, 9: 1}, 2: {3: 1, 1: 1}, 3: {2: 1}}
+    assert measured(graph, {1: 3, 2: 7})[9] == 1 + 3 * (1 + 7 * 2 + 1) + 1
+
+
+def test_a_loop_with_two_entries_is_no_bound() -> None:
+    edges = {0: {1: Length(1), 2: Length(1)}, 1: {2: Length(1)}, 2: {1: Length(1), 3: Length(1)}}
+    found = longest(edges, {0: NOTHING}, lambda head, part: Length(1))
+    assert found[3].open == {"a loop with several entries"}
+
+
+def walked(graph: Graph, left: Mapping[int, int], at: int, length: int, best: dict[int, int]) -> None:
+    """Follow each path that takes an edge back to a node at most as often as `left` says."""
+    best[at] = max(best.get(at, 0), length)
+    for to, weight in graph.get(at, {}).items():
+        if to > at:
+            walked(graph, left, to, length + weight, best)
+        elif left[to]:
+            walked(graph, {**left, to: left[to] - 1}, to, length + weight, best)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_no_path_is_longer_than_what_was_found(seed: int) -> None:
+    """Loops of random graphs: each jumps back to a node that every path to its end has passed."""
+    chance = random.Random(seed)
+    count = 7
+    graph: dict[int, dict[int, int]] = {n: {n + 1: chance.randint(1, 9)} for n in range(count - 1)}
+    for node in range(count - 2):
+        if chance.random() < 0.4:
+            graph[node][node + 2] = chance.randint(1, 9)
+    heads = [n for n in range(1, count - 1) if all(not (a < n < b) for a in graph for b in graph[a])]
+    for head in heads[:2]:
+        graph[chance.randrange(head, count - 1)][head] = chance.randint(1, 9)
+    rounds = dict.fromkeys(range(count), 2)
+    found, best = measured(graph, rounds), dict[int, int]()
+    walked(graph, rounds, 0, 0, best)
+    assert set(found) == set(best)
+    assert all(found[node] >= length for node, length in best.items())

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Bounds of loops and copies, from C sources."""
+
+from __future__ import annotations
+
+import pytest
+
+from microros_gen.image.rounds import Sources
+
+HEADER = """\
+#define MICROROS_TASKS 3u /* the last one runs the session */
+#define MICROROS_MTU (2u * MICROROS_TASKS + 0x10)
+enum { FIRST = 4, SECOND, THIRD = SECOND + 2 };
+"""
+
+
+def rounds(text: str, *lines: int) -> int | str:
+    return Sources(lambda _: text, [HEADER]).rounds([("src/part/file.c", line) for line in lines])
+
+
+@pytest.mark.parametrize(
+    ("text", "most"),
+    [
+        ("for (uint8_t i = 0; i < (uint8_t)MICROROS_TASKS - 1u; ++i) {\n  a[i] = 1;\n}", 2),
+        ("for (size_t i = 0U; i < THIRD; i++)\n  a[i] = 1;", 7),
+        ("for (i = 0; i < MICROROS_MTU; ++i) {\n  b = (i == 2) ? c : i <= 4;\n}", 22),
+        ("while (*at != 0) { /* at most MICROROS_MTU / 4 rounds */\n  ++at;\n}", 5),
+        ("/* at most (FIRST + 1) * 2 rounds */\nwhile (*at != 0) {\n  ++at;\n}", 10),
+        ("do { /* at most MICROROS_NONE or SECOND rounds */\n  ++at;\n} while (*at != 0);", 5),
+    ],
+)
+def test_a_loop_has_the_bound_that_its_source_says(text: str, most: int) -> None:
+    assert rounds(text, text.count("\n") + 1) == most
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "while (*at != 0) {\n  ++at;\n}",
+        "for (i = 0; i < count; ++i) {\n  a[i] = 1;\n}",
+        "for (i = 0; i < MICROROS_TASKS; ++i) {\n  i = 0;\n}",
+        "for (i = 0; i < MICROROS_TASKS; ++i) {\n  --i;\n}",
+        "for (i = 0; i < MICROROS_TASKS; ++i) {\n  change(&i);\n}",
+        "for (i = 0; i < MICROROS_TASKS; ++k) {\n  a[i] = 1;\n}",
+        "for (;;) {\n  a[i] = 1;\n}",
+        "while (*at != 0) { /* at most MICROROS_NONE rounds */\n  ++at;\n}",
+        "while (*at != 0) { /* at most 2 - 3 rounds */\n  ++at;\n}",
+    ],
+)
+def test_another_loop_has_none(text: str) -> None:
+    assert rounds(text, 2) == "src/part/file.c:1"
+
+
+def test_of_several_loops_the_largest_counts_and_one_without_a_bound_is_enough() -> None:
+    inner = "  for (k = 0; k < 4; ++k) {\n    b();\n  }\n"
+    text = f"for (i = 0; i < 9; ++i) {{\n  a();\n{inner}}}\nwhile (c()) {{\n  d();\n}}\n"
+    assert (rounds(text, 4), rounds(text, 2), rounds(text, 2, 4)) == (4, 9, 9)
+    assert rounds(text, 2, 8) == "src/part/file.c:7"
+    assert rounds("a = 1;", 1) == "no line of a source"
+
+
+def test_a_comment_says_how_many_bytes_a_call_handles() -> None:
+    call = "copy(a, b, size);"
+    text = f"{call} /* at most MICROROS_MTU bytes */\n{call}\n/* at most 9 bytes */\n{call}"
+    sources = Sources(lambda _: text, [HEADER])
+    assert [sources.size(("file.c", line)) for line in (1, 2, 4)] == [22, None, 9]
+
+
+def test_a_comment_of_the_outer_loop_does_not_bound_the_inner_one() -> None:
+    text = "for (;;) { /* at most 4 rounds */\n  while (*at != 0) {\n    ++at;\n  }\n}"
+    assert (rounds(text, 1), rounds(text, 3)) == (4, "src/part/file.c:2")
