@@ -148,7 +148,7 @@ def _file(chunk: Chunk) -> str:
 
 
 def disassembly_text(folder: Folder, image: Elf) -> str:
-    """Return what objdump of its tool chain says of an image; empty: there is none, or it fails."""
+    """Return what objdump of its tool chain says of an image; empty: it does not exist, or it fails."""
     archiver = str(folder.tools.get("archiver") or _ARCHIVERS.get(image.machine, "ar"))
     program = sibling(archiver, "ar", "objdump")
     if program is None:

@@ -154,16 +154,16 @@ def _test_of(before: Sequence[Line], word: str, operands: str) -> tuple[int, boo
     if word not in ("cbz", "cbnz", "beq", "bne"):
         return None
     has_compared = word.startswith("cb")
-    for _, mnemonic, given in reversed(before):
+    for _, mnemonic, arguments in reversed(before):
         earlier = mnemonic.split(".")[0]
         if earlier == "bl":
-            to = _target(given)
+            to = _target(arguments)
             return (to, is_zero) if has_compared and to is not None else None
         if earlier == "cmp" and not has_compared:
-            if given.strip() != "r0, #0":
+            if arguments.strip() != "r0, #0":
                 return None
             has_compared = True
-        elif given.startswith(("r0,", "{")) or earlier.startswith(("b", "cb", "it")) or not has_compared:
+        elif arguments.startswith(("r0,", "{")) or earlier.startswith(("b", "cb", "it")) or not has_compared:
             return None
     return None
 
@@ -182,9 +182,9 @@ def _copies(lines: Sequence[Line]) -> Iterator[tuple[int, int]]:
         if any(m.startswith(("b", "cb", "tb", "it")) and not m.startswith("bic") for _, m, _ in body):
             continue
         compared = [o.split(", ") for _, m, o in body if m.split(".")[0] == "cmp"]
-        for one, other in ((c[0], c[1]) for c in compared if len(c) == 2):
-            steps = [_constant(o, rf"^{one}, (?:{one}, )?#(\d+)") for _, m, o in body if m.startswith("add")]
-            ends = [_constant(o, rf"^{other}, {one}, #(\d+)") for _, m, o in before if m.startswith("add")]
+        for at, end in ((c[0], c[1]) for c in compared if len(c) == 2):
+            steps = [_constant(o, rf"^{at}, (?:{at}, )?#(\d+)") for _, m, o in body if m.startswith("add")]
+            ends = [_constant(o, rf"^{end}, {at}, #(\d+)") for _, m, o in before if m.startswith("add")]
             moved = [s for s in steps if s]
             far = [e for e in ends if e]
             if len(moved) == 1 and len(far) == 1 and far[0] % moved[0] == 0:

@@ -190,7 +190,7 @@ class _Walk:
         first = (self._flow.address, self._key[1])
         seen, waiting = {first}, [first]
         while waiting:
-            for place in self._visit(*waiting.pop()):
+            for place in self._follow(*waiting.pop()):
                 if place not in seen:
                     seen.add(place)
                     waiting.append(place)
@@ -204,7 +204,7 @@ class _Walk:
                 self._found.taken[depth] = longer(self._found.taken.get(depth), length)
         return self._found
 
-    def _visit(self, address: int, depth: int) -> Iterator[Place]:
+    def _follow(self, address: int, depth: int) -> Iterator[Place]:
         step = self._flow.steps[address]
         called = self._holds.call(self._key, self._flow, step, depth)
         here, following = (address, depth), step.next

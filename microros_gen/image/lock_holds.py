@@ -155,7 +155,7 @@ def _values(manifest: Mapping[str, Any]) -> Mapping[str, Any]:
 def task_holds(report: SizeReport, image: Elf, port: int | None) -> tuple[TaskHold, ...]:
     """Return the holds of the tasks of what was built, in its order; none without tasks.
 
-    `port`: instructions of a call of a function of the port that has no bound of its own; None: it stays open.
+    `port`: instructions of a call of a function of the port that has no bound; None: it stays open.
     """
     tasks = _values(report.folder.manifest).get("tasks", ())
     code = _Image(report, image, port) if tasks else None

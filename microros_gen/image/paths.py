@@ -34,9 +34,9 @@ Rounds = Callable[[Node, frozenset[Node]], Length]
 """Of a loop, by the place where it is entered and all of its places: the most rounds, or why nobody knows."""
 
 
-def longer(one: Length | None, other: Length) -> Length:
+def longer(known: Length | None, other: Length) -> Length:
     """Return the longer of two paths, with what is open in either."""
-    return other if one is None else Length(max(one.count, other.count), one.open | other.open)
+    return other if known is None else Length(max(known.count, other.count), known.open | other.open)
 
 
 def longest(edges: Edges[Node], begins: Mapping[Node, Length], rounds: Rounds[Node]) -> dict[Node, Length]:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The largest number of rounds of a loop, and of bytes of a copy, as the source says it.
 
-A loop says it itself, as in `for (i = 0; i < MICROROS_TASKS; ++i)`, or a comment does, at its line or on one of its
-own before it: `/* at most MICROROS_TASKS rounds */`, and for a call `/* at most MICROROS_MTU bytes */`. Numbers are
+A loop says it itself, as in `for (i = 0; i < MICROROS_TASKS; ++i)`, or a comment does, at its line or on a separate
+one before it: `/* at most MICROROS_TASKS rounds */`, and for a call `/* at most MICROROS_MTU bytes */`. Numbers are
 constants of the output, with `+ - * /` and parentheses; of `A or B` the first that the output has.
 """
 
@@ -52,8 +52,8 @@ class Source:
         within = [loop for loop in self.loops if loop.first <= line <= loop.last]
         return min(within, key=lambda loop: loop.last - loop.first, default=None)
 
-    def said(self, line: int, what: str) -> str | None:
-        """Return the number of `what` that a comment has at a line, or on a line of its own before it."""
+    def stated(self, line: int, what: str) -> str | None:
+        """Return the number of `what` that a comment has at a line, or on a separate line before it."""
         for at in (line, line - 1):
             text = self._lines[at - 1] if 0 < at <= len(self._lines) else ""
             if at != line and not text.lstrip().startswith("/* at most"):
@@ -69,7 +69,7 @@ def _blanked(text: str) -> str:
 
 
 def _loops(text: str) -> Iterator[Loop]:
-    closing: list[int] = []  # ends of `do` bodies, whose `while` is no loop of its own
+    closing: list[int] = []  # ends of `do` bodies, whose `while` is no further loop
     for match in _LOOP.finditer(text):
         first = text.count("\n", 0, match.start()) + 1
         if match[1] == "do":
@@ -107,7 +107,7 @@ def read_constants(text: str) -> dict[str, str]:
     for body in _ENUM.findall(text):
         before = "0"
         for part in body.split(","):
-            name, is_set, value = (piece.strip() for piece in part.partition("="))
+            name, is_set, value = map(str.strip, part.partition("="))
             if name:
                 before = value if is_set else before
                 found[name] = before
@@ -197,18 +197,18 @@ class Sources:
 
     def size(self, place: tuple[str, int]) -> int | None:
         """Return the most bytes that a call handles, or None."""
-        said = self._source(place[0]).said(place[1], "bytes")
-        return self._value(place[0], said) if said is not None else None
+        statement = self._source(place[0]).stated(place[1], "bytes")
+        return self._value(place[0], statement) if statement is not None else None
 
-    def _value(self, name: str, said: str) -> int | None:
+    def _value(self, name: str, statement: str) -> int | None:
         """Return the first of alternatives that this output has."""
-        values = (value_of(part, self._all(name)) for part in said.split(" or "))
+        values = (value_of(part, self._all(name)) for part in statement.split(" or "))
         return next((value for value in values if value is not None), None)
 
     def _of(self, file: str, loop: Loop) -> int | None:
-        said = self._source(file).said(loop.first, "rounds")
-        if said is not None:
-            return self._value(file, said)
+        statement = self._source(file).stated(loop.first, "rounds")
+        if statement is not None:
+            return self._value(file, statement)
         match = _COUNTED.match(" ".join(loop.head.split()))
         if not match or not match[1] == match[2] == (match[4] or match[5]):
             return None

@@ -84,7 +84,7 @@ def test_a_lock_that_a_function_takes_is_held_by_its_caller() -> None:
     ) == {"run": (7,)}
 
 
-def test_a_function_of_the_port_without_a_bound_counts_as_it_is_told() -> None:
+def test_a_function_of_the_port_without_a_bound_has_the_number_of_the_rule() -> None:
     assert held([flow(100, "L", "p", "U", "r")]) == {"run": (52,)}
     assert held([flow(100, "L", "p", "U", "r"), flow(400, "x", "r")]) == {"run": (4,)}
 
@@ -95,7 +95,7 @@ def test_what_a_function_never_returns_is_no_path() -> None:
     assert held(code, zero=frozenset({500})) == {"run": (5,)}
 
 
-def test_what_nobody_knows_is_named() -> None:
+def test_what_has_no_bound_is_named() -> None:
     rules = Rules(
         lambda *_: Length(1, frozenset({"loop"})), lambda _: None, lambda *_: None, lambda _, length: length
     )

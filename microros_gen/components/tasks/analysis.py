@@ -124,7 +124,7 @@ def task_of(task: TaskDecl, instructions_per_us: Fraction | None = None) -> Task
 
 
 def _section(task: TaskDecl, instructions_per_us: Fraction | None) -> Section:
-    """Return what a task holds the lock for; without a number of its own that is all of its time."""
+    """Return what a task holds the lock for; without a separate number that is all of its time."""
     if not task.lock_us:
         return Section(LOCK, task.time_us, source=TIME)
     if task.lock_instructions:
