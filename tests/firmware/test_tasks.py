@@ -241,3 +241,27 @@ def test_two_passes_give_the_analysis_the_holds_of_the_image(tasked: Built) -> N
     longer = budgets_of(tasked, tasked.link(C_FILES / "measured_tasks.c", home / "third_locks.elf"))
     assert (longer.returncode, "the analysis of deadlines used 100" in longer.stderr) == (1, True), longer
     numbers.unlink()
+
+
+@pytest.mark.system
+def test_what_bounds_no_hold_is_named(tasked: Built) -> None:
+    manifest = tasked.out / "manifest.json"
+    written = manifest.read_text()
+    image = tasked.link(C_FILES / "measured_tasks.c", tasked.out.parent / "named.elf")
+    command = [sys.executable, "-m", "microros_gen", "locks", "out"]
+    alone = subprocess.run(command, cwd=tasked.out.parent, text=True, capture_output=True, check=False)
+    assert (alone.returncode, "only a linked one has every path" in alone.stderr) == (1, True)
+    data = json.loads(written)
+    tasks = data["features"]["tasks"]["values"]["tasks"]
+    tasks[2]["lock_auto"] = True
+    manifest.write_text(json.dumps(data))
+    try:
+        open_ends = locks_of(tasked, image)
+        tasks.clear()
+        manifest.write_text(json.dumps(data))
+        none = locks_of(tasked, image)
+    finally:
+        manifest.write_text(written)
+    assert (open_ends.returncode, none.returncode) == (1, 2)
+    assert "how long the task 'session' holds the lock has no bound: " in open_ends.stderr
+    assert "out has no tasks" in none.stderr
