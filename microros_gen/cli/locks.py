@@ -135,7 +135,8 @@ def _rows(holds: Sequence[TaskHold]) -> Iterator[tuple[str, ...]]:
     for hold in holds:
         number = _UNKNOWN if hold.instructions is None else str(hold.instructions)
         longest = hold.holds[0].function if hold.holds else ""
-        shown = f"no bound: {'; '.join(hold.open)}" if hold.open else longest
+        more = f"; {len(hold.open) - _SHOWN} more (--format json)" if len(hold.open) > _SHOWN else ""
+        shown = f"no bound: {'; '.join(hold.open[:_SHOWN])}{more}" if hold.open else longest
         yield (hold.name, number, str(hold.used) if hold.used else _UNKNOWN, shown)
 
 

@@ -246,9 +246,16 @@ def source_places(image: Elf, addresses: Collection[int]) -> Mapping[int, str]:
 
 
 def file_name(unit: Any, program: Any, index: int) -> str:
-    """Return the path of a file of a line table, from 1 on; that of an object's folder where it is relative."""
-    entry = program["file_entry"][index - 1]
-    folders = [unit.get_top_DIE().attributes["DW_AT_comp_dir"].value, *program["include_directory"]]
+    """Return the path of a file of a line table, with the folder of its object where it is relative.
+
+    Files count from 1 on, and the folder 0 is that of the object (DWARF 4, 6.2.4); DWARF 5 lists all of them.
+    """
+    has_all = program.header["version"] >= 5
+    entry = program["file_entry"][index if has_all else index - 1]
+    own = unit.get_top_DIE().attributes["DW_AT_comp_dir"].value
+    folders = [*([] if has_all else [own]), *program["include_directory"]]
+    if has_all:
+        folders[0] = own
     parts = (folders[0], folders[entry["dir_index"]], entry["name"])
     return "/".join(str(part.decode("utf-8", "replace")) for part in parts[_first(parts) :])
 

@@ -99,7 +99,7 @@ class Holds:
         why = ""
         if key in self._open:
             why = f"{name}: recursion"
-        elif flow is None or not flow.steps:
+        elif flow is None or not flow.steps or "@plt" in flow.name:
             why = f"{name}: its code is not in the image"
         elif depth > DEEPEST:
             why = f"{name}: takes the lock more than {DEEPEST} times"
