@@ -27,7 +27,7 @@ class PackageView:
     """The package as templates see it, as `view`. Paths are below the package's folder, sorted.
 
     `general`: without an application of the user's. `sources` are C, C++ and assembly files, `headers` their headers,
-    `example` the main.c of the plan (empty: left out). `interfaces` are the roots, with all parts of `types`.
+    `library_sources` those of them that are no examples. `example` is the main.c of the plan (empty: left out). `interfaces` are the roots, with all parts of `types`.
     `functions` are those that the application defines, `declarations` their prototypes or, without any, a comment.
     `plan_text` names the plan in a sentence. `buffers` are those that the
     plan sizes, `ram` their sum. `line_room` is the largest message on the line, bytes.
@@ -47,6 +47,7 @@ class PackageView:
     interfaces: tuple[str, ...]
     types: tuple[str, ...]
     sources: tuple[str, ...]
+    library_sources: tuple[str, ...]
     headers: tuple[str, ...]
     example: str
     functions: tuple[str, ...]
@@ -74,6 +75,7 @@ def package_view(
     names = tuple(sorted(files))
     buffers = buffers_of(planned)
     place = package.place_of(project.example) or ()
+    sources = tuple(n for n in names if n.endswith((".c", ".cpp", ".S")))
     rows = project.provisions.of_application
     left = (row.capability for row in rows if row.capability.name not in package.defines)
     functions = (*(name for capability in left for name in capability.functions), *project.board.hooks)
@@ -92,7 +94,8 @@ def package_view(
         components=tuple(sorted(c.component.name for c in project.selection.components)),
         interfaces=tuple(str(name) for name in planned.interfaces.roots),
         types=tuple(sorted(str(plan.name) for plan in project.types)),
-        sources=tuple(n for n in names if n.endswith((".c", ".cpp", ".S"))),
+        sources=sources,
+        library_sources=tuple(n for n in sources if not n.startswith("examples/")),
         headers=tuple(n for n in names if n.endswith(".h")),
         example=next(iter(place), ""),
         functions=functions,
