@@ -3,19 +3,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from microros_gen.cli.generate import warnings_text
-from microros_gen.cli.offers import profile_names, target_names
+from microros_gen.cli.offers import package_names, profile_names, target_names
 from microros_gen.cli.options import interface_path_option
 from microros_gen.cli.terminal import echo_found
 from microros_gen.diagnostics import Diagnostics
 
 if TYPE_CHECKING:
     from microros_gen.migrate.application_folder import NewFolder
+    from microros_gen.package.description import PackageDescription
 
 
 @click.command()
@@ -50,6 +52,12 @@ if TYPE_CHECKING:
     help="Read the settings of a colcon.meta (RMW_UXRCE_*, UCLIENT_*, …). If several are given, the last one wins.",
 )
 @click.option(
+    "--platform",
+    metavar="NAME",
+    shell_complete=package_names,
+    help="Write a project of another build system: one of `microros-gen package --list`, or the folder of a package.",
+)
+@click.option(
     "--ci",
     "checked",
     is_flag=True,
@@ -62,6 +70,7 @@ def command(
     target: str | None,
     sources: Path | None,
     metas: tuple[Path, ...],
+    platform: str | None,
     checked: bool,
     interface_paths: tuple[Path, ...],
 ) -> int:
@@ -74,11 +83,16 @@ def command(
     microros-gen init my_robot --profile pure_sender
     microros-gen init my_robot --profile pure_reader --target qemu-mps2-an386
     microros-gen init my_robot --from old/src --from-colcon-meta old/app-colcon.meta
+    microros-gen init my_robot --platform platformio --from old/src
     """
     from microros_gen.migrate.application_folder import write_folder
     from microros_gen.migrate.proposal import InitOptions, draft_of
 
+    if platform is not None and (target is not None or checked):
+        raise click.UsageError("--platform takes neither --target nor --ci.")
     options = InitOptions(folder, profiles, target, sources, metas, interface_paths, checked)
+    if platform is not None:
+        options = replace(options, package=_package(platform))
     warnings = Diagnostics()
     draft = draft_of(options, warnings)
     echo_found(warnings_text(warnings))
@@ -88,13 +102,26 @@ def command(
     return 0 if written.builds else 2
 
 
+def _package(name: str) -> PackageDescription:
+    """Return the package of a project. Raises UserError if it is unknown or has none."""
+    from microros_gen.migrate.platform_project import checked_project
+    from microros_gen.package.render import describe
+
+    package = describe(name)
+    checked_project(package)
+    return package
+
+
 def _report(written: NewFolder) -> None:
     from microros_gen.application.find import APPLICATION_FILE
     from microros_gen.migrate.draft_text import UNDECIDED
 
-    own = [name for name in written.files if not name.startswith("golden/")]
+    in_library = [n for n in written.files if written.library and n.startswith(f"{written.library}/")]
+    own = [n for n in written.files if not n.startswith("golden/") and n not in set(in_library)]
     click.echo(f"{written.folder}: {', '.join(own)}")
-    if len(own) < len(written.files):
+    if in_library:
+        click.echo(f"package of {len(in_library)} files in {written.folder / written.library}")
+    elif len(own) < len(written.files):
         click.echo(f"golden copy of {len(written.files) - len(own)} files in {written.folder / 'golden'}")
     if written.undecided:
         place = written.folder / APPLICATION_FILE
@@ -102,6 +129,5 @@ def _report(written: NewFolder) -> None:
     if not written.builds:
         click.echo("it does not build before the errors are gone")
         return
-    click.echo(
-        f"cmake -S {written.folder} -B {written.folder / 'build'} && cmake --build {written.folder / 'build'}"
-    )
+    for step in written.next:
+        click.echo(step)

@@ -22,8 +22,10 @@ from microros_gen.migrate.code import c_sources
 from microros_gen.migrate.draft import Draft
 from microros_gen.migrate.draft_text import draft_text
 from microros_gen.migrate.limits import LOWER_LIMITS
+from microros_gen.migrate.platform_project import find_needs, next_steps, project_files
 from microros_gen.migrate.proposal import InitOptions
 from microros_gen.output.tree import write_files
+from microros_gen.package.render import plan_request
 from microros_gen.records import dataclass
 
 SCHEMA_FILE = "microros.schema.json"
@@ -65,7 +67,8 @@ class _View:
 class NewFolder:
     """What `write_folder` wrote, by paths below the folder; `undecided` places are left to the user.
 
-    `builds`: the application plans as it is. `found` are warnings, and the errors for which it does not.
+    `builds`: the application plans as it is. `found` are warnings, and the errors for which it does not. `library` is
+    the folder of a package in it; `next` are the commands that build it.
     """
 
     folder: Path
@@ -73,6 +76,8 @@ class NewFolder:
     undecided: int
     builds: bool
     found: tuple[Diagnostic, ...]
+    library: str = ""
+    next: tuple[str, ...] = ()
 
 
 def write_folder(options: InitOptions, draft: Draft) -> NewFolder:
@@ -92,7 +97,12 @@ def write_folder(options: InitOptions, draft: Draft) -> NewFolder:
         report = found.error if remark.refused else found.warning
         report(remark.text, remark.span, remark.refused or None, id="MG-9099")
     builds = planned is not None and not any(remark.refused for remark in undecided)
-    return NewFolder(options.folder, tuple(sorted(files)), len(undecided), builds, tuple(found))
+    written = NewFolder(options.folder, tuple(sorted(files)), len(undecided), builds, tuple(found))
+    project = options.package.project if options.package is not None else None
+    if project is None:
+        folder = shlex.quote(str(options.folder))
+        return replace(written, next=(f"cmake -S {folder} -B {folder}/build && cmake --build {folder}/build",))
+    return replace(written, library=project.place_of_library(options.name), next=next_steps(options))
 
 
 @contextmanager
@@ -145,9 +155,12 @@ def _plan(options: InitOptions, text: str, diagnostics: Diagnostics) -> Planned 
     """Return the plan of the proposal, or None with what is against it in `diagnostics`."""
     source = Source(str(options.folder / APPLICATION_FILE), text)
     try:
-        planned = compiler.plan(
-            compiler.resolve(compiler.read_source(source, options.folder, options.compiler_options()))
-        )
+        request = compiler.read_source(source, options.folder, options.compiler_options())
+        if options.package is None:
+            planned = compiler.plan(compiler.resolve(request))
+        else:
+            planned = plan_request(options.package, request).planned
+            find_needs(options, planned, diagnostics)
     except UserError as error:
         diagnostics.extend(error.diagnostics)
         return None
@@ -159,6 +172,8 @@ def _files(options: InitOptions, text: str, planned: Planned | None, undecided: 
     """Return the files to write, by their path below the folder."""
     schema = schema_text(complete_schema(APPLICATION_SCHEMA))
     files = {APPLICATION_FILE: text.encode(), SCHEMA_FILE: schema.encode()}
+    if options.package is not None:
+        return files | project_files(options, planned, undecided)
     environment = shared_environment()
     toolchain = None
     if planned is not None:

@@ -19,6 +19,16 @@ _MANIFEST = "manifest.json"  # in every folder that this tool wrote
 _LEFT_OUT = ("build", "install", "log", "managed_components", "node_modules")
 
 
+def code_files(folder: Path) -> tuple[Path, ...]:
+    """Return all C and C++ files below `folder`, or the file that it names, headers included, sorted."""
+    return tuple(_paths(folder))
+
+
+def code_folder(path: Path) -> Path:
+    """Return the folder of the sources `path`, which may be a single file."""
+    return path.parent if path.is_file() else path
+
+
 def c_sources(folder: Path) -> tuple[Path, ...]:
     """Return the files below `folder`, or the file that it names, that a compiler is given, sorted."""
     return tuple(path for path in _paths(folder) if path.suffix in COMPILED)

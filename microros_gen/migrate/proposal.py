@@ -26,18 +26,23 @@ from microros_gen.migrate.limits import DEFAULT_LIMITS, limits_of
 from microros_gen.migrate.meta_draft import meta_draft
 from microros_gen.migrate.profiles import first_profile
 from microros_gen.migrate.rclc_draft import Adopted, rclc_draft
+from microros_gen.package.description import FILES_FOLDER, PackageDescription
 from microros_gen.platform.capabilities import capabilities
 from microros_gen.records import dataclass
 from microros_gen.selection.find_components import declared_functions, load_catalogue
 from microros_gen.selection.outside import with_installed
 from microros_gen.selection.resolve import check_ready
 
+_ADDRESSED = ("udp", "tcp")
 DEFAULT_SERVICE = "example_interfaces/srv/AddTwoInts"
 
 
 @dataclass(frozen=True)
 class InitOptions:
-    """The arguments of `init`; `checked`: with a golden copy and the workflow that compares it."""
+    """The arguments of `init`; `checked`: with a golden copy and the workflow that compares it.
+
+    `package`: the folder becomes a project with this package.
+    """
 
     folder: Path
     profiles: tuple[str, ...]
@@ -46,6 +51,7 @@ class InitOptions:
     metas: tuple[Path, ...]
     interface_paths: tuple[Path, ...]
     checked: bool = False
+    package: PackageDescription | None = None
 
     @property
     def name(self) -> str:
@@ -62,7 +68,15 @@ class InitOptions:
     @property
     def adopts(self) -> bool:
         """Whether there is something to be read."""
-        return self.sources is not None or bool(self.metas)
+        return self.code is not None or bool(self.metas)
+
+    @property
+    def code(self) -> Path | None:
+        """The sources to read: those of the user, else the example of the package."""
+        project = self.package.project if self.package is not None else None
+        if self.sources is not None or project is None or self.package is None:
+            return self.sources
+        return self.package.folder / project.example
 
     def compiler_options(self) -> compiler.Options:
         """Return the options of the other commands for this."""
@@ -75,18 +89,29 @@ def draft_of(options: InitOptions, warnings: Diagnostics) -> Draft:
         return _of_profiles(options)
     diagnostics = Diagnostics()
     settings = [setting for path in options.metas for setting in _settings_of(path, diagnostics)]
-    adopted = _of_code(options.sources, diagnostics) if options.sources is not None else None
+    adopted = _of_code(options, diagnostics) if options.code is not None else None
     diagnostics.check()
     warnings.extend(diagnostics)
     draft = meta_draft(settings, declared=adopted is not None)
     return _with_defaults(options, draft if adopted is None else _joined(options, draft, adopted))
 
 
-def _of_code(folder: Path, diagnostics: Diagnostics) -> Adopted:
-    sources = read_code(folder, diagnostics)
+def _of_code(options: InitOptions, diagnostics: Diagnostics) -> Adopted:
+    assert options.code is not None
+    sources = read_code(options.code, diagnostics)
     diagnostics.check()
+    if options.sources is None:
+        start = options.code if options.code.is_dir() else options.code.parent
+        sources = tuple(replace(s, name=Path(s.name).relative_to(start).as_posix()) for s in sources)
     catalogue = with_installed(load_catalogue(), capabilities())
-    return rclc_draft(sources, declared_functions(catalogue), catalogue, diagnostics)
+    provided = _provided(options.package) if options.package is not None else frozenset()
+    return rclc_draft(sources, declared_functions(catalogue), catalogue, diagnostics, provided)
+
+
+def _provided(package: PackageDescription) -> frozenset[str]:
+    """Return the names in the headers of a package, which its functions are among."""
+    headers = sorted((package.folder / FILES_FOLDER).rglob("*.h"))
+    return frozenset(name for path in headers for name in re.findall(r"\w+", read_text(path)))
 
 
 def _joined(options: InitOptions, meta: Draft, adopted: Adopted) -> Draft:
@@ -155,9 +180,11 @@ def _with_defaults(options: InitOptions, draft: Draft) -> Draft:
         settings.setdefault("on_full", DraftValue(Flow("block 1 s"), "as rmw_microxrcedds does by itself"))
     groups = dict(draft.groups)
     transport = groups.pop("transport", {})
-    if "type" not in transport and options.target in (None, "host"):
+    if "type" not in transport and options.package is None and options.target in (None, "host"):
         agent = "discover" if "+discovery" in draft.components else AGENT
         transport = {"type": DraftValue("udp"), "agent": DraftValue(agent), **transport}
+    if "type" in transport and transport["type"].value in _ADDRESSED and "agent" not in transport:
+        transport = {**transport, "agent": DraftValue(AGENT, "unless the program sets another one")}
     if transport:
         groups = {"transport": transport, **groups}
     target = DraftValue(
@@ -168,7 +195,7 @@ def _with_defaults(options: InitOptions, draft: Draft) -> Draft:
         draft,
         profiles=tuple(options.seen_from_folder(profile) for profile in profiles),
         interfaces=interfaces,
-        settings={"target": target, **settings},
+        settings=settings if options.package is not None else {"target": target, **settings},
         groups=groups,
         limits=limits,
         remarks=tuple(remarks),

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Collection, Iterable, Mapping, Set
 from dataclasses import replace
 
 from microros_gen.application import diagnosis_decl
@@ -30,7 +30,7 @@ from microros_gen.migrate.rclc_calls import (
     find_nodes,
     find_timers,
 )
-from microros_gen.migrate.rclc_settings import find_settings
+from microros_gen.migrate.rclc_settings import find_settings, transport_calls
 from microros_gen.records import dataclass
 from microros_gen.selection.component import Catalogue
 
@@ -68,10 +68,11 @@ def rclc_draft(
     declared: Mapping[str, str],
     catalogue: Catalogue,
     diagnostics: Diagnostics,
+    provided: Collection[str] = (),
 ) -> Adopted:
     """Return what the sources of one application propose.
 
-    `declared` says which component declares a function. Errors where the sources are several applications, or none.
+    `declared` says which component declares a function; `provided` are functions of the platform. Errors where the sources are several applications, or none.
     """
     files = read_program(read_c(source) for source in sources)
     _check_one(files, diagnostics)
@@ -88,7 +89,7 @@ def rclc_draft(
     ]
     remarks += find_missing(called, selected, catalogue)
     remarks += _macros(files)
-    settings, more = find_settings(calls, values)
+    settings, more = find_settings(calls, values, transport_calls(catalogue), provided)
     pools = {**settings.get("pools", {}), **_executors(calls), **server_pools(calls, values)}
     limits, guesses = server_limits(calls, values)
     diagnosis, unlimited = find_diagnosis(calls)

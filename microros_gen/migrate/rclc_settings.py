@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 from microros_gen.migrate.c_program import Call
 from microros_gen.migrate.c_values import Unknown, Values
 from microros_gen.migrate.draft import DraftValue, Remark, Setting, place
 from microros_gen.migrate.rclc_calls import turns
+from microros_gen.selection.component import Catalogue
 
 _Groups = dict[str, dict[str, DraftValue]]
 # Functions that return memory: for messages that are sent it comes from their storage, for others from the arena.
@@ -20,6 +21,7 @@ _ARENA_ALONE = re.compile(r"micro_ros_utilities_type_info|\w+__Sequence__create"
 _RECEIVES = re.compile(r"rclc?_(subscription|service|client)_init\w*")
 # Lists of the ROS graph, whose length is that of the graph.
 _LISTS_GRAPH = re.compile(r"rcl_get_((?!zero)\w+_names_and_types(_by_node)?|node_names|\w+_info_by_topic)")
+_TRANSPORT = "transport_"
 _ARENA = 4096
 _GRAPH_ARENA = 16384
 _MOST_ARENA = 1 << 20
@@ -79,18 +81,34 @@ def _taken(call: Call, values: Values) -> int | None:
     return total if 0 < total <= _MOST_ARENA else None
 
 
+def transport_calls(catalogue: Catalogue) -> Mapping[str, str]:
+    """Return the functions that set where the agent is, each with its type of transport."""
+    return {
+        option.function: component.name.removeprefix(_TRANSPORT)
+        for component in catalogue.values()
+        if component.name.startswith(_TRANSPORT)
+        for option in component.contributes.init_options
+    }
+
+
 def find_settings(
-    calls: Sequence[Call], values: Values
+    calls: Sequence[Call], values: Values, transports: Mapping[str, str], provided: Collection[str]
 ) -> tuple[Mapping[str, Mapping[str, DraftValue]], list[Remark]]:
-    """Return what the sources say of transport, session and memory, and what of it is not known."""
+    """Return what the sources say of transport, session and memory, and what of it is not known.
+
+    `transports` are those of `transport_calls`, `provided` functions of the platform's package.
+    """
     groups: dict[str, dict[str, DraftValue]] = {"transport": {}, "session": {}}
     remarks: list[Remark] = []
     for call in calls:
         reader = _SETTINGS.get(call.name)
+        if call.name in transports:
+            _set(groups["transport"], "type", transports[call.name], call)
         if reader:
             reader(call, values, groups, remarks)
         elif call.name.startswith("set_microros_"):
             _set(groups["transport"], "type", "custom", call)
+        if call.name.startswith("set_microros_") and call.name not in provided:
             text = f"{call.name}() is of another library: here rmw_uros_set_custom_transport takes your four functions"
             remarks.append(Remark(text, call.span))
     _arena(calls, values, groups, remarks)
@@ -124,11 +142,16 @@ def _address(call: Call, values: Values, groups: _Groups, remarks: list[Remark])
         return
     host, port = (values.text(argument, call) for argument in call.arguments[:2])
     if isinstance(host, str) and isinstance(port, str):
-        _set(groups["transport"], "type", "udp", call)
         _set(groups["transport"], "agent", f"[{host}]:{port}" if ":" in host else f"{host}:{port}", call)
     else:
         reason = next(value.reason for value in (host, port) if isinstance(value, Unknown))
         remarks.append(Remark(f"the address of the agent: {reason}", call.span, undecided=False))
+
+
+def _device(call: Call, values: Values, groups: _Groups, remarks: list[Remark]) -> None:
+    device = values.text(call.arguments[0], call) if call.arguments else Unknown("")
+    if isinstance(device, str):
+        _set(groups["transport"], "device", device, call)
 
 
 def _key(call: Call, values: Values, groups: _Groups, remarks: list[Remark]) -> None:
@@ -140,6 +163,8 @@ def _key(call: Call, values: Values, groups: _Groups, remarks: list[Remark]) -> 
 _SETTINGS: Mapping[str, Callable[[Call, Values, _Groups, list[Remark]], None]] = {
     "rmw_uros_set_custom_transport": _custom,
     "rmw_uros_options_set_udp_address": _address,
+    "rmw_uros_options_set_tcp_address": _address,
+    "rmw_uros_options_set_serial_device": _device,
     "rmw_uros_options_set_client_key": _key,
 }
 

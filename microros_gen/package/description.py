@@ -10,6 +10,7 @@ from microros_gen.documents.files import is_file
 from microros_gen.documents.schema import load_schema, validate
 from microros_gen.documents.tree_values import child_text, entries, items, text_of
 from microros_gen.documents.yaml_tree import MappingNode, parse_yaml
+from microros_gen.package.project import Project, parse_project
 from microros_gen.records import dataclass
 from microros_gen.selection.contribution import Conditions
 from microros_gen.selection.contribution_file import conditions_of
@@ -18,6 +19,7 @@ PACKAGE_FILE = "package.yaml"
 PLAN_FILE = "microros.yaml"
 TARGET_FILE = "target.yaml"
 FILES_FOLDER = "files"
+PROJECT_FOLDER = "project"
 SCHEMA = Path(__file__).with_name("package.schema.json")
 ARCHIVES = ("tar.gz", "zip")
 
@@ -36,7 +38,7 @@ class PackageDescription:
 
     `origin` says who brings it where it does not ship with the tool. `conditions` are those of files below files/,
     by the beginning of their paths. `transports`: empty means all. `defines` are capabilities whose functions files/
-    has. `next_folder` and `next_archive` say what the user
+    has. `project` says what a new project with the package consists of (None: there is none). `next_folder` and `next_archive` say what the user
     does with the result, `{out}`.
     """
 
@@ -51,6 +53,7 @@ class PackageDescription:
     defines: tuple[str, ...]
     layout: tuple[Place, ...]
     conditions: tuple[tuple[str, Conditions], ...]
+    project: Project | None = None
     origin: str = ""
 
     @property
@@ -108,6 +111,7 @@ def parse_package(
         defines=tuple(text_of(item) or "" for item in items(tree.get("defines"))),
         layout=tuple(Place(child_text(item, "from"), _to(item)) for item in layout),
         conditions=tuple((e.key, conditions_of(e.value)) for e in entries(tree.get("files"))),
+        project=parse_project(tree.get("project")),
         origin=origin,
     )
 

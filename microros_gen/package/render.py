@@ -54,8 +54,13 @@ def plan_package(
 
     Raises UserError as `compiler.plan` does, and for a transport that the package does not have.
     """
-    found = Diagnostics()
     request = compiler.read(Options(config=config or package.general_plan, interface_paths=interface_paths))
+    return plan_request(package, request, config is None)
+
+
+def plan_request(package: PackageDescription, request: Request, general: bool = False) -> PackagePlan:
+    """Plan an application that was read for a package. Raises UserError as `plan_package` does."""
+    found = Diagnostics()
     named = request.application.target.span
     if package.target is not None:
         request = _with_target(request, package.target, found)
@@ -72,7 +77,7 @@ def plan_package(
         place = planned.resolved.request.application.transport.type_span
         found.error(f"the package {package.name} has no transport '{transport}'", place, hint, id="MG-9204")
     found.check()
-    return PackagePlan(package, replace(planned, warnings=tuple(found)), config is None)
+    return PackagePlan(package, replace(planned, warnings=tuple(found)), general)
 
 
 def _with_target(request: Request, path: Path, diagnostics: Diagnostics) -> Request:

@@ -72,7 +72,8 @@ def load_catalogue(folder: Path | None = None) -> Catalogue:
 
 
 def declared_functions(catalogue: Catalogue) -> Mapping[str, str]:
-    """Return which ready component declares each function of the C API, from the public headers below its include/.
+    """Return which ready component declares each function of the C API, from the public headers below its include/ and
+    its `init_options`.
 
     Of a component from outside these are all functions and macros of its public headers.
     """
@@ -87,6 +88,8 @@ def declared_functions(catalogue: Catalogue) -> Mapping[str, str]:
                     _COMMENT.sub("", read_text(path))
                 ):
                     found.setdefault(name, component.name)
+        for option in component.contributes.init_options if component.ready else ():
+            found.setdefault(option.function, component.name)
     return MappingProxyType(found)
 
 
