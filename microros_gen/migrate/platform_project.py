@@ -160,7 +160,10 @@ def _view(
 
 def _named(options: InitOptions, package: PackageDescription) -> str:
     """Return how a command in the project names the package: a folder of the user's by its path."""
-    return f"./{_relative(package.folder, options)}" if package.origin.startswith("folder") else package.name
+    path = _relative(package.folder, options)
+    if not package.origin.startswith("folder"):
+        return package.name
+    return path if "/" in path else f"./{path}"
 
 
 def _relative(path: Path, options: InitOptions) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import re
+import zlib
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -180,6 +181,9 @@ def _with_defaults(options: InitOptions, draft: Draft) -> Draft:
         settings.setdefault("on_full", DraftValue(Flow("block 1 s"), "as rmw_microxrcedds does by itself"))
     groups = dict(draft.groups)
     transport = groups.pop("transport", {})
+    if options.package is not None and options.package.project is not None and options.package.project.keyed:
+        key = DraftValue(zlib.crc32(options.name.encode()) | 1, "boards that share an agent need different ones")
+        groups["session"] = {"key": key, **groups.get("session", {})}
     if "type" not in transport and options.package is None and options.target in (None, "host"):
         agent = "discover" if "+discovery" in draft.components else AGENT
         transport = {"type": DraftValue("udp"), "agent": DraftValue(agent), **transport}

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable
 from pathlib import PurePosixPath
 
-from microros_gen.documents.tree_values import child_text, entries, items, text_of
+from microros_gen.documents.tree_values import bool_of, child_text, entries, items, text_of
 from microros_gen.documents.yaml_tree import MappingNode
 from microros_gen.records import dataclass
 
@@ -34,7 +34,8 @@ class Project:
 
     The file of the sources whose suffix is a key of `renamed` gets the name there. `example` is the program of a
     project that is made of nothing, below the package's folder. `needs` holds for each transport or for "" (all). `entry`
-    are the functions with which a program begins. `next` are the commands that build, `{dir}` is the project.
+    are the functions with which a program begins. `next` are the commands that build, `{dir}` is the project. `keyed`: boards may have no number, so a
+    project has a client key.
     """
 
     library: str
@@ -44,6 +45,7 @@ class Project:
     entry: Need
     transports: tuple[tuple[str, Need], ...]
     next: tuple[str, ...]
+    keyed: bool = False
 
     def place_of_library(self, name: str) -> str:
         """Return the folder of the package in the project `name`."""
@@ -74,6 +76,7 @@ def parse_project(node: object) -> Project | None:
         entry=_need(node.get("entry")),
         transports=tuple((entry.key, _need(entry.value)) for entry in entries(node.get("transports"))),
         next=tuple(text_of(item) or "" for item in items(node.get("next"))),
+        keyed=bool_of(node.get("client_key")) is True,
     )
 
 

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`init --platform`: a project with each package, from nothing or from sources, and what it needs of them."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from microros_gen.package.find import builtin_packages
+from microros_gen.package.project import Project
+from microros_gen.package.render import describe
+from tests.support.command_line import Runner
+from tests.support.paths import ROOT
+
+PACKAGES = [name for name in builtin_packages() if describe(name).project is not None]
+COUNTER = """\
+#include <rclc/rclc.h>
+#include <std_msgs/msg/int32.h>
+#include "helper.h"
+/* main() is elsewhere */
+void work(void)
+{
+  rcl_allocator_t allocator = rcl_get_default_allocator();
+  rclc_support_t support;
+  rcl_node_t node;
+  rcl_publisher_t publisher;
+  (void)rclc_support_init(&support, 0, NULL, &allocator);
+  (void)rclc_node_init_default(&node, "worker", "", &support);
+  (void)rclc_publisher_init_default(&publisher, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32), "work");
+}
+"""
+OWN = """\
+package: mine
+summary: A test
+library: mine
+transports: [udp]
+layout: [{from: ""}]
+"""
+
+
+def project_of(name: str) -> Project:
+    found = describe(name).project
+    assert found is not None
+    return found
+
+
+@pytest.fixture
+def sources(folder: Path) -> Path:
+    """Sources of a program that begins nowhere and reaches no agent."""
+    own = folder / "old"
+    (own / "lib").mkdir(parents=True)
+    (own / "work.c").write_text(COUNTER)
+    (own / "helper.h").write_text("#define HELPER 1\n")
+    (own / "lib" / "more.c").write_text("int more;\n")
+    return own
+
+
+@pytest.mark.parametrize("name", PACKAGES)
+def test_a_project_of_nothing_has_the_package_of_its_plan(run: Runner, folder: Path, name: str) -> None:
+    project, robot = project_of(name), folder / "my-robot"
+    done = run("init", "my-robot", "--platform", name)
+    assert (done.status, done.err) == (0, ""), done.err
+    assert done.out.splitlines()[-len(project.next) :] == [
+        step.replace("{dir}", "my-robot").replace("{name}", "my_robot") for step in project.next
+    ]
+    library = robot / project.place_of_library("my_robot")
+    check = ("check", "--package", name, "-c", str(robot / "microros.yaml"), "--golden", str(library))
+    assert run(*check).status == 0
+    places = [path.relative_to(robot).as_posix() for path in robot.rglob("*")]
+    assert not [place for place in places if re.search(r"NAME|DOT_|\{|\.j2$", place)]
+    text = "".join(path.read_text() for path in robot.iterdir() if path.is_file())
+    assert str(ROOT) not in text
+    assert f"microros-gen package {name} -c microros.yaml -o {library.relative_to(robot)}" in text
+    again = run("init", "my-robot", "--platform", name)
+    assert again.status == 2
+    assert "MG-9002" in again.err
+
+
+@pytest.mark.parametrize("name", PACKAGES)
+def test_sources_are_copied_and_what_is_missing_is_named(run: Runner, sources: Path, name: str) -> None:
+    project = project_of(name)
+    done = run("init", "robot", "--platform", name, "--from", str(sources))
+    assert done.status == 0, done.err
+    robot = sources.parent / "robot"
+    start = project.sources.replace("{name}", "robot")
+    for path in sources.rglob("*.[ch]"):
+        copied = robot / f"{start}{path.relative_to(sources).as_posix()}"
+        assert copied.read_bytes() == path.read_bytes()
+    assert re.search(rf"{project.entry.functions[0]}\(\).*\n?.*MG-9014", done.err)
+    assert project.entry.hint in done.err
+    assert "topic: work" in (robot / "microros.yaml").read_text()
+
+
+def test_an_application_that_does_not_plan_has_no_package_yet(run: Runner, sources: Path) -> None:
+    (sources / "work.c").write_text(COUNTER.replace("std_msgs, msg, Int32", "nowhere_msgs, msg, Thing"))
+    done = run("init", "robot", "--platform", "pico", "--from", str(sources))
+    assert done.status == 2
+    robot = sources.parent / "robot"
+    assert (robot / "src" / "work.c").is_file()
+    assert not (robot / project_of("pico").library).exists()
+    assert "it does not build before the errors are gone" in done.out
+
+
+def test_a_transport_that_the_package_does_not_have(run: Runner, sources: Path) -> None:
+    reach = '  rmw_uros_options_set_udp_address("192.168.1.2", "8888", options);\n}\n'
+    (sources / "work.c").write_text(COUNTER[:-2] + reach)
+    done = run("init", "robot", "--platform", "pico", "--from", str(sources))
+    assert done.status == 2
+    assert "the package pico has no transport 'udp'" in done.err
+
+
+def test_a_package_without_a_project(run: Runner, folder: Path) -> None:
+    done = run("init", "robot", "--platform", "cmake")
+    assert done.status == 2
+    assert "MG-9013" in done.err
+    own = folder / "mine"
+    own.mkdir()
+    (own / "package.yaml").write_text(OWN)
+    (own / "microros.yaml").write_text("version: 1\nprofiles: [pure_sender]\n")
+    assert "the package mine has no project" in run("init", "robot", "--platform", "./mine").err
+    assert not (folder / "robot").exists()
+
+
+def test_a_package_of_a_folder(run: Runner, folder: Path, sources: Path) -> None:
+    own = folder / "mine"
+    (own / "project" / "NAME").mkdir(parents=True)
+    (own / "package.yaml").write_text(
+        OWN + "project:\n  library: lib\n  sources: src/\n  example: example.c\n"
+        "  entry: {functions: [work], hint: Begin in work}\n  next: ['make -C {dir}']\n"
+    )
+    (own / "microros.yaml").write_text("version: 1\nprofiles: [pure_sender]\n")
+    (own / "project" / "NAME" / "DOT_list.j2").write_text(
+        "{{ view.name }} {{ view.first }}|{{ view.rest_c | join(' ') }}\n"
+    )
+    done = run("init", "robot", "--platform", "./mine", "--from", str(sources))
+    assert done.status == 0, done.err
+    assert (folder / "robot" / "robot" / ".list").read_text() == "robot work.c|lib/more.c\n"
+    assert "package ../mine -c microros.yaml -o lib" in (folder / "robot" / "README.md").read_text()
+    assert done.out.endswith("make -C robot\n")
+
+
+@pytest.mark.parametrize("option", [("--target", "cortex-m4"), ("--ci",)])
+def test_options_without_effect_are_refused(run: Runner, folder: Path, option: tuple[str, ...]) -> None:
+    done = run("init", "robot", "--platform", "pico", *option)
+    assert done.status == 2
+    assert "--platform takes neither --target nor --ci" in done.err
+    assert not (folder / "robot").exists()
