@@ -101,7 +101,9 @@ def write_folder(options: InitOptions, draft: Draft) -> NewFolder:
     project = options.package.project if options.package is not None else None
     if project is None:
         folder = shlex.quote(str(options.folder))
-        return replace(written, next=(f"cmake -S {folder} -B {folder}/build && cmake --build {folder}/build",))
+        return replace(
+            written, next=(f"cmake -S {folder} -B {folder}/build && cmake --build {folder}/build",)
+        )
     return replace(written, library=project.place_of_library(options.name), next=next_steps(options))
 
 

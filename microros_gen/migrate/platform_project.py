@@ -138,7 +138,9 @@ def _view(
     entries = [n for n in names if project.entry.is_met([_text(compiled[f"{start}{n}"])])]
     first = (entries or [*names, ""])[0]
     rest = [name for name in names if name != first]
-    paths = "".join(f" --interface-path {shlex.quote(_relative(p, options))}" for p in options.interface_paths)
+    paths = "".join(
+        f" --interface-path {shlex.quote(_relative(p, options))}" for p in options.interface_paths
+    )
     library = project.place_of_library(options.name)
     return ProjectView(
         name=options.name,
@@ -183,9 +185,7 @@ def _own(package: PackageDescription, view: ProjectView) -> Iterator[tuple[str, 
             continue
         name, context = template_name(path), {"view": view}
         text = (
-            environment.get_template(name).render(context)
-            if name
-            else render_own(path, environment, context)
+            environment.get_template(name).render(context) if name else render_own(path, environment, context)
         )
         yield place.removesuffix(".j2"), text.encode()
 
@@ -199,5 +199,3 @@ def _read(path: Path) -> bytes:
 
 def _text(path: Path) -> str:
     return read_text(path, errors="replace")
-
-

@@ -182,7 +182,9 @@ def _with_defaults(options: InitOptions, draft: Draft) -> Draft:
     groups = dict(draft.groups)
     transport = groups.pop("transport", {})
     if options.package is not None and options.package.project is not None and options.package.project.keyed:
-        key = DraftValue(zlib.crc32(options.name.encode()) | 1, "boards that share an agent need different ones")
+        key = DraftValue(
+            zlib.crc32(options.name.encode()) | 1, "boards that share an agent need different ones"
+        )
         groups["session"] = {"key": key, **groups.get("session", {})}
     if "type" not in transport and options.package is None and options.target in (None, "host"):
         agent = "discover" if "+discovery" in draft.components else AGENT

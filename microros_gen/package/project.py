@@ -82,6 +82,4 @@ def parse_project(node: object) -> Project | None:
 
 def _need(node: object) -> Need:
     assert isinstance(node, MappingNode)
-    return Need(
-        tuple(text_of(item) or "" for item in items(node.get("functions"))), child_text(node, "hint")
-    )
+    return Need(tuple(text_of(item) or "" for item in items(node.get("functions"))), child_text(node, "hint"))
