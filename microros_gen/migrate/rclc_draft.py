@@ -72,7 +72,8 @@ def rclc_draft(
 ) -> Adopted:
     """Return what the sources of one application propose.
 
-    `declared` says which component declares a function; `provided` are functions of the platform. Errors where the sources are several applications, or none.
+    `declared` says which component declares a function; `provided` are functions of the platform. Errors
+    where the sources are several applications, or none.
     """
     files = read_program(read_c(source) for source in sources)
     _check_one(files, diagnostics)

@@ -38,8 +38,8 @@ class PackageDescription:
 
     `origin` says who brings it where it does not ship with the tool. `conditions` are those of files below files/,
     by the beginning of their paths. `transports`: empty means all. `defines` are capabilities whose functions files/
-    has. `project` says what a new project with the package consists of (None: there is none). `next_folder` and `next_archive` say what the user
-    does with the result, `{out}`.
+    has. `project` says what a new project with the package consists of (None: there is none).
+    `next_folder` and `next_archive` say what the user does with the result, `{out}`.
     """
 
     name: str

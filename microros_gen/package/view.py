@@ -27,10 +27,10 @@ class PackageView:
     """The package as templates see it, as `view`. Paths are below the package's folder, sorted.
 
     `general`: without an application of the user's. `sources` are C, C++ and assembly files, `headers` their headers,
-    `library_sources` those of them that are no examples. `example` is the main.c of the plan (empty: left out). `interfaces` are the roots, with all parts of `types`.
-    `functions` are those that the application defines, `declarations` their prototypes or, without any, a comment.
-    `plan_text` names the plan in a sentence. `buffers` are those that the
-    plan sizes, `ram` their sum. `line_room` is the largest message on the line, bytes.
+    `library_sources` those of them that are no examples. `example` is the main.c of the plan (empty: left out).
+    `interfaces` are the roots, with all parts of `types`. `functions` are those that the application defines,
+    `declarations` their prototypes or, without any, a comment. `plan_text` names the plan in a sentence. `buffers` are
+    those that the plan sizes, `ram` their sum. `line_room` is the largest message on the line, bytes.
     """
 
     name: str

@@ -13,6 +13,7 @@
 #define CONFIG_RING_BUFFER 1
 #define CONFIG_HWINFO 1
 #define CONFIG_NET_SOCKETS 1
+#define CONFIG_NET_UDP 1
 #define CONFIG_ZVFS_EVENTFD 1
 #define CONFIG_ZVFS_POLL_MAX 3
 #ifdef KERNEL_CORES /* of the checks, one has a timer of 64 bits */

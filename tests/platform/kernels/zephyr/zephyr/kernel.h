@@ -28,6 +28,7 @@ uint64_t k_cyc_to_ns_floor64(uint64_t cycles);
 uint64_t k_ticks_to_ns_floor64(uint64_t ticks);
 uint64_t k_ms_to_ticks_ceil64(uint64_t ms);
 uint64_t k_us_to_ticks_ceil64(uint64_t us);
+int32_t k_msleep(int32_t ms);
 int32_t k_sleep(k_timeout_t timeout);
 void k_yield(void);
 bool k_is_in_isr(void);
@@ -63,6 +64,7 @@ struct k_sem {
 #define K_SEM_DEFINE(name, initial, most) struct k_sem name = {initial, most}
 
 int k_sem_init(struct k_sem * sem, unsigned int initial_count, unsigned int limit);
+void k_sem_reset(struct k_sem * sem);
 int k_sem_take(struct k_sem * sem, k_timeout_t timeout);
 void k_sem_give(struct k_sem * sem);
 

@@ -99,7 +99,7 @@ size_t zephyr_transport_write(
 {
   const ssize_t sent = zsock_send(params_of(transport)->poll_fd.fd, buf, len, 0);
 
-  *err = sent < 0 ? 1u : 0u;
+  *err = (uint8_t)(sent < 0 ? 1u : 0u);
   return sent < 0 ? 0u : (size_t)sent;
 }
 
