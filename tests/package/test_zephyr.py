@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The package `zephyr`: its settings, what its CMakeLists.txt gives to Zephyr, and a check of syntax of its sources.
 
-Zephyr itself was not at hand (docs/howto/zephyr.md): its functions in CMake have stand-ins that print, and its headers are
-the declarations of tests/platform/kernels.
+Zephyr itself was not at hand (docs/howto/zephyr.md): its functions in CMake have stand-ins that print, and its headers
+are the declarations of tests/platform/kernels.
 """
 
 from __future__ import annotations

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Projects of `init --platform`: they build with the tools of their world, as far as those are at hand here."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.support.agent.observer import observing
+from tests.support.agent.process import own_domain, running_agent
+from tests.support.command_line import Runner
+from tests.support.package.arduino import MEGA, SKETCHES, built
+from tests.support.package.pio import Pio, running
+from tests.support.paths import ROOT, TESTS
+from tests.support.patience import seconds
+
+pytestmark = [pytest.mark.system, pytest.mark.builds]
+
+PICO_HOST = TESTS / "support" / "package" / "pico_host"
+# What pico_sdk_import.cmake brings, for this computer
+PICO_SDK = """\
+function(pico_sdk_init)
+  foreach(name pico_stdlib pico_sync pico_unique_id)
+    add_library(${name} INTERFACE)
+    target_include_directories(${name} INTERFACE "$ENV{PICO_SDK_PATH}/sdk")
+    target_compile_options(${name} INTERFACE -Wall -Wextra -Werror)
+  endforeach()
+  target_sources(pico_stdlib INTERFACE "$ENV{PICO_SDK_PATH}/sdk.c")
+endfunction()
+foreach(name pico_enable_stdio_usb pico_enable_stdio_uart pico_add_extra_outputs)
+  cmake_language(EVAL CODE "function(${name})\\nendfunction()")
+endforeach()
+"""
+IDF = """\
+set(CMAKE_CURRENT_LIST_DIR "${FOLDER}/main")
+function(idf_component_register)
+  message(STATUS "${ARGV}")
+endfunction()
+include("${FOLDER}/main/CMakeLists.txt")
+"""
+
+
+def called(*call: str, **environment: str) -> str:
+    """Run a program that must succeed; return its output."""
+    done = subprocess.run(
+        call,
+        capture_output=True,
+        text=True,
+        env={**os.environ, **environment},
+        timeout=seconds(200),
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+@pytest.mark.ros
+def test_a_project_of_the_pico_sdk_reaches_ros(run: Runner, folder: Path) -> None:
+    """With stand-ins of the SDK; two sources, one of them in a folder."""
+    if shutil.which("cmake") is None:
+        pytest.skip("no cmake")
+    sdk = folder / "sdk"
+    shutil.copytree(PICO_HOST, sdk)
+    (sdk / "external").mkdir()
+    (sdk / "external" / "pico_sdk_import.cmake").write_text(PICO_SDK)
+    done = run("init", "my robot", "--platform", "pico")
+    assert done.status == 0, done.err
+    build, line = str(folder / "build"), folder / "line"
+    called("cmake", "-S", "my robot", "-B", build, PICO_SDK_PATH=str(sdk))
+    called("cmake", "--build", build, "-j2", PICO_SDK_PATH=str(sdk))
+    domain = own_domain()
+    with (
+        running_agent(domain, "--domain", str(domain), transport=("pty", "--link", str(line))),
+        observing(domain) as observer,
+        running(folder / "build" / "my_robot", PICO_LINE=str(line)),
+    ):
+        observer.subscribe("/pico_publisher", "std_msgs/msg/Int32")
+        assert len(observer.got(2, timeout_s=30, topic="/pico_publisher")) >= 2
+
+
+def test_a_project_of_platformio_builds(run: Runner, folder: Path, tmp_path: Path) -> None:
+    """By `pio run`, for this computer; its sources are a sketch with its own message."""
+    example = ROOT / "examples" / "platformio"
+    paths = ("--interface-path", str(example / "extra_packages"))
+    for options in ((), ("--from", str(example / "src"), *paths)):
+        pio = Pio(tmp_path / f"pio{len(options)}")
+        pio.project.rmdir()
+        done = run("init", str(pio.project), "--platform", "platformio", *options)
+        assert done.status == 0, done.err
+        if options:
+            shutil.copytree(example / "extra_packages", pio.project / "extra_packages")
+        (pio.project / "platformio.ini").unlink()  # it names a board
+        pio.settings("board_microros_transport = serial", arduino=True)
+        assert "Compiling" in "".join(pio.build())
+        assert pio.program.is_file()
+
+
+@pytest.mark.parametrize("sources", ["", "echo"])
+def test_a_sketchbook_builds_for_a_mega(run: Runner, folder: Path, sources: str) -> None:
+    options = ("--from", str(SKETCHES / sources)) if sources else ()
+    done = run("init", "my_sketch", "--platform", "arduino", *options)
+    assert done.status == 0, done.err
+    sketch = built(folder / "my_sketch", MEGA, folder / "my_sketch" / "my_sketch" / "my_sketch.ino")
+    assert 0 < sketch.ram < 4300
+
+
+def test_a_project_of_esp_idf_registers_its_program(run: Runner, folder: Path) -> None:
+    """ESP-IDF is not at hand: a check of syntax."""
+    assert run("init", "chip", "--platform", "esp-idf").status == 0
+    (folder / "commands.cmake").write_text(IDF)
+    printed = called("cmake", f"-DFOLDER={folder / 'chip'}", "-P", "commands.cmake")
+    assert printed == "-- SRCS;main.c;INCLUDE_DIRS;.;REQUIRES;micro_ros_espidf_component\n"
+    defined = (folder / "chip" / "main" / "Kconfig.projbuild").read_text()
+    assert "config MICRO_ROS_APP_STACK" in defined
+    assert (folder / "chip" / "components" / "micro_ros_espidf_component" / "Kconfig.projbuild").is_file()
