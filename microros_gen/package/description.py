@@ -38,7 +38,7 @@ class PackageDescription:
 
     `origin` says who brings it where it does not ship with the tool. `conditions` are those of files below files/,
     by the beginning of their paths. `transports`: empty means all. `defines` are capabilities whose functions files/
-    has. `project` says what a new project with the package consists of (None: there is none).
+    has. `project` says what a new project with the package consists of; None: nothing.
     `next_folder` and `next_archive` say what the user does with the result, `{out}`.
     """
 

@@ -18,10 +18,14 @@ import yaml
 
 from microros_gen import compiler
 from microros_gen.package.render import describe, plan_package, render_package
+from tests.support.agent.observer import observing
+from tests.support.agent.process import own_domain, running_agent
 from tests.support.command_line import Runner
+from tests.support.package.pio import running
 from tests.support.paths import TESTS
 
 KERNELS = TESTS / "platform" / "kernels"
+HOST = TESTS / "support" / "package" / "zephyr_host"
 UDP = """\
 version: 1
 profiles: [pure_sender]
@@ -183,3 +187,34 @@ def test_a_project_finds_its_module(run: Runner, folder: Path) -> None:
     config = (folder / "robot" / "prj.conf").read_text()
     known = settings(folder / "robot" / "modules" / "libmicroros").syms
     assert [name for name in re.findall(r"CONFIG_(MICROROS\w*)=", config) if name not in known] == []
+
+
+@pytest.mark.system
+@pytest.mark.ros
+@pytest.mark.builds
+@pytest.mark.parametrize("kind", ["serial", "udp"])
+def test_the_example_reaches_ros(tmp_path: Path, kind: str) -> None:
+    """Over functions of Zephyr for this computer (tests/support/package/zephyr_host)."""
+    module = tmp_path / "module"
+    compiler.write(render_package(plan_package(describe("zephyr"), None)), module)
+    domain, line, program = own_domain(), tmp_path / "line", tmp_path / "program"
+    transport = ("pty", "--link", str(line)) if kind == "serial" else ("udp4", "--port", "0")
+    sources = [*(module / "src").rglob("*.c"), module / "microros_transports" / kind / "microros_transports.c"]
+    sources += [module / "examples" / "int32_publisher" / "src" / "main.c", HOST / "kernel.c"]
+    folders = (module / "include", module / "microros_transports" / kind, HOST)
+    options = ("--domain", str(domain))
+    with observing(domain) as observer:
+        observer.subscribe("/zephyr_int32_publisher", "std_msgs/msg/Int32")
+        with running_agent(domain, *options, transport=transport) as agent:
+            port = agent.device.rpartition(":")[2] if kind == "udp" else "0"
+            call = ["gcc", "-std=gnu11", "-O1", "-Wall", "-Wextra", "-Werror", "-D_GNU_SOURCE", "-pthread"]
+            call += ["-fsanitize=address,undefined", *(f"-I{path}" for path in folders)]
+            call += ['-DCONFIG_MICROROS_AGENT_IP="127.0.0.1"', f'-DCONFIG_MICROROS_AGENT_PORT="{port}"']
+            done = subprocess.run(
+                [*call, *map(str, sources), "-o", str(program)], capture_output=True, text=True, check=False
+            )
+            assert done.returncode == 0, done.stderr
+            with running(program, ZEPHYR_LINE=str(line)):
+                got = observer.got(3, timeout_s=30, topic="/zephyr_int32_publisher")
+    numbers = [value["data"] for _, value in got]
+    assert numbers == list(range(numbers[0], numbers[0] + len(numbers)))

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A devicetree whose only alias is microros-uart; without KERNEL_ALIAS, there is none. */
+/* A devicetree whose only alias is microros-uart; it exists with KERNEL_ALIAS. */
 #ifndef STAND_IN_ZEPHYR_DEVICETREE_H
 #define STAND_IN_ZEPHYR_DEVICETREE_H
 
