@@ -23,6 +23,7 @@ from tests.support.agent.process import own_domain, running_agent
 from tests.support.command_line import Runner
 from tests.support.package.pio import running
 from tests.support.paths import TESTS
+from tests.support.runtime.merged import merged
 
 KERNELS = TESTS / "platform" / "kernels"
 HOST = TESTS / "support" / "package" / "zephyr_host"
@@ -199,8 +200,11 @@ def test_the_example_reaches_ros(tmp_path: Path, kind: str) -> None:
     compiler.write(render_package(plan_package(describe("zephyr"), None)), module)
     domain, line, program = own_domain(), tmp_path / "line", tmp_path / "program"
     transport = ("pty", "--link", str(line)) if kind == "serial" else ("udp4", "--port", "0")
-    sources = [*(module / "src").rglob("*.c"), module / "microros_transports" / kind / "microros_transports.c"]
-    sources += [module / "examples" / "int32_publisher" / "src" / "main.c", HOST / "kernel.c"]
+    sources = [module / "microros_transports" / kind / "microros_transports.c", HOST / "kernel.c"]
+    sources += [module / "examples" / "int32_publisher" / "src" / "main.c"]
+    for number, unit in enumerate(merged(sorted((module / "src").rglob("*.c")))):
+        sources.append(tmp_path / f"{number}.c")
+        sources[-1].write_text("".join(f'#include "{path}"\n' for path in unit))
     folders = (module / "include", module / "microros_transports" / kind, HOST)
     options = ("--domain", str(domain))
     with observing(domain) as observer:
