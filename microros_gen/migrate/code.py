@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.documents.files import read_text
+from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, UserError
+from microros_gen.documents.files import read_bytes, read_text, reason_of
 
 COMPILED = (".c", ".cc", ".cpp", ".cxx", ".ino")
 """What a compiler is given; .ino are sketches, which Arduino makes into C++."""
@@ -27,6 +27,18 @@ def code_files(folder: Path) -> tuple[Path, ...]:
 def code_folder(path: Path) -> Path:
     """Return the folder of the sources `path`, which may be a single file."""
     return path.parent if path.is_file() else path
+
+
+def code_bytes(path: Path) -> bytes:
+    """Return a file of the sources as it is. Raises UserError if it cannot be read or is too large."""
+    try:
+        return read_bytes(path, _LARGEST)
+    except OSError as error:
+        raise UserError([_unreadable(path, error)]) from error
+
+
+def _unreadable(path: Path, error: OSError) -> Diagnostic:
+    return Diagnostic(f"cannot read '{path}': {reason_of(error)}", id="MG-9004")
 
 
 def c_sources(folder: Path) -> tuple[Path, ...]:
@@ -50,7 +62,7 @@ def read_code(folder: Path, diagnostics: Diagnostics) -> tuple[Source, ...]:
             if path.stat().st_size <= _LARGEST:
                 found.append(Source(str(path), read_text(path, errors="replace")))
         except OSError as error:
-            diagnostics.error(f"cannot read '{path}': {error.strerror}", id="MG-9004")
+            diagnostics.add(_unreadable(path, error))
     if not found and not diagnostics.has_errors():
         hint = f"Files that are read end in {', '.join(READ)}"
         diagnostics.error(f"'{folder}' has no C or C++ sources", hint=hint, id="MG-9005")

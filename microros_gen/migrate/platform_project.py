@@ -12,13 +12,13 @@ from microros_gen import __version__
 from microros_gen.application.find import APPLICATION_FILE
 from microros_gen.compiler import Planned
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
-from microros_gen.documents.files import read_bytes, read_text
+from microros_gen.documents.files import read_bytes
 from microros_gen.documents.own_templates import render_own
 from microros_gen.documents.templates import shared_environment
-from microros_gen.migrate.code import COMPILED, code_files, code_folder
+from microros_gen.migrate.code import COMPILED, code_bytes, code_files, code_folder
 from microros_gen.migrate.proposal import InitOptions
 from microros_gen.package.description import PROJECT_FOLDER, PackageDescription
-from microros_gen.package.project import Need, Project
+from microros_gen.package.project import Project
 from microros_gen.package.render import PackagePlan, render_package
 from microros_gen.records import dataclass
 from microros_gen.selection.component_sources import template_name
@@ -77,7 +77,7 @@ def project_files(options: InitOptions, planned: Planned | None, undecided: int)
         rendered = render_package(PackagePlan(package, planned, general=False))
         files = {f"{library}/{name}": content for name, content in rendered.items()}
     places = source_places(options)
-    files |= {place: _read(path) for path, place in places.items()}
+    files |= {place: code_bytes(path) for path, place in places.items()}
     view = _view(options, package, project, places, undecided)
     files |= dict(_own(package, view))
     files["README.md"] = (
@@ -105,16 +105,12 @@ def find_needs(options: InitOptions, planned: Planned, diagnostics: Diagnostics)
     assert options.package is not None
     assert options.code is not None
     project = checked_project(options.package)
-    texts = [read_text(path, errors="replace") for path in code_files(options.code)]
+    texts = [_text(path) for path in code_files(options.code)]
     for need in project.needs_of(planned.project.selection.transport):
         if not need.is_met(texts):
-            diagnostics.warning(_missing(options, need), hint=need.hint, id="MG-9014")
-
-
-def _missing(options: InitOptions, need: Need) -> str:
-    names = " or ".join(f"{name}()" for name in need.functions)
-    assert options.package is not None
-    return f"the package {options.package.name} needs {names}, which the sources do not have"
+            names = " or ".join(f"{name}()" for name in need.functions)
+            message = f"a program for {options.package.name} needs {names}, which these sources do not have"
+            diagnostics.warning(message, hint=need.hint, id="MG-9014")
 
 
 def next_steps(options: InitOptions) -> tuple[str, ...]:
@@ -190,12 +186,5 @@ def _own(package: PackageDescription, view: ProjectView) -> Iterator[tuple[str, 
         yield place.removesuffix(".j2"), text.encode()
 
 
-def _read(path: Path) -> bytes:
-    try:
-        return read_bytes(path, _LARGEST)
-    except OSError as error:
-        raise UserError([Diagnostic(f"cannot read '{path}': {error.strerror}", id="MG-9004")]) from error
-
-
 def _text(path: Path) -> str:
-    return read_text(path, errors="replace")
+    return code_bytes(path).decode(errors="replace")

@@ -147,3 +147,11 @@ def test_options_without_effect_are_refused(run: Runner, folder: Path, option: t
     assert done.status == 2
     assert "--platform takes neither --target nor --ci" in done.err
     assert not (folder / "robot").exists()
+
+
+def test_a_file_that_cannot_be_copied(run: Runner, sources: Path) -> None:
+    (sources / "table.h").write_bytes(b"/* */\n" * (1 << 18))
+    done = run("init", "robot", "--platform", "zephyr", "--from", str(sources))
+    assert done.status == 2
+    assert "MG-9004" in done.err
+    assert not (sources.parent / "robot").exists()
