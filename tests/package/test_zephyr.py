@@ -219,6 +219,6 @@ def test_the_example_reaches_ros(tmp_path: Path, kind: str) -> None:
             )
             assert done.returncode == 0, done.stderr
             with running(program, ZEPHYR_LINE=str(line)):
-                got = observer.got(3, timeout_s=30, topic="/zephyr_int32_publisher")
-    numbers = [value["data"] for _, value in got]
+                samples = observer.got(3, timeout_s=30, topic="/zephyr_int32_publisher")
+    numbers = [value["data"] for _, value in samples]
     assert numbers == list(range(numbers[0], numbers[0] + len(numbers)))
