@@ -15,6 +15,7 @@ from tests.support.patience import seconds
 from tests.support.plans import POOL, changed
 from tests.support.runtime.harness import SANITIZE, SANITIZER, Tree, build, compilers, components, render
 
+DROP_OLDEST = changed(POOL, streams__on_full="drop_oldest")
 ARENA = changed(POOL, memory__arena_size=1024)
 
 
@@ -22,6 +23,7 @@ ARENA = changed(POOL, memory__arena_size=1024)
     ("unit", "plan", "flags"),
     [
         ("unit_stream.c", POOL, SANITIZE),
+        ("unit_stream_replaced.c", DROP_OLDEST, SANITIZE),
         ("unit_memory.c", changed(POOL, memory__arena_size=512), SANITIZE),
         ("unit_strings.c", ARENA, SANITIZE),
         pytest.param("unit_strings.c", POOL, ("-O2",), marks=pytest.mark.system),
@@ -30,7 +32,7 @@ ARENA = changed(POOL, memory__arena_size=1024)
             marks=pytest.mark.system,
         ),
     ],
-    ids=["stream", "memory", "strings", "strings-no-arena", "memory-m32"],
+    ids=["stream", "stream-replaced", "memory", "strings", "strings-no-arena", "memory-m32"],
 )
 def test_unit(unit: str, plan: RuntimePlan, flags: tuple[str, ...], tmp_path: Path) -> None:
     names = [name for name in components(plan) if name != "port_posix"]
@@ -38,6 +40,37 @@ def test_unit(unit: str, plan: RuntimePlan, flags: tuple[str, ...], tmp_path: Pa
     program = build(tree, ["port_fake.c", unit], "unit", SANITIZER, flags)
     done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
     assert done.returncode == 0, done.stderr
+
+
+def saturated(slots: int, loss: int, latency_ms: int, folder: Path) -> tuple[int, int, int, int]:
+    """Return what a saturated line can carry, what arrived meanwhile and in the end, and what was dropped."""
+    plan = changed(DROP_OLDEST, streams__reliable_slots=slots)
+    tree = render(folder, plan, components(plan))
+    alone = Tree(tree.folder, tuple(s for s in tree.sources if s.parent.name == "stream_reliable"))
+    program = build(alone, ["unit_stream_saturated.c"], "unit", SANITIZER, SANITIZE)
+    command = [program, str(loss), str(latency_ms), "3"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=seconds(60), check=False)
+    assert done.returncode == 0, done.stderr
+    carries, _, meanwhile, delivered, dropped = map(int, done.stdout.split())
+    return carries, meanwhile, delivered, dropped
+
+
+@pytest.mark.parametrize(
+    ("slots", "loss", "latency_ms"), [(2, 0, 0), (4, 0, 10), (4, 5, 0), (4, 5, 5), (8, 10, 5), (16, 20, 5)]
+)
+def test_a_line_that_is_always_full(slots: int, loss: int, latency_ms: int, tmp_path: Path) -> None:
+    """It carries a tenth of what is published: the agent gets as much, in order, and the rest was dropped, unsent."""
+    carries, meanwhile, delivered, dropped = saturated(slots, loss, latency_ms, tmp_path)
+    assert meanwhile >= 0.9 * carries * (100 - loss) / 100
+    assert delivered + dropped == 10 * carries
+
+
+@pytest.mark.parametrize("loss", [0, 10])
+def test_a_line_that_is_always_full_and_one_slot(loss: int, tmp_path: Path) -> None:
+    """Only what is on its way can be dropped: a HEARTBEAT follows at once, and the agent goes on."""
+    carries, meanwhile, delivered, dropped = saturated(1, loss, 0, tmp_path)
+    assert meanwhile >= 0.4 * carries
+    assert delivered + dropped >= 10 * carries
 
 
 BOARD = """\

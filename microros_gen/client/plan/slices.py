@@ -184,6 +184,18 @@ class OutputPlan:
         return self.reliable_slots - (1 if self.on_full == "drop_oldest" and self.reliable_slots > 1 else 0)
 
     @property
+    def reliable_storage(self) -> str:
+        """How reliable messages are stored: in a `ring`; `replaced` by newer ones; or whole and sent in `fragments`."""
+        if self.fragments:
+            return "fragments"
+        return "replaced" if self.on_full == "drop_oldest" else "ring"
+
+    @property
+    def keeps_all(self) -> bool:
+        """Whether the storage of reliable messages cannot drop one: all of them may be on their way at a time."""
+        return self.reliable_storage == "ring"
+
+    @property
     def history_can_grow(self) -> bool:
         """Whether `pools: {history: …}` may be larger than it is."""
         return 0 < self.reliable_slots < MOST_HISTORY

@@ -31,6 +31,7 @@ static unsigned lock_depth;
 static bool lock_used;        /* there is a lock */
 static int64_t fake_epoch_ms; /* stands still; 0: not set */
 static bool send_fails;
+static unsigned send_room = UINT32_MAX; /* messages that the transport still accepts */
 static bool open_fails;
 
 static void read_hex(datagram_t * datagram, const char * hex)
@@ -69,6 +70,8 @@ bool fake_take_line(const char * line)
     fake_epoch_ms = strtoll(&line[6], NULL, 10);
   } else if (strncmp(line, "send_fails ", 11) == 0) {
     send_fails = line[11] == '1';
+  } else if (strncmp(line, "send_room ", 10) == 0) {
+    send_room = (unsigned)strtoul(&line[10], NULL, 10);
   } else if (strncmp(line, "open_fails ", 11) == 0) {
     open_fails = line[11] == '1';
   } else {
@@ -167,9 +170,10 @@ void fake_close(void)
 bool fake_send(const uint8_t * data, size_t size)
 {
   fake_check_lock();
-  if (send_fails) {
+  if (send_fails || send_room == 0u) {
     return false;
   }
+  --send_room;
   printf("tx ");
   for (size_t i = 0; i < size; ++i) {
     printf("%02x", data[i]);

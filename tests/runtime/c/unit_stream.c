@@ -115,18 +115,6 @@ static void test_other_streams_and_short_payloads(void)
   CHECK(stream.count == 1u);
 }
 
-static void test_drop_oldest(void)
-{
-  begin_at(0xffff);
-  CHECK(!xrce_stream_reliable_drop_oldest(&stream, &session, 0));
-  for (int i = 0; i < 4; ++i) {
-    write_one();
-  }
-  CHECK(xrce_stream_reliable_drop_oldest(&stream, &session, 5));
-  CHECK(stream.first == 0u && stream.count == 3u && stream.due_ms == 5u);
-  CHECK(xrce_stream_reliable_reserve(&stream, &session) == &slots[XRCE_MESSAGE_HEADER]);
-}
-
 static void test_a_new_session_numbers_from_zero(void)
 {
   begin_at(700);
@@ -143,7 +131,7 @@ static void test_a_new_session_numbers_from_zero(void)
   CHECK(number_of(0) == 0u && number_of(2) == 2u);
 }
 
-/* `creation: reliable` takes numbers while the stream is held; what is dropped then never had one. */
+/* `creation: reliable` takes numbers while the stream is held. */
 static void test_what_is_held_is_numbered_behind_the_requests(void)
 {
   begin_at(700);
@@ -152,10 +140,9 @@ static void test_what_is_held_is_numbered_behind_the_requests(void)
   write_one();
   xrce_stream_reliable_hold(&stream, 0);
   stream.first = 3;
-  CHECK(xrce_stream_reliable_drop_oldest(&stream, &session, 0) && stream.first == 3u && stream.count == 2u);
   xrce_stream_reliable_step(&stream, &session, true, 1);
-  CHECK(session.statistics.sent == 5u && stream.first == 3u);
-  CHECK(number_of(1) == 3u && number_of(2) == 4u);
+  CHECK(session.statistics.sent == 6u && stream.first == 3u);
+  CHECK(number_of(0) == 3u && number_of(2) == 5u);
 }
 
 int main(void)
@@ -164,7 +151,6 @@ int main(void)
   test_many_rounds();
   test_old_and_wrong_acknacks();
   test_other_streams_and_short_payloads();
-  test_drop_oldest();
   test_a_new_session_numbers_from_zero();
   test_what_is_held_is_numbered_behind_the_requests();
   return 0;

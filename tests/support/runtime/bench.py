@@ -34,9 +34,10 @@ class Bench:
         liveliness: str = "ping",
         qos: str = "reliable",
         topic: str = "chatter",
+        agent: FakeAgent | None = None,
     ) -> Client:
         """Return a client with node 0 and publisher 0 (Int32), whose datagrams so far are forgotten."""
-        client = self.start(plan, liveliness)
+        client = self.start(plan, liveliness, agent)
         name = (
             f"{plan.entities.nodes.declared[0].name} {plan.entities.nodes.declared[0].namespace}"
             if plan.entities.declared

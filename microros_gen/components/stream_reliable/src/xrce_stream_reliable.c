@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Every message fits into one datagram: a ring of messages, each with one sequence number. */
+/* Every message fits into one datagram, and is kept until it is acknowledged: a ring of messages, each with one sequence
+ * number. */
 #include "microros/xrce_stream_reliable.h"
 
 #include "microros/xrce_stream_reliable_slots.h"
@@ -79,25 +80,6 @@ static void stream_free(xrce_stream_reliable_t * stream, uint8_t count)
   stream->unsent = (uint16_t)((uint32_t)stream->unsent >> count);
 }
 
-const uint8_t * xrce_stream_reliable_drop_oldest(
-  xrce_stream_reliable_t * stream, const xrce_session_t * session, uint32_t now)
-{
-  const uint16_t first = stream->first;
-  const uint8_t * dropped = &xrce_reliable_slots[stream->head][MICROROS_RELIABLE_FRONT];
-
-  (void)session;
-  if (stream->count == 0u) {
-    return NULL;
-  }
-  stream_free(stream, 1);
-  if (stream->held) {
-    stream->first = first; /* held messages have no number yet */
-  } else {
-    stream->due_ms = now;
-  }
-  return dropped;
-}
-
 void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now)
 {
   stream->first = 0;
@@ -127,7 +109,8 @@ void xrce_stream_reliable_step(
   }
   stream_flow(stream, session);
   if (stream->unsent == 0u && xrce_is_due(now, stream->due_ms)) {
-    xrce_stream_reliable_heartbeat(stream, session, stream->count, now);
+    (void)xrce_stream_reliable_heartbeat(
+      stream, session, stream->count, now); /* the next HEARTBEAT repeats it */
   }
 }
 
@@ -155,7 +138,7 @@ bool xrce_stream_reliable_on_acknack(
     }
     place = 0;
   } else if (missing != 0u) {
-    stream->due_ms = now; /* the agent waits for the dropped message: send a HEARTBEAT */
+    stream->due_ms = now; /* the agent waits for a message of before: send a HEARTBEAT */
   }
   for (; missing != 0u; missing >>= 1) { /* at most 16 rounds */
     if ((missing & 1u) != 0u && place < stream->count && ((uint32_t)stream->unsent >> place & 1u) == 0u) {

@@ -266,7 +266,8 @@ void xrce_stream_reliable_step(
   }
   stream_flow(stream, session, now);
   if (stream->sent != 0u && !stream->held && !stream->blocked && xrce_is_due(now, stream->due_ms)) {
-    xrce_stream_reliable_heartbeat(stream, session, stream->sent, now);
+    (void)xrce_stream_reliable_heartbeat(
+      stream, session, stream->sent, now); /* the next HEARTBEAT repeats it */
     stream->again = 0;
   }
 }

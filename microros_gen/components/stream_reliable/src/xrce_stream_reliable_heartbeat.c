@@ -4,7 +4,7 @@
 
 enum { HEARTBEAT_SIZE = 13 };
 
-void xrce_stream_reliable_heartbeat(
+bool xrce_stream_reliable_heartbeat(
   xrce_stream_reliable_t * stream, xrce_session_t * session, uint16_t count, uint32_t now)
 {
   const uint32_t pause_ms = xrce_session_short_pause(now - stream->since_ms);
@@ -15,7 +15,7 @@ void xrce_stream_reliable_heartbeat(
   xrce_put_le16(&message[8], stream->first);
   xrce_put_le16(&message[10], (uint16_t)(stream->first + count - 1u));
   message[12] = XRCE_STREAM_RELIABLE;
-  (void)xrce_session_send(session, message, sizeof(message)); /* the next HEARTBEAT repeats it */
   stream->due_ms =
     now + (pause_ms > MICROROS_HEARTBEAT_PERIOD_MS ? pause_ms : (uint32_t)MICROROS_HEARTBEAT_PERIOD_MS);
+  return xrce_session_send(session, message, sizeof(message));
 }

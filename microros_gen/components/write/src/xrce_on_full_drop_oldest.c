@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * on_full: drop_oldest. A reliable message replaces the oldest one, also without a session: the newest are
- * sent in the next session. A best-effort message without a session is dropped; with one it replaces the oldest one that
+ * on_full: drop_oldest. A reliable message replaces the oldest one that was not sent, also without a session: the newest
+ * are sent in the next session. A best-effort message without a session is dropped; with one it replaces the oldest one that
  * waits.
  */
 #include "microros/xrce_drops.h"
@@ -36,15 +36,17 @@ xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room)
     return full_best_effort(writer, room);
   }
   *room = xrce_route_reserve(client, true);
-  if (*room == NULL) {
+  while (*room == NULL) {
     const uint8_t * dropped = xrce_route_drop_oldest(client);
 
-    if (dropped != NULL) {
-      xrce_drops_add(client, xrce_object_index(xrce_get_be16(&dropped[XRCE_SUBMESSAGE_HEADER + 2])));
-      *room = xrce_route_reserve(client, true);
+    if (dropped == NULL) {
+      xrce_drops_add(client, writer->index);
+      return xrce_write_failure(writer);
     }
+    xrce_drops_add(client, xrce_object_index(xrce_get_be16(&dropped[XRCE_SUBMESSAGE_HEADER + 2])));
+    *room = xrce_route_reserve(client, true); /* NULL while slots are reserved for replies */
   }
-  return *room != NULL ? XRCE_WRITTEN : xrce_write_failure(writer);
+  return XRCE_WRITTEN;
 }
 
 xrce_write_t xrce_write_on_unsent(xrce_endpoint_t * writer, size_t size)

@@ -39,6 +39,7 @@
 #define MICROROS_RELIABLE_SLOTS 4u
 #define MICROROS_RELIABLE_SLOT_SIZE 44u
 #define MICROROS_RELIABLE_FRONT 4u /* of a slot, before the first submessage */
+#define MICROROS_RELIABLE_BEGUN 3u /* messages that are under way at a time */
 #define MICROROS_HEARTBEAT_PERIOD_MS 100u
 
 /* places */

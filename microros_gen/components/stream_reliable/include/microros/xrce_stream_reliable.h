@@ -13,6 +13,7 @@
 #include <stdint.h>
 
 #include "microros/xrce_session.h"
+#include "microros/xrce_stream_reliable_drop.h"
 #include "microros/xrce_stream_reliable_send.h"
 #include "microros/xrce_stream_reliable_state.h"
 #include "microros_config.h"
@@ -47,12 +48,6 @@ uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream, xrce_ses
 void xrce_stream_reliable_commit(
   xrce_stream_reliable_t * stream, xrce_session_t * session, size_t size, uint32_t now);
 
-/* Drops the oldest message; a fragmented one only if nothing of it was sent. Otherwise the next step
- * informs the agent. Returns its submessages, valid until the next reservation; NULL if there is no
- * message. */
-const uint8_t * xrce_stream_reliable_drop_oldest(
-  xrce_stream_reliable_t * stream, const xrce_session_t * session, uint32_t now);
-
 /*
  * Called for a new session: holds back stored messages, to be numbered from 0, or from the next number
  * after those of `creation: reliable`. */
@@ -72,8 +67,8 @@ bool xrce_stream_reliable_on_acknack(
   uint8_t flags, uint32_t now);
 
 /* For this component only: sends a HEARTBEAT with the available numbers, `count` (not 0) from
- * stream->first on. Its interval grows while nothing is acknowledged. */
-void xrce_stream_reliable_heartbeat(
+ * stream->first on. Its interval grows while nothing is acknowledged. Returns false if the transport refused it. */
+bool xrce_stream_reliable_heartbeat(
   xrce_stream_reliable_t * stream, xrce_session_t * session, uint16_t count, uint32_t now);
 
 #ifdef __cplusplus

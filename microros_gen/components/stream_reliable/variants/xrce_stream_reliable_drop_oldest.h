@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What `on_full: drop_oldest` removes from the stream. */
+#ifndef MICROROS_XRCE_STREAM_RELIABLE_DROP_H
+#define MICROROS_XRCE_STREAM_RELIABLE_DROP_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "microros/xrce_session.h"
+#include "microros/xrce_stream_reliable_state.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/*
+ * Drops the oldest message of which nothing was sent. If all were sent, drops the oldest one, over which the next step
+ * sends a HEARTBEAT; a fragmented one is then kept. Returns the submessages, valid until the next reservation; NULL if
+ * there is nothing to drop. */
+const uint8_t * xrce_stream_reliable_drop_oldest(
+  xrce_stream_reliable_t * stream, const xrce_session_t * session, uint32_t now);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_XRCE_STREAM_RELIABLE_DROP_H */
