@@ -50,9 +50,9 @@ Text = tuple[int, int]
 class TextBoard(CommandedProgram):
     """A process that is a board; `received`, `served` and `replies` are what it has received."""
 
-    def __init__(self, program: Path) -> None:
+    def __init__(self, program: Path, *arguments: str) -> None:
         pipe = subprocess.PIPE
-        self.process = subprocess.Popen([str(program)], stdin=pipe, stdout=pipe, text=True)
+        self.process = subprocess.Popen([str(program), *arguments], stdin=pipe, stdout=pipe, text=True)
         super().__init__(self.process)
         self.received: list[Text] = []
         self.served: list[Text] = []
@@ -111,9 +111,9 @@ def fresh(relay: Relay) -> Iterator[None]:
 
 
 @contextmanager
-def running(program: Path) -> Iterator[TextBoard]:
-    """Start a board, and wait until it has opened everything: what arrives before is for nobody."""
-    board = TextBoard(program)
+def running(program: Path, *arguments: str) -> Iterator[TextBoard]:
+    """Start a board, and wait until it has opened everything; with an argument, all but its subscription."""
+    board = TextBoard(program, *arguments)
     try:
         assert not board.tell("counts")
         yield board
@@ -158,6 +158,25 @@ def lengths(count: int) -> list[Text]:
     """Return texts around the boundaries of fragments, and some of the longest."""
     edges = [MTU - 17, MTU - 16, 2 * PART - 13, 2 * PART - 12, 16 * PART - 13, 17 * PART, LONGEST, 1]
     return [(i % 26, edges[i % len(edges)]) for i in range(count)]
+
+
+@pytest.mark.parametrize("seed", [None, 4])
+def test_fragments_wait_for_their_subscription(
+    programs: tuple[Path, Path], relay: Relay, seed: int | None
+) -> None:
+    """None of them is acknowledged; requests of the other board, which follow them, wait as well."""
+    if seed is not None:
+        relay.fate = unreliable(seed)
+    with running(programs[0]) as first, running(programs[1], "late") as second:
+        publish(first, second, [(3, LONGEST), (4, 1)])
+        until(lambda: not first.tell("ask 5 300"), first, second)
+        for _ in range(50):
+            first.tell("spin 1")
+            second.tell("spin 1")
+        assert first.waiting() == 3
+        assert not second.tell("open")
+        until(lambda: second.received == [(3, LONGEST), (4, 1)] and first.replies, first, second)
+        assert second.counts[:2] == (0, 0)
 
 
 def test_messages_around_each_boundary(programs: tuple[Path, Path], relay: Relay) -> None:

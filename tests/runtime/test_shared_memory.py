@@ -227,9 +227,9 @@ def test_a_server_that_restarts(programs: tuple[Path, Path], memory: Path) -> No
             assert served(first, "reply") == ["reply 3 6"]
             assert again.call("close")[:2] == (0, "")
             assert first.counts("available") == {"available": 0}
-            assert [first.ask(number, 0)[0] for number in range(4)] == [
-                ""
-            ] * 4  # dropped, as without a server
+            before = first.counts("dropped")["dropped"]
+            assert [first.ask(number, 0)[0] for number in range(4)] == [""] * 4  # as without a server
+            assert first.counts("dropped")["dropped"] == before + 4
 
 
 def test_memory_that_is_cleared_while_both_run(programs: tuple[Path, Path], memory: Path) -> None:

@@ -48,7 +48,7 @@ def saturated(slots: int, loss: int, latency_ms: int, folder: Path) -> tuple[int
     tree = render(folder, plan, components(plan))
     alone = Tree(tree.folder, tuple(s for s in tree.sources if s.parent.name == "stream_reliable"))
     program = build(alone, ["unit_stream_saturated.c"], "unit", SANITIZER, SANITIZE)
-    command = [program, str(loss), str(latency_ms), "3"]
+    command = [str(program), str(loss), str(latency_ms), "3"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=seconds(60), check=False)
     assert done.returncode == 0, done.stderr
     carries, _, meanwhile, delivered, dropped = map(int, done.stdout.split())

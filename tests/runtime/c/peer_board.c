@@ -7,6 +7,10 @@
  *   rest MS                waits once, at most so long; prints `got` as well, and `times COUNT`: how often the time
  *                          was read
  *   reconnects             prints `reconnects COUNT`
+ *   dropped                prints `dropped COUNT`
+ *   pass MS                lets time pass
+ *   open TOPIC             with LATE: opens the subscription
+ *   close TOPIC            closes it
  *   serialized TOPIC SIZE  publishes so many bytes of CDR
  *   meanwhile TOPIC VALUE  publishes as another task would during the wait of an executor, and prints `wakes COUNT`:
  *                          how often that woke it (with WAITS_HERE: without port_posix_wait.c)
@@ -35,6 +39,10 @@
 #include "microros/xrce_client.h"
 
 enum { TOPICS = 2, LINE = 80, BYTES = 1024 };
+
+#ifndef LATE
+#define LATE false
+#endif
 
 static const char * const out_names[TOPICS] = {"/" OWN "/best", "/" OWN "/sure"};
 static const char * const in_names[TOPICS] = {"/" OTHER "/best", "/" OTHER "/sure"};
@@ -174,20 +182,42 @@ static rcl_ret_t publish_bytes(const rcl_publisher_t * publisher, size_t size)
   return rcl_publish_serialized_message(publisher, &message, NULL);
 }
 
-int main(int argc, char ** argv)
+static rcl_node_t node;
+static rclc_executor_t executor;
+static rcl_subscription_t subscriptions[TOPICS];
+
+static rcl_ret_t open_subscription(unsigned i)
 {
   static char topics[TOPICS][2] = {"0", "1"};
+  static std_msgs__msg__Int32 heard[TOPICS];
+  const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
+  const rcl_ret_t result = i == 0
+                             ? rclc_subscription_init_best_effort(&subscriptions[i], &node, type, in_names[i])
+                             : rclc_subscription_init_default(&subscriptions[i], &node, type, in_names[i]);
+
+  return result != RCL_RET_OK ? result
+                              : rclc_executor_add_subscription_with_context(
+                                  &executor, &subscriptions[i], &heard[i], hear, topics[i], ON_NEW_DATA);
+}
+
+static rcl_ret_t close_subscription(unsigned i)
+{
+  const rcl_ret_t result = rclc_executor_remove_subscription(&executor, &subscriptions[i]);
+
+  return result != RCL_RET_OK ? result : rcl_subscription_fini(&subscriptions[i], &node);
+}
+
+int main(int argc, char ** argv)
+{
   rcl_allocator_t allocator = rcl_get_default_allocator();
   const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
   rclc_support_t support;
-  rcl_node_t node = rcl_get_zero_initialized_node();
-  rcl_subscription_t subscriptions[TOPICS];
-  std_msgs__msg__Int32 heard[TOPICS];
-  rclc_executor_t executor = rclc_executor_get_zero_initialized_executor();
   char line[LINE];
   unsigned topic;
   int value;
 
+  node = rcl_get_zero_initialized_node();
+  executor = rclc_executor_get_zero_initialized_executor();
   if (argc > 1) {
     offset_ms = (uint32_t)strtoul(argv[1], NULL, 0) - port_time_ms();
   }
@@ -198,13 +228,11 @@ int main(int argc, char ** argv)
     return 2;
   }
   for (size_t i = 0; i < (size_t)TOPICS; ++i) {
+    subscriptions[i] = rcl_get_zero_initialized_subscription();
     if (
       (i == 0 ? rclc_publisher_init_best_effort(&publishers[i], &node, type, out_names[i])
               : rclc_publisher_init_default(&publishers[i], &node, type, out_names[i])) != RCL_RET_OK ||
-      (i == 0 ? rclc_subscription_init_best_effort(&subscriptions[i], &node, type, in_names[i])
-              : rclc_subscription_init_default(&subscriptions[i], &node, type, in_names[i])) != RCL_RET_OK ||
-      rclc_executor_add_subscription_with_context(
-        &executor, &subscriptions[i], &heard[i], hear, topics[i], ON_NEW_DATA) != RCL_RET_OK) {
+      (!LATE && open_subscription((unsigned)i) != RCL_RET_OK)) {
       (void)fprintf(stderr, "%s\n", rcl_get_error_string().str);
       return 3;
     }
@@ -231,6 +259,17 @@ int main(int argc, char ** argv)
 
       code = rmw_uros_get_statistics(rcl_context_get_rmw_context(&support.context), &statistics);
       (void)printf("reconnects %u\n", (unsigned)statistics.reconnects);
+    } else if (strcmp(line, "dropped\n") == 0) {
+      rmw_uros_statistics_t statistics;
+
+      code = rmw_uros_get_statistics(rcl_context_get_rmw_context(&support.context), &statistics);
+      (void)printf("dropped %u\n", (unsigned)statistics.dropped);
+    } else if (sscanf(line, "pass %d", &value) == 1) {
+      offset_ms += (uint32_t)value;
+    } else if (sscanf(line, "open %u", &topic) == 1 && topic < TOPICS) {
+      code = open_subscription(topic);
+    } else if (sscanf(line, "close %u", &topic) == 1 && topic < TOPICS) {
+      code = close_subscription(topic);
     } else if (strcmp(line, "end\n") == 0) {
       break;
     } else {
@@ -243,7 +282,8 @@ int main(int argc, char ** argv)
   for (size_t i = 0; i < (size_t)TOPICS; ++i) {
     if (
       rcl_publisher_fini(&publishers[i], &node) != RCL_RET_OK ||
-      rcl_subscription_fini(&subscriptions[i], &node) != RCL_RET_OK) {
+      (rcl_subscription_is_valid(&subscriptions[i]) &&
+       rcl_subscription_fini(&subscriptions[i], &node) != RCL_RET_OK)) {
       return 6;
     }
   }

@@ -35,6 +35,7 @@ typedef diagnostic_msgs__srv__AddDiagnostics_Response response_t;
 static rclc_support_t support;
 static rcl_publisher_t publisher;
 static rcl_client_t client;
+static rcl_node_t node;
 static char sent[MOST];
 
 static rosidl_runtime_c__String text_of(unsigned seed, size_t size)
@@ -84,15 +85,23 @@ static void serve(const void * request, void * response)
   ((response_t *)response)->message = text_of((unsigned)(seed_of(text) + 1) % SEEDS, 2u * text->size);
 }
 
+static bool open_subscription(rclc_executor_t * executor)
+{
+  static char bytes[MOST];
+  static std_msgs__msg__String message = {{bytes, 0, MOST}};
+  static rcl_subscription_t subscription;
+  const rosidl_message_type_support_t * string = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, String);
+
+  return rclc_subscription_init_default(&subscription, &node, string, "/" OTHER "/text") == RCL_RET_OK &&
+         rclc_executor_add_subscription(executor, &subscription, &message, hear, ON_NEW_DATA) == RCL_RET_OK;
+}
+
 static bool start(rclc_executor_t * executor)
 {
-  static char bytes[HANDLES][MOST];
-  static std_msgs__msg__String message = {{bytes[0], 0, MOST}};
-  static request_t request = {{bytes[1], 0, MOST}};
-  static response_t reply = {false, {bytes[2], 0, MOST}};
+  static char bytes[2][MOST];
+  static request_t request = {{bytes[0], 0, MOST}};
+  static response_t reply = {false, {bytes[1], 0, MOST}};
   static response_t response;
-  static rcl_node_t node;
-  static rcl_subscription_t subscription;
   static rcl_service_t service;
   rcl_allocator_t allocator = rcl_get_default_allocator();
   const rosidl_message_type_support_t * string = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, String);
@@ -103,10 +112,8 @@ static bool start(rclc_executor_t * executor)
          rclc_node_init_default(&node, "board", "", &support) == RCL_RET_OK &&
          rclc_executor_init(executor, &support.context, HANDLES, &allocator) == RCL_RET_OK &&
          rclc_publisher_init_default(&publisher, &node, string, "/" OWN "/text") == RCL_RET_OK &&
-         rclc_subscription_init_default(&subscription, &node, string, "/" OTHER "/text") == RCL_RET_OK &&
          rclc_service_init_default(&service, &node, check, "/" OWN "/check") == RCL_RET_OK &&
          rclc_client_init_default(&client, &node, check, "/" OTHER "/check") == RCL_RET_OK &&
-         rclc_executor_add_subscription(executor, &subscription, &message, hear, ON_NEW_DATA) == RCL_RET_OK &&
          rclc_executor_add_service(executor, &service, &request, &response, serve) == RCL_RET_OK &&
          rclc_executor_add_client(executor, &client, &reply, hear_reply) == RCL_RET_OK;
 }
@@ -172,15 +179,19 @@ static rcl_ret_t obey(const char * line, rclc_executor_t * executor)
     rmw_client_instance()->peers[0].next = (uint16_t)second;
     return RCL_RET_OK;
   }
+  if (strcmp(line, "open\n") == 0) {
+    return open_subscription(executor) ? RCL_RET_OK : RCL_RET_ERROR;
+  }
   return strcmp(line, "counts\n") == 0 ? print_counts() : RCL_RET_INVALID_ARGUMENT;
 }
 
-int main(void)
+int main(int count, char * arguments[])
 {
   rclc_executor_t executor = rclc_executor_get_zero_initialized_executor();
   char line[LINE];
 
-  if (!start(&executor)) {
+  (void)arguments; /* with any, the program opens its subscription when it is asked to */
+  if (!start(&executor) || (count == 1 && !open_subscription(&executor))) {
     (void)fprintf(stderr, "%s\n", rcl_get_error_string().str);
     return 2;
   }

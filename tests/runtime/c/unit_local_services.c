@@ -7,6 +7,7 @@
 #include <rcl/rcl.h>
 #include <rclc/executor.h>
 #include <rclc/rclc.h>
+#include <rmw_microros/rmw_microros.h>
 #include <std_srvs/srv/trigger.h>
 
 #include <string.h>
@@ -119,11 +120,21 @@ static void test_order(void)
   CHECK(hears_nothing());
 }
 
+/* Returns how many messages the image has dropped. */
+static uint32_t dropped(void)
+{
+  rmw_uros_statistics_t statistics;
+
+  CHECK(rmw_uros_get_statistics(rcl_context_get_rmw_context(&support.context), &statistics) == RMW_RET_OK);
+  return statistics.dropped;
+}
+
 /* A request without room is refused; one to a server that is not open gets no reply, as in ROS. */
 static void test_no_room(void)
 {
   const example_interfaces__srv__AddTwoInts_Request request = {.a = 9};
   int64_t sequence = 0;
+  uint32_t before;
 
   for (int64_t i = 0; i < SLOTS; ++i) {
     (void)ask(i, 0);
@@ -138,7 +149,9 @@ static void test_no_room(void)
     hear(3 + i, i);
   }
   CHECK(rcl_service_fini(&sum, &node) == RCL_RET_OK);
+  before = dropped();
   CHECK(ask(0, 0) == 3 + SLOTS);
+  CHECK(dropped() == before + 1u);
   CHECK(rclc_service_init_default(&sum, &node, sum_type(), "sum") == RCL_RET_OK);
   CHECK(is_asked_nothing() && hears_nothing());
 }
@@ -147,11 +160,13 @@ static void test_no_room(void)
 static void test_next_owner(void)
 {
   rmw_request_id_t id;
+  const uint32_t before = dropped();
 
   (void)ask(5, 5);
   id = take(5, 5);
   CHECK(rcl_client_fini(&sum_client, &other_node) == RCL_RET_OK);
   reply(id, 10);
+  CHECK(dropped() == before + 1u);
   CHECK(rclc_client_init_default(&sum_client, &other_node, sum_type(), "/sum") == RCL_RET_OK);
   reply(id, 11);
   CHECK(hears_nothing());

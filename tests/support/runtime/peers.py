@@ -37,7 +37,7 @@ nodes:
       - {topic: /OTHER/sure, type: std_msgs/msg/Int32, peer: only, queue: 40}
 """
 PAIR = ("a", "b")
-COUNTS = ("times ", "reconnects ", "wakes ", "sessions ")
+COUNTS = ("times ", "reconnects ", "dropped ", "wakes ", "sessions ")
 """Lines of a board that are a number."""
 
 Fate = Callable[[bytes], Sequence[bytes]]
@@ -79,18 +79,20 @@ def board_program(
     others: str = APPLICATION,
     waits_here: bool = False,
     source: str = "peer_board.c",
+    late: bool = False,
 ) -> Path:
     """Build the program of a board, with a separate system file: the relay may be the other end of its link.
 
     `others`: what the other board has. `waits_here`: without the wait of the port, for `Board.wakes`. `source`: a
-    file of tests/runtime/c.
+    file of tests/runtime/c. `late`: it opens its subscriptions when it is asked to.
     """
     home = written(folder / f"of_{own}", system_text, others)
     out = rendered(home / own, application(own, text))
     flags = (f'-DOWN="{own}"', f'-DOTHER="{PAIR[1 - PAIR.index(own)]}"')
     own_time = ("port_posix_time.c",) if source == "peer_board.c" else ()
     without = (*own_time, *(("port_posix_wait.c",) if waits_here else ()))
-    return program_of(out, source, without, (*flags, *(("-DWAITS_HERE",) if waits_here else ())))
+    waits = ("-DWAITS_HERE",) if waits_here else ()
+    return program_of(out, source, without, (*flags, *waits, *(("-DLATE=true",) if late else ())))
 
 
 class Board(CommandedProgram):
@@ -125,6 +127,23 @@ class Board(CommandedProgram):
     def publish_serialized(self, topic: int, size: int) -> str:
         """Publish so many bytes of CDR, with their header; return the error text."""
         return self._error(f"serialized {topic} {size}")
+
+    def dropped(self) -> int:
+        """Return how many messages it has dropped."""
+        self.begin("dropped")
+        return self.heard()
+
+    def open(self, topic: int) -> None:
+        """Open a subscription of a program that is `late`."""
+        assert self._error(f"open {topic}") == ""
+
+    def close(self, topic: int) -> None:
+        """Close a subscription."""
+        assert self._error(f"close {topic}") == ""
+
+    def let_pass(self, milliseconds: int) -> None:
+        """Let its time pass."""
+        assert self._error(f"pass {milliseconds}") == ""
 
     def reconnects(self) -> int:
         """Return how often its line has returned."""

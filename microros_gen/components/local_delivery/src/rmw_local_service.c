@@ -136,6 +136,8 @@ static void local_reply(
       local_queue(service) && /* an identity from outside may name any client */
     rmw_local_is_open(service->client, &rmw_local_queues[index])) {
     local_put(service->client, index, ros_response, origin);
+  } else {
+    ++service->client->session.statistics.dropped; /* nobody waits for it any more */
   }
 }
 
@@ -192,8 +194,12 @@ rmw_ret_t rmw_local_send_request(
     return rmw_shared_call_request(client, sent, number, ros_request);
   }
   result = local_check(sent, ros_request);
-  if (result != RMW_RET_OK || !rmw_local_is_open(client->client, &rmw_local_queues[index])) {
+  if (result != RMW_RET_OK) {
     return result;
+  }
+  if (!rmw_local_is_open(client->client, &rmw_local_queues[index])) {
+    ++client->client->session.statistics.dropped;
+    return RMW_RET_OK;
   }
   if (rmw_local_states[index].count == rmw_local_queues[index].slots) {
     return microros_error_named(RMW_RET_ERROR, microros_error_local_full, client->name);

@@ -74,13 +74,13 @@ bool rmw_shared_call_is_open(const xrce_endpoint_t * client)
   return room == RMW_SHARED_ROOM || room == RMW_SHARED_FULL;
 }
 
-/* The ring of a message, and the name of its service for texts. */
+/* The ring of a message, and who sends it. */
 typedef struct call_way_t {
   const rmw_shared_ring_t * ring;
-  const char * name;
+  const xrce_endpoint_t * from;
 } call_way_t;
 
-/* Writes a message with its identity to a ring. Without a reader in the other image it is dropped. */
+/* Writes a message with its identity to a ring. Without a reader in the other image it is dropped and counted. */
 static rmw_ret_t call_write(
   const call_way_t * way, const microros_message_type_t * sent, const rmw_local_origin_t * origin,
   const void * message)
@@ -92,8 +92,11 @@ static rmw_ret_t call_write(
   uint32_t * slot;
   const rmw_shared_room_t room = rmw_shared_reserve(way->ring, &count);
 
+  if (room == RMW_SHARED_ABSENT) {
+    ++way->from->client->session.statistics.dropped;
+  }
   if (room != RMW_SHARED_ROOM) {
-    return rmw_shared_error(room, way->name);
+    return rmw_shared_error(room, way->from->name);
   }
   slot = rmw_shared_slot(way->ring, count);
   size = sent->encode(message, (uint8_t *)&slot[1 + (int)CALL_WORDS], &fault);
@@ -111,7 +114,7 @@ rmw_ret_t rmw_shared_call_request(
   const xrce_endpoint_t * client, const microros_message_type_t * sent, const rmw_local_number_t * number,
   const void * message)
 {
-  const call_way_t way = {call_requests(client->index), client->name};
+  const call_way_t way = {call_requests(client->index), client};
   const rmw_local_origin_t origin = {
     .client = rmw_shared_look() == RMW_SHARED_ROOM ? call_run(client->index) : 0u,
     .number = number->request,
@@ -124,7 +127,7 @@ rmw_ret_t rmw_shared_call_reply(
   const xrce_endpoint_t * service, const microros_message_type_t * sent, const rmw_local_origin_t * origin,
   const void * message)
 {
-  const call_way_t way = {call_replies(service->index), service->name};
+  const call_way_t way = {call_replies(service->index), service};
 
   return call_write(&way, sent, origin, message);
 }

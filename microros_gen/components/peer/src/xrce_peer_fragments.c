@@ -19,6 +19,14 @@ void xrce_peer_fragments_reset(uint8_t index)
   joined_sizes[index] = 0;
 }
 
+const uint8_t * xrce_peer_fragments_front(uint8_t index, const uint8_t * submessage)
+{
+  const bool is_first = submessage[0] == XRCE_FRAGMENT && joined_sizes[index] == 0u &&
+                        xrce_get_le16(&submessage[2]) >= (uint16_t)XRCE_WRITE_PREFIX;
+
+  return is_first ? xrce_payload_of(submessage) : submessage;
+}
+
 /* Appends a fragment, as far as all of them fit. */
 static void fragments_add(uint8_t index, const uint8_t * payload, uint32_t size)
 {

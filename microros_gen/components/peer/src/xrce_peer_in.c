@@ -22,6 +22,14 @@ void xrce_peer_in_reset(xrce_peer_t * peer, uint8_t index)
   peer->next = 0;
   peer->newest = UINT16_MAX; /* 0 is newer */
   peer->received = false;
+  peer->early = false;
+}
+
+void xrce_peer_in_closed(xrce_client_t * client)
+{
+  for (uint8_t i = 0; i < MICROROS_PEERS; ++i) {
+    client->peers[i].begun = true;
+  }
 }
 
 /* Answers a message of this session. */
@@ -49,15 +57,22 @@ static void in_acknowledge(xrce_client_t * client, uint8_t index, uint16_t known
   (void)xrce_peer_send(client, index, message, sizeof(message)); /* a HEARTBEAT asks again */
 }
 
+static bool in_is_open(const xrce_client_t * client, uint16_t subscription)
+{
+  return client->states[XRCE_READERS_AT + subscription].wanted;
+}
+
+static bool in_is_topic(const xrce_peer_route_t * reader, uint16_t object)
+{
+  return xrce_object_id(reader->topic, XRCE_KIND_DATAWRITER) == object;
+}
+
 /* Stores a sample for a subscription. A full queue drops its oldest one: what is acknowledged here has arrived at the
  * board, and nothing holds the other subscriptions of the link back. */
 static void in_store(xrce_client_t * client, uint16_t subscription, const xrce_sample_t * sample)
 {
   xrce_receiver_t * receiver = &client->receivers[subscription];
 
-  if (!client->states[XRCE_READERS_AT + subscription].wanted) {
-    return;
-  }
   if (sample->size > xrce_read_largest(client, receiver)) {
     receiver->large = sample->size;
     ++receiver->refused;
@@ -85,10 +100,52 @@ static void in_write_data(
   sample.size = (uint16_t)(size - XRCE_OBJECT_PREFIX);
   sample.big_endian = (xrce_flags_of(submessage) & XRCE_FLAG_LITTLE_ENDIAN) == 0u;
   for (uint16_t i = 0; i < line->reader_count; ++i) {
-    if (xrce_object_id(line->readers[i].topic, XRCE_KIND_DATAWRITER) == object) {
+    if (!in_is_topic(&line->readers[i], object)) {
+      continue;
+    }
+    if (in_is_open(client, line->readers[i].endpoint)) {
       in_store(client, line->readers[i].endpoint, &sample);
+    } else if (xrce_peer_input(index)[MICROROS_PEER_HEAD + 1u] == (uint8_t)XRCE_STREAM_RELIABLE) {
+      ++client->session.statistics.dropped; /* it was acknowledged */
+    } else {
+      /* nobody expects it */
     }
   }
+}
+
+/* Returns whether the program has yet to open a subscription of what begins with this submessage. */
+static bool in_has_no_reader(const xrce_client_t * client, uint8_t index, const uint8_t * submessage)
+{
+  const xrce_peer_line_t * line = &xrce_peer_lines[index];
+
+  if (submessage[0] != XRCE_WRITE_DATA || xrce_get_le16(&submessage[2]) < XRCE_OBJECT_PREFIX) {
+    return false;
+  }
+  for (uint16_t i = 0; i < line->reader_count; ++i) {
+    if (
+      in_is_topic(&line->readers[i], xrce_get_be16(&xrce_payload_of(submessage)[2])) &&
+      !in_is_open(client, line->readers[i].endpoint)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/* Decides whether the next reliable message waits in the other board, which repeats it with its HEARTBEATs. */
+static bool in_is_early(xrce_client_t * client, uint8_t index, const uint8_t * message, uint32_t now)
+{
+  xrce_peer_t * peer = &client->peers[index];
+
+  if (
+    peer->begun ||
+    !in_has_no_reader(client, index, xrce_peer_fragments_front(index, &message[XRCE_MESSAGE_HEADER]))) {
+    return false;
+  }
+  if (!peer->early) {
+    peer->early_ms = now;
+  }
+  peer->begun = xrce_is_due(now, peer->early_ms + XRCE_PEER_EARLY_MS);
+  return !peer->begun;
 }
 
 static void in_heartbeat(xrce_client_t * client, uint8_t index, const uint8_t * submessage, size_t size)
@@ -109,7 +166,14 @@ static void in_heartbeat(xrce_client_t * client, uint8_t index, const uint8_t * 
     return;
   }
   known = (uint16_t)(xrce_get_u16(&payload[2], xrce_flags_of(submessage)) - peer->next + 1u);
-  in_acknowledge(client, index, known < HALF ? known : 0u);
+  if (known >= (uint16_t)HALF) {
+    known = 0;
+  } else if (peer->early && known > 1u) {
+    known = 1; /* what follows is not stored anyway */
+  } else {
+    /* all of them */
+  }
+  in_acknowledge(client, index, known);
 }
 
 /* Takes the submessages of the message at MICROROS_PEER_HEAD of a buffer, in order. */
@@ -143,6 +207,12 @@ static void in_take_reliable(
   xrce_peer_t * peer = &client->peers[index];
   const uint16_t ahead = (uint16_t)(xrce_get_le16(&message[2]) - peer->next);
 
+  if (ahead == 0u) {
+    peer->early = in_is_early(client, index, message, now);
+  }
+  if (peer->early && ahead < WINDOW) {
+    return; /* an ACKNACK would ask for them again at once */
+  }
   if (ahead == 0u) {
     size_t whole = size;
     uint8_t * input = xrce_peer_fragments_join(client, index, &whole);

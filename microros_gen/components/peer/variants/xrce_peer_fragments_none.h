@@ -14,6 +14,13 @@ static inline void xrce_peer_fragments_reset(uint8_t index)
   (void)index;
 }
 
+/* Returns a submessage, which is no fragment. */
+static inline const uint8_t * xrce_peer_fragments_front(uint8_t index, const uint8_t * submessage)
+{
+  (void)index;
+  return submessage;
+}
+
 /* Returns the buffer of a link, which has the next reliable message of `size` bytes at MICROROS_PEER_HEAD. */
 static inline uint8_t * xrce_peer_fragments_join(xrce_client_t * client, uint8_t index, const size_t * size)
 {

@@ -15,6 +15,10 @@ extern "C" {
 /* Called for a new session of the other board of a link: what has arrived of a message is dropped. */
 void xrce_peer_fragments_reset(uint8_t index);
 
+/* Returns the submessage itself; of the first fragment of a message, what that message begins with. Another fragment is
+ * itself. */
+const uint8_t * xrce_peer_fragments_front(uint8_t index, const uint8_t * submessage);
+
 /*
  * Takes the next reliable message of a link, whose `*size` bytes are in its buffer. Returns a buffer with a message of
  * `*size` bytes at MICROROS_PEER_HEAD: this one or, if it is the last fragment, the message that it completes; it is

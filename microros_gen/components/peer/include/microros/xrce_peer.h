@@ -76,6 +76,7 @@ typedef struct xrce_peer_t {
   uint32_t key;        /* of the own session; 0: none was asked for */
   uint32_t other_key;  /* of the other board's session; 0: not known */
   uint32_t former_key; /* of the one before */
+  uint32_t early_ms;   /* since when the next reliable message waits for its subscription */
   uint16_t number;     /* of the next best-effort message */
   uint16_t first;      /* number of the oldest message that is not acknowledged */
   uint16_t unsent;     /* which of these have to be sent, from the first on */
@@ -88,6 +89,9 @@ typedef struct xrce_peer_t {
   bool received : 1;   /* something arrived in the other board's session */
   bool lost : 1;       /* the device of the line is gone */
   bool more : 1;       /* more may have arrived than a pump takes */
+  bool
+    early : 1; /* the next reliable message is not acknowledged: the program has not opened its subscription yet */
+  bool begun : 1; /* no message waits for a subscription any more */
 } xrce_peer_t;
 
 /* The part of a key that counts sessions; the rest identifies the table. */
@@ -170,6 +174,13 @@ void xrce_peer_acknowledged(
 
 /* Called for a new session of the other board. */
 void xrce_peer_in_reset(xrce_peer_t * peer, uint8_t index);
+
+/* How long a reliable message waits for its subscription, milliseconds: as long as a program may take to open all of
+ * them. Then, and once it has closed one, what has no subscription is dropped and counted. */
+#define XRCE_PEER_EARLY_MS 10000u
+
+/* Called when the program closes a subscription. */
+void xrce_peer_in_closed(xrce_client_t * client);
 
 /* Takes a message of the other board's session, which is complete. */
 void xrce_peer_in_take(
