@@ -28,7 +28,7 @@ class ActionDecl:
 
 @dataclass(frozen=True)
 class ActionClientDecl:
-    """An action client of a node; `type` and `limits` as above.
+    """An action client of a node; `type` as above. `limits`: of what this client sends and receives.
 
     `goals` are under way at once. `response_timeout_ms`: for the response to a goal or a cancel request.
     `result_timeout_ms`: from the acceptance of a goal to its result; 0: as long as it takes.

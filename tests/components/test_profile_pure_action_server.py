@@ -24,6 +24,13 @@ nodes: [{name: device, actions: [{name: a, type: TYPE, LIMITS}, {name: b, type: 
 """.replace("TYPE", FIBONACCI)
 
 
+def received(folder: Path, text: str) -> list[list[int]]:
+    """Return the sizes of the places for feedback and results of each client."""
+    runtime = planned(folder, text).project.runtime
+    sizes = [queue.slot_size for queue in runtime.input.queues if queue.slots]
+    return [sizes[:2], sizes[4::3]]  # the responses to a goal and to its cancellation are before each result
+
+
 @pytest.mark.parametrize("entities", ENTITIES)
 def test_the_profile_alone_is_a_fibonacci_server(tmp_path: Path, entities: str) -> None:
     config = tmp_path / "microros.yaml"
@@ -65,5 +72,25 @@ def test_limits_of_actions(tmp_path: Path, limits: str, more: str, numbers: list
 
 
 def test_limits_of_action_clients(tmp_path: Path) -> None:
+    """The type has the larger ones; each client has its own, and the places for its messages."""
     text = NODE.replace("action_server", "action_client").replace("actions:", "action_clients:")
-    assert sizes(tmp_path, text.replace("LIMITS", "limits: {sequence: 5}")) == [8 + 28, 20 + 28]
+    text = text.replace("LIMITS", "limits: {sequence: 5}")
+    assert sizes(tmp_path, text) == [8 + 28, 20 + 28]
+    assert received(tmp_path, text) == [[20 + 20, 20 + 28], [12 + 20, 12 + 28]]
+
+
+def test_a_limit_of_the_application_holds_for_each_action_client(tmp_path: Path) -> None:
+    text = NODE.replace("action_server", "action_client").replace("actions:", "action_clients:")
+    text = (
+        text.replace("LIMITS", "limits: {sequence: 5}")
+        + f"limits: {{{FIBONACCI}_Feedback: {{sequence: 12}}}}\n"
+    )
+    assert received(tmp_path, text)[0] == [20 + 48, 20 + 48]
+
+
+def test_limits_of_an_action_client_beside_a_server_of_the_type(tmp_path: Path) -> None:
+    """The server sends what the client may receive: the larger limits hold for both."""
+    more = ", action_clients: [{name: a, type: TYPE, limits: {sequence: 9}}]}]".replace("TYPE", FIBONACCI)
+    text = NODE.replace("LIMITS", "limits: {sequence: 5}").replace("}]\n", more + "\n")
+    text = text.replace("[+action_server]", "[+action_server, +action_client]")
+    assert sizes(tmp_path, text) == [8 + 36, 20 + 36]

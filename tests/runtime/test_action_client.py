@@ -26,6 +26,11 @@ nodes:
 limits: {"*": {string: 8, sequence: 4}}
 """
 DROPS = APPLICATION.replace("components:", "on_full: drop_oldest\ncomponents:")
+OWN_LIMITS = APPLICATION.replace(
+    "{name: find, type: tf2_msgs/action/LookupTransform}",
+    "{name: find, type: tf2_msgs/action/LookupTransform, limits: {string: 5}}\n"
+    "      - {name: far, type: tf2_msgs/action/LookupTransform, limits: {string: 7}}",
+)
 STEP_MS, SPINS = 20, 12
 ACCEPTED, SUCCEEDED, CANCELED = 1, 4, 5
 SIZES = {"goal": 20, "cancel": 24, "result": 16}
@@ -121,6 +126,22 @@ def started(program: Path, tree: Tree) -> Iterator[Device]:
 def test_each_client_has_its_name(device: Device) -> None:
     device.start()
     assert device.client.ok("names").lines == ("names /walk /find 1",)
+
+
+def test_each_client_has_its_limits(tmp_path: Path) -> None:
+    """Another client of the same type has larger ones."""
+    tree = write_application(tmp_path / "tree", OWN_LIMITS)
+    program = build(tree.without_port(), ["port_fake.c", "client_action_client.c"], "own_limits")
+    for device in started(program, tree):
+        device.start()
+        refused = device.client.call("look frame1")
+        assert refused.code == 1
+        assert "limit 5" in refused.error
+        assert device.agent.calls == []
+        device.client.ok("look frame")
+        device.spin()
+        ((_, _, body),) = device.agent.calls
+        assert b"frame\0" in body
 
 
 def test_callbacks_run_in_the_order_of_rclc(device: Device) -> None:

@@ -65,6 +65,7 @@ def endpoints(node: NodeDecl) -> Iterator[EndpointDecl]:
                 *("client", f"{action.name}/_action/{service}"),
                 types.get(service, f"{action.type}_GetResult"),
                 queue=action.goals,
+                usual_limits=() if service == "cancel_goal" else action.limits,
                 stored=service == "get_result",
                 of_the_library=True,
                 executed=service == SERVICES[0],
@@ -74,6 +75,7 @@ def endpoints(node: NodeDecl) -> Iterator[EndpointDecl]:
         yield EndpointDecl(
             *("subscription", f"{action.name}/_action/{FEEDBACK}", f"{action.type}_FeedbackMessage", Qos()),
             queue=1,
+            usual_limits=action.limits,
             of_the_library=True,
             span=action.span,
             type_span=action.type_span,
@@ -125,11 +127,19 @@ def record(part: ActionClientPlan) -> object:
 
 
 def limits(application: Application) -> tuple[LimitRule, ...]:
-    """Return the limit of what a server says to a cancel request, and those that the clients declare."""
+    """Return the limit of what a server says to a cancel request, and those of clients with a server of their type here.
+
+    The limits of other clients are those of their endpoints.
+    """
     declared = [action for node in application.nodes for action in node.action_clients]
+    served = {action.type for node in application.nodes for action in node.actions}
     goals = max((action.goals for action in declared), default=0)
     if not goals:
         return ()
     cancel = LimitRule((f"{_CANCEL}_Response", "goals_canceling"), goals, goals, single=True)
     configured = {rule.path for rule in application.limits}
-    return tuple(rule for rule in (cancel, *own_limits(declared)) if rule.path not in configured)
+    return tuple(
+        rule
+        for rule in (cancel, *own_limits(action for action in declared if action.type in served))
+        if rule.path not in configured
+    )

@@ -127,6 +127,17 @@ static rcl_ret_t send_goal(int order)
   return result;
 }
 
+/* Asks for the transform of a frame with this name. */
+static rcl_ret_t look(char * frame)
+{
+  static tf2_msgs__action__LookupTransform_SendGoal_Request request;
+
+  request.goal.target_frame.data = frame;
+  request.goal.target_frame.size = strlen(frame);
+  request.goal.target_frame.capacity = request.goal.target_frame.size + 1u;
+  return rclc_action_send_goal_request(&find, &request, NULL);
+}
+
 static rcl_ret_t refuse(const char * what)
 {
   static rclc_action_client_t other;
@@ -157,7 +168,7 @@ static rcl_ret_t refuse(const char * what)
 static rcl_ret_t call(char * line)
 {
   const char * word = strtok(line, " ");
-  const char * argument = strtok(NULL, " ");
+  char * argument = strtok(NULL, " ");
 
   if (strcmp(word, "init") == 0) {
     return init();
@@ -178,6 +189,9 @@ static rcl_ret_t call(char * line)
   }
   if (strcmp(word, "send") == 0) {
     return send_goal(atoi(argument));
+  }
+  if (strcmp(word, "look") == 0) {
+    return look(argument);
   }
   if (strcmp(word, "cancel") == 0) {
     return rclc_action_send_cancel_request(goals[atoi(argument)]);
