@@ -127,7 +127,7 @@ def record(part: ActionClientPlan) -> object:
 
 
 def limits(application: Application) -> tuple[LimitRule, ...]:
-    """Return the limit of what a server says to a cancel request, and those of clients with a server of their type here.
+    """Return the limit of what a server says to a cancel request, and those of clients beside a server of their type.
 
     The limits of other clients are those of their endpoints.
     """
