@@ -88,7 +88,7 @@ def test_a_limit_of_the_application_holds_for_each_action_client(tmp_path: Path)
     assert received(tmp_path, text)[0] == [20 + 48, 20 + 48]
 
 
-def test_limits_of_an_action_client_beside_a_server_of_the_type(tmp_path: Path) -> None:
+def test_limits_of_an_action_client_and_of_a_server_of_its_type(tmp_path: Path) -> None:
     """The server sends what the client may receive: the larger limits hold for both."""
     more = ", action_clients: [{name: a, type: TYPE, limits: {sequence: 9}}]}]".replace("TYPE", FIBONACCI)
     text = NODE.replace("LIMITS", "limits: {sequence: 5}").replace("}]\n", more + "\n")
