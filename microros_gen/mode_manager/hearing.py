@@ -14,6 +14,7 @@ from microros_gen.mode_manager.calls import (
     Call,
     Kind,
     Link,
+    Values,
 )
 from microros_gen.mode_manager.leaf import Leaf
 from microros_gen.mode_manager.settings import Settings
@@ -29,9 +30,10 @@ _PASSING = {
 SILENT = "it does not answer"
 
 
-def hear_link(leaf: Leaf, link: Link) -> None:
+def hear_link(leaf: Leaf, link: Link, serves_parameters: bool = False) -> None:
     """Note how the part is reached from now on; ABSENT: it has left."""
     leaf.link, leaf.call, leaf.mode = link, None, ""
+    leaf.serves_parameters, leaf.has_known_values = serves_parameters, False
     leaf.is_mode_late = False
     leaf.state = ACTIVE if link is Link.PLAIN else UNKNOWN
     leaf.values.clear()
@@ -63,6 +65,9 @@ def hear_mode(leaf: Leaf, mode: str, now: float, settings: Settings, by_event: b
     if by_event and _is_own(leaf, now, settings) and mode != leaf.mode:
         leaf.doubts.add(Kind.GET_MODE)
         return
+    if mode != leaf.mode and leaf.reports_values:
+        leaf.has_known_values = False
+        leaf.stale.add(Kind.GET_PARAMETERS)
     leaf.mode = mode
     leaf.stale.discard(Kind.GET_MODE)
 
@@ -80,6 +85,9 @@ def hear_parameters(
         if any(leaf.values.get(name) != value for name, value in own.items()):
             leaf.doubts.add(Kind.GET_PARAMETERS)
         return
+    if by_event and leaf.reports_values:
+        _doubt_values(leaf, own)
+        return
     for name, value in own.items():
         if value is None:
             leaf.values.pop(name, None)
@@ -87,19 +95,28 @@ def hear_parameters(
             leaf.values[name] = value
     if not by_event:
         leaf.stale.discard(Kind.GET_PARAMETERS)
+        leaf.has_known_values = True
+
+
+def _doubt_values(leaf: Leaf, values: Values) -> None:
+    """Ask one that reports its mode for both: a device may set values because it changes its mode."""
+    if any(leaf.values.get(name) != value for name, value in values.items()):
+        leaf.stale |= {Kind.GET_MODE, Kind.GET_PARAMETERS}
 
 
 def hear_success(leaf: Leaf, call: Call, now: float, settings: Settings) -> None:
     """Note that a command was carried out; one to a system was accepted."""
-    if leaf.link is Link.SYSTEM:
+    if leaf.link is Link.SYSTEM and call.kind is not Kind.SET_PARAMETERS:
         leaf.settle_until = now + settings.system_s
         return
     if call.kind is Kind.CHANGE_STATE:
         _hear_transition(leaf, call.transition)
-    elif call.kind is Kind.CHANGE_MODE:
+        return
+    if call.kind is Kind.CHANGE_MODE:
         leaf.mode = call.mode
-    else:
-        leaf.values.update({name: value for name, value in call.values.items() if value is not None})
+    leaf.values.update({name: value for name, value in call.values.items() if value is not None})
+    if leaf.reports_values:
+        leaf.doubts.add(Kind.GET_PARAMETERS)
 
 
 def _hear_transition(leaf: Leaf, transition: int) -> None:

@@ -43,9 +43,15 @@ class Leaf:
 
     part: Part
     link: Link = Link.ABSENT
+    serves_parameters: bool = False
+    """It serves parameters besides its modes: of one without mode services this is known by its link."""
     state: str = UNKNOWN
     mode: str = ""
     values: dict[str, Scalar | tuple[Scalar, ...]] = field(default_factory=dict)
+    has_known_values: bool = False
+    """Of one that reports its mode: `values` were read, or set, in this mode."""
+    byte_arrays: set[str] = field(default_factory=set)
+    """Parameters of the type byte[], which lists of integers of a model file are sent as."""
     stale: set[Kind] = field(default_factory=set)
     """Queries that come before any decision."""
     doubts: set[Kind] = field(default_factory=set)
@@ -94,12 +100,21 @@ class Leaf:
         """Return the queries that give the status of the part."""
         if self.link is Link.PLAIN:
             return {Kind.GET_PARAMETERS}
-        own = Kind.GET_PARAMETERS if self.link is Link.PARAMETERS else Kind.GET_MODE
-        return {Kind.GET_STATE, own}
+        if self.link is Link.PARAMETERS:
+            return {Kind.GET_STATE, Kind.GET_PARAMETERS}
+        reported = {Kind.GET_STATE, Kind.GET_MODE}
+        return {*reported, Kind.GET_PARAMETERS} if self.reports_values else reported
+
+    @property
+    def reports_values(self) -> bool:
+        """Return whether it reports its mode, and the values of its parameters besides."""
+        return self.link in (Link.MODES, Link.SYSTEM) and self.serves_parameters and bool(self.parameters)
 
     @property
     def parameters(self) -> tuple[str, ...]:
-        """Return the names of the parameters of its modes."""
+        """Return the names of the parameters of its modes that a manager sets; of a system those of a parent."""
+        if self.part.is_system:
+            return self.inherited
         return tuple(dict.fromkeys(name for mode in self.part.modes.values() for name in mode.parameters))
 
     @property
@@ -126,7 +141,7 @@ class Leaf:
         target = self.target
         assert target is not None
         if self.link is Link.SYSTEM:
-            return _mode(target.mode or DEFAULT) if target.state == ACTIVE else _change(DEACTIVATE)
+            return self._command_system(target, wanted)
         if status.state in _FINAL:
             return f"it is {status.state}"
         if self.link is Link.PLAIN and target.state != ACTIVE:
@@ -143,7 +158,28 @@ class Leaf:
             return f"it refuses the {what}, and is active as before"
         if inactive_first and self.link is not Link.PLAIN:
             return _change(DEACTIVATE)
-        return _set(wanted) if by_parameters else _mode(target.mode)
+        return _set(wanted) if by_parameters else self._enter(target, wanted)
+
+    def _command_system(self, target: Status, wanted: Values) -> Step:
+        if target.state != ACTIVE:
+            return _change(DEACTIVATE)
+        if self.reports_values and not self._has(wanted):
+            return _set(wanted)
+        return _mode(target.mode or DEFAULT)
+
+    def _enter(self, target: Status, wanted: Values) -> Step:
+        """Return the next call for a node with mode services: first the values of its parent, then the mode.
+
+        The node has the other values of the mode itself; they are set if it has different ones nevertheless.
+        """
+        values = self.part.modes[target.mode].parameters
+        inherited = {name: value for name, value in wanted.items() if values[name].parent}
+        own = {name: value for name, value in wanted.items() if not values[name].parent}
+        if self.reports_values and not self._has(inherited):
+            return _set(inherited)
+        if self.mode != target.mode or not self.reports_values or self._has(own):
+            return Kind.CHANGE_MODE, 0, target.mode, own
+        return _set(own)
 
     def _prepare(self, target: Status, wanted: Values) -> Step:
         """Return the next call for an inactive node: it gets its mode first, and is never active in a former one."""
@@ -151,9 +187,9 @@ class Leaf:
             not self.restores
             and self.link is Link.MODES
             and not self.is_mode_late
-            and self.mode != target.mode
+            and (self.mode != target.mode or (self.reports_values and not self._has(wanted)))
         ):
-            return _mode(target.mode)
+            return self._enter(target, wanted)
         if not self.restores and self.link is Link.PARAMETERS and not self._has(wanted):
             return _set(wanted)
         return _change(ACTIVATE)

@@ -22,6 +22,7 @@ from microros_gen.ros.peer import Peer
 
 SETTLE_S = 1.0
 """From the discovery of a node to that of all of its services."""
+_VALUES = (Kind.GET_PARAMETERS, Kind.SET_PARAMETERS)
 PLAIN_S = 4.0
 """A node without a life cycle for so long has none."""
 
@@ -44,14 +45,15 @@ class PartLink:
     def look(self, graph: Graph, nodes: frozenset[str], now: float, is_lost: bool) -> None:
         """Find out how the part can be reached; `is_lost`: its agent says that it is away."""
         found = Link.ABSENT if is_lost else self._found(graph, nodes, now)
-        if found is None or found is self._leaf.link:
+        serves_parameters = found in (Link.MODES, Link.SYSTEM) and self._serves_parameters(graph)
+        if found is None or (found, serves_parameters) == (self._leaf.link, self._leaf.serves_parameters):
             return
-        for kind in _kinds(found):
+        for kind in (*_kinds(found), *(_VALUES if serves_parameters else ())):
             self._client(kind)
         if found is Link.ABSENT:
             self._since = None
             self._drop()
-        self._manager.link(self._leaf.name, found)
+        self._manager.link(self._leaf.name, found, serves_parameters)
 
     def send(self, call: Call) -> None:
         """Send a request as soon as the service is there."""
@@ -70,7 +72,7 @@ class PartLink:
         self._waiting = None
         names = self._leaf.parameters
         number = client.send(
-            request_of(call, names),
+            request_of(call, names, self._leaf.byte_arrays),
             lambda response: self._manager.answer(call, **facts_of(call, response, names)),
         )
         self._sent = client, number
@@ -93,6 +95,10 @@ class PartLink:
             return Link.MODES if f"{name}/change_mode" in services else Link.PARAMETERS
         is_plain = f"{name}/set_parameters_atomically" in services and now - self._since >= PLAIN_S
         return Link.PLAIN if is_plain else None
+
+    def _serves_parameters(self, graph: Graph) -> bool:
+        names = (f"/{self._leaf.name}/{kind.value}" for kind in _VALUES)
+        return all(graph.count_servers(name) for name in names)
 
     def _client(self, kind: Kind) -> Client:
         client = self._clients.get(kind)

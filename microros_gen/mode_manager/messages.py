@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from microros_gen.mode_manager.calls import STATE_IDS, STATES_BY_ID, TRANSITIONS, Call, Kind, Values
@@ -12,6 +12,7 @@ from microros_gen.modes.model import ACTIVE, UNKNOWN, Scalar, Status
 from microros_gen.parameter_server.values import (
     BOOL,
     BOOL_ARRAY,
+    BYTE_ARRAY,
     DOUBLE,
     DOUBLE_ARRAY,
     INTEGER,
@@ -83,8 +84,13 @@ def transition_event(start: Status, goal: Status) -> dict[str, Any]:
     }
 
 
-def request_of(call: Call, names: tuple[str, ...]) -> dict[str, Any]:
-    """Return the request of a call; `names` are those of the parameters that are asked for."""
+def request_of(
+    call: Call, names: tuple[str, ...], byte_arrays: Collection[str] = frozenset()
+) -> dict[str, Any]:
+    """Return the request of a call.
+
+    `names` are those of the parameters that are asked for, `byte_arrays` those that take byte[].
+    """
     if call.kind is Kind.CHANGE_STATE:
         labels = {number: label for label, number in TRANSITIONS.items()}
         return {"transition": {"id": call.transition, "label": labels[call.transition]}}
@@ -93,14 +99,14 @@ def request_of(call: Call, names: tuple[str, ...]) -> dict[str, Any]:
     if call.kind is Kind.GET_PARAMETERS:
         return {"names": list(names)}
     if call.kind is Kind.SET_PARAMETERS:
-        return {"parameters": parameters_of(call.values)}
+        return {"parameters": parameters_of(call.values, byte_arrays)}
     return {}
 
 
-def parameters_of(values: Values) -> list[dict[str, Any]]:
+def parameters_of(values: Values, byte_arrays: Collection[str] = frozenset()) -> list[dict[str, Any]]:
     """Return rcl_interfaces/msg/Parameter of each value; an empty list has the type of no parameter."""
     return [
-        {"name": name, "value": _parameter_value(value).message()}
+        {"name": name, "value": _parameter_value(value, name in byte_arrays).message()}
         for name, value in values.items()
         if value is not None
     ]
@@ -128,14 +134,22 @@ def facts_of(call: Call, response: Mapping[str, Any], names: tuple[str, ...]) ->
     if call.kind is Kind.GET_PARAMETERS:
         found = [scalar_of(value) for value in response["values"]]
         complete = found if len(found) == len(names) else [None] * len(names)
-        return {"success": True, "values": dict(zip(names, complete, strict=True))}
+        values = dict(zip(names, complete, strict=True))
+        kinds = zip(names, response["values"], strict=False)  # fewer: no parameter is known
+        return {
+            "success": True,
+            "values": values,
+            "byte_arrays": [name for name, value in kinds if value["type"] == BYTE_ARRAY],
+        }
     if call.kind is Kind.SET_PARAMETERS:
         result = response["result"]
         return {"success": result["successful"], "reason": result["reason"]}
     return {"success": response["success"]}
 
 
-def _parameter_value(value: Scalar | tuple[Scalar, ...]) -> ParameterValue:
+def _parameter_value(value: Scalar | tuple[Scalar, ...], is_byte_array: bool) -> ParameterValue:
+    if is_byte_array and isinstance(value, tuple):
+        return ParameterValue(BYTE_ARRAY, bytes(element for element in value if isinstance(element, int)))
     if isinstance(value, tuple):
         return ParameterValue(_TYPES[type(value[0])][1], list(value)) if value else ParameterValue(NOT_SET)
     return ParameterValue(_TYPES[type(value)][0], value)

@@ -12,10 +12,10 @@ from collections.abc import Callable, Mapping
 
 from microros_gen.mode_manager.adoption import adopted
 from microros_gen.mode_manager.announcing import announce_request, changes
-from microros_gen.mode_manager.calls import DEACTIVATE, Announcement, Call, Kind, Link
+from microros_gen.mode_manager.calls import Announcement, Call, Kind, Link
+from microros_gen.mode_manager.commander import Commander
 from microros_gen.mode_manager.hearing import (
     SILENT,
-    expect,
     hear_link,
     hear_mode,
     hear_parameters,
@@ -24,16 +24,14 @@ from microros_gen.mode_manager.hearing import (
     hear_state,
     hear_success,
 )
+from microros_gen.mode_manager.knowledge import Knowledge
 from microros_gen.mode_manager.leaf import Leaf
 from microros_gen.mode_manager.progress import Progress
 from microros_gen.mode_manager.scope import Scope
 from microros_gen.mode_manager.settings import Settings
 from microros_gen.mode_manager.targets import spread
-from microros_gen.modes.inference import Inference
 from microros_gen.modes.manager import rule_of
 from microros_gen.modes.model import (
-    ACTIVE,
-    DEFAULT,
     ERROR,
     INACTIVE,
     UNCONFIGURED,
@@ -43,7 +41,6 @@ from microros_gen.modes.model import (
     Scalar,
     Status,
 )
-from microros_gen.modes.templates import resolve
 
 _NOT_THERE = "it is not there"
 
@@ -71,12 +68,12 @@ class Orchestrator:
         self._applied: dict[str, int] = {}
         self._clock = clock
         self._log = log
-        self._inference = Inference(model)
-        self._number = 0
+        self._knowledge = Knowledge(model, self.targets)
         self._started = clock()
         self._adopted = False
         self._announced: list[Announcement] = []
         self.progress = Progress(model, scope, self.leaves, self.targets, self.status)
+        self._commander = Commander(self._knowledge, self.progress, self.settings, log)
         self._shown: Mapping[str, Status] = self.statuses()
 
     # What happens
@@ -97,18 +94,17 @@ class Orchestrator:
             ):
                 leaf.target = self.targets[leaf.name] = Status(UNCONFIGURED)
 
-    def link(self, name: str, link: Link) -> None:
-        """Note how a leaf is reached from now on."""
+    def link(self, name: str, link: Link, serves_parameters: bool = False) -> None:
+        """Note how a leaf is reached from now on; `serves_parameters`: one with mode services does so, too."""
         leaf = self.leaves[name]
-        if link is leaf.link:
+        if (link, serves_parameters) == (leaf.link, leaf.serves_parameters):
             return
         if link is Link.ABSENT:
             self._log(f"{name}: it has left")
-        hear_link(leaf, link)
-        if link is Link.MODES and leaf.inherited:
-            self._log(
-                f"{name}: it has mode services, and does not get {', '.join(leaf.inherited)} of its parent"
-            )
+        hear_link(leaf, link, serves_parameters)
+        if link in (Link.MODES, Link.SYSTEM) and leaf.inherited and not serves_parameters:
+            names = ", ".join(leaf.inherited)
+            self._log(f"{name}: it serves no parameters, and does not get {names} of its parent")
         leaf.failure = _NOT_THERE if link is Link.ABSENT else ""
         leaf.attempts = 0
         if leaf.has_reached and link is not Link.ABSENT:
@@ -165,7 +161,9 @@ class Orchestrator:
             leaf.has_reached |= leaf.target is not None and leaf.is_settled(self.status(leaf))
         self._adopt(now)
         self._settle()
-        calls = [call for leaf in self.leaves.values() if (call := self._next(leaf, now)) is not None]
+        calls = [
+            call for leaf in self.leaves.values() if (call := self._commander.next(leaf, now)) is not None
+        ]
         statuses = self.statuses()
         self._announced += changes(self.leaves, self._shown, statuses)
         self._shown = statuses
@@ -180,19 +178,12 @@ class Orchestrator:
         """Return the status of each part of the scope; a part with a known problem is in error processing."""
         found = {n: Status(ERROR) if leaf.problem else self.status(leaf) for n, leaf in self.leaves.items()}
         for system in self.scope.systems:
-            target = self.targets.get(system.name)
-            found[system.name] = self._inference.infer_system(system, target, found)
+            found[system.name] = self._knowledge.infer_system(system, found)
         return found
 
     def status(self, leaf: Leaf) -> Status:
         """Return the status of a leaf as it was last known."""
-        if leaf.state != ACTIVE:
-            return Status(leaf.state)
-        if leaf.link in (Link.MODES, Link.SYSTEM):
-            return Status(ACTIVE, leaf.mode)
-        if Kind.GET_PARAMETERS in leaf.stale and not leaf.values:
-            return Status(UNKNOWN) if leaf.parameters else Status(ACTIVE, DEFAULT)
-        return self._inference.infer_node(leaf.part, leaf.values, self.targets)
+        return self._knowledge.status(leaf)
 
     # Inside
 
@@ -246,6 +237,9 @@ class Orchestrator:
             values = facts["values"]
             assert isinstance(values, Mapping)
             hear_parameters(leaf, values, now, self.settings, False)
+            byte_arrays = facts.get("byte_arrays", ())
+            assert isinstance(byte_arrays, (list, tuple))
+            leaf.byte_arrays = set(byte_arrays)
 
     def _expire(self, leaf: Leaf, now: float) -> None:
         call = leaf.call
@@ -271,8 +265,7 @@ class Orchestrator:
         if not is_known and age_s < self.settings.start_s:
             return
         self._adopted = is_known or age_s >= self.settings.adopt_s
-        statuses = {name: self.status(leaf) for name, leaf in self.leaves.items()}
-        for targets in adopted(self.model, self.scope, self.leaves, statuses):
+        for targets in adopted(self.model, self.scope, self.leaves, self._knowledge):
             if any(name in self.targets for name in targets):
                 continue  # somebody has requested something meanwhile
             self.targets.update(targets)
@@ -306,67 +299,6 @@ class Orchestrator:
             ):
                 leaf.deviates = False
                 leaf.retries += 1
-
-    def _next(self, leaf: Leaf, now: float) -> Call | None:
-        if leaf.link is Link.ABSENT or leaf.call is not None or now < leaf.wait_until:
-            return None
-        status = self.status(leaf)
-        is_done = bool(leaf.failure) or leaf.is_settled(status)
-        is_waiting = is_done or bool(leaf.settle_until or self.progress.blocker(leaf.name))
-        interval_s = self.settings.pause_s if leaf.settle_until else self.settings.poll_s
-        if is_waiting and now - leaf.polled >= interval_s:
-            leaf.polled = now
-            leaf.stale |= leaf.queries
-        if is_waiting and leaf.doubts:
-            leaf.stale |= leaf.doubts
-            leaf.doubts.clear()
-        for kind in Kind:
-            if kind in leaf.stale:
-                return self._call(leaf, now, kind)
-        if is_waiting or self._is_passing(leaf, status, now) or leaf.deviates:
-            return None
-        assert leaf.target is not None
-        by_parameters = leaf.target.state == ACTIVE and not leaf.part.is_system
-        mode = leaf.part.modes[leaf.target.mode] if by_parameters else None
-        wanted = resolve(self.model, leaf.part, mode, self.targets) if mode else {}
-        step = leaf.step(status, wanted, leaf.name in self.settings.reconfigured)
-        if isinstance(step, str):
-            leaf.failure = step
-            self._log(f"{leaf.name}: {step}")
-            return None
-        kind, transition, mode_name, values = step
-        leaf.reconfigures |= transition == DEACTIVATE and leaf.target.state == ACTIVE
-        return self._call(leaf, now, kind, transition, mode_name, values)
-
-    def _is_passing(self, leaf: Leaf, status: Status, now: float) -> bool:
-        """Return whether a node is between two states; if it stays there, it fails."""
-        if not leaf.is_passing(status):
-            leaf.passing_since = 0.0
-            return False
-        leaf.passing_since = leaf.passing_since or now
-        leaf.stale.add(Kind.GET_STATE)
-        leaf.wait_until = now + self.settings.pause_s
-        if now - leaf.passing_since > self.settings.attempts * self.settings.call_s:
-            leaf.failure = f"it stays {status.state}"
-            self._log(f"{leaf.name}: {leaf.failure}")
-        return True
-
-    def _call(
-        self,
-        leaf: Leaf,
-        now: float,
-        kind: Kind,
-        transition: int = 0,
-        mode: str = "",
-        values: Mapping[str, Scalar | tuple[Scalar, ...] | None] | None = None,
-    ) -> Call:
-        self._number += 1
-        call = Call(self._number, leaf.name, kind, transition, mode, values or {})
-        leaf.call, leaf.late_at = call, now + self.settings.call_s
-        if now - leaf.commanded >= self.settings.grace_s:
-            leaf.expected.clear()
-        expect(leaf, call)
-        return call
 
     def _set_target(self, part: Part, target: Status, must_configure: bool = False) -> None:
         statuses = self.statuses()

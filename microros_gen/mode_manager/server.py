@@ -113,7 +113,7 @@ class ModeManager(Serving):
 
     def _parameters(self, event: dict[str, Any]) -> None:
         leaf = self.orchestrator.leaves.get(event["node"].lstrip("/"))
-        if leaf is None or leaf.link not in (Link.PARAMETERS, Link.PLAIN):
+        if leaf is None or leaf.link not in (Link.PARAMETERS, Link.PLAIN, Link.MODES):
             return
         values = values_of([*event["new_parameters"], *event["changed_parameters"]])
         values.update(dict.fromkeys(p["name"] for p in event["deleted_parameters"]))

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -44,6 +44,10 @@ class SimulatedNode:
     mode: str = ""
     """Of a node: it is kept while the node is not active, as firmware does; empty: __DEFAULT__."""
     values: dict[str, Scalar | tuple[Scalar, ...]] = field(default_factory=dict)
+    serves_parameters: bool = False
+    """One with mode services serves its parameters, too."""
+    mode_values: Mapping[str, Mapping[str, Scalar | tuple[Scalar, ...]]] = field(default_factory=dict)
+    """The values that it has for each of its modes, and sets when it gets the mode."""
     refuses: Callable[[Call], bool] = lambda _: False
     reason: str = ""
     fails_to: str = ""
@@ -95,6 +99,8 @@ class SimulatedNode:
             for state in (PASSING[call.transition], self.state) if passed else ():
                 yield Kind.GET_STATE, state
         elif call.kind is Kind.CHANGE_MODE and success and self.mode:
+            if self.serves_parameters:
+                yield Kind.GET_PARAMETERS, dict(self.mode_values.get(self.mode, {}))
             yield Kind.GET_MODE, self.mode
         elif call.kind is Kind.SET_PARAMETERS and success:
             yield Kind.GET_PARAMETERS, dict(call.values)
@@ -105,5 +111,7 @@ class SimulatedNode:
                 self.state, self.mode = ACTIVE, mode
             return True
         accepts = self.state in (ACTIVE, INACTIVE)
-        self.mode = mode if accepts else self.mode
+        if accepts:
+            self.mode = mode
+            self.values.update(self.mode_values.get(mode, {}))
         return accepts

@@ -49,7 +49,7 @@ class SimulatedWorld:
         for name in self.manager.leaves:
             if name in self.nodes and not self.nodes[name].is_dead:
                 self.nodes[name].busy_until = 0.0
-                self.manager.link(name, self.nodes[name].link)
+                self._link(name)
 
     def run(self, duration_us: int) -> None:
         """Let time pass, in microseconds, in steps of 10 ms, or of 100 ms where nothing is due."""
@@ -70,7 +70,11 @@ class SimulatedWorld:
     def join(self, name: str, node: SimulatedNode) -> None:
         """Let a node be there from now on."""
         self.nodes[name] = node
-        self.manager.link(name, node.link)
+        self._link(name)
+
+    def _link(self, name: str) -> None:
+        node = self.nodes[name]
+        self.manager.link(name, node.link, node.serves_parameters)
 
     def publish(self, name: str, kind: Kind, what: Any) -> None:
         """Let the manager hear an event of a node: `kind` says whether it is of its state, mode or parameters."""

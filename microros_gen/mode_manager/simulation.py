@@ -263,7 +263,14 @@ class _Play:
         self.trace.log(line)
 
     def _fresh(self, node: Part) -> SimulatedNode:
-        return SimulatedNode(self._links[node.name], values=self._values(node, DEFAULT, {}))
+        link, values = self._links[node.name], self._values(node, DEFAULT, {})
+        if link is not Link.MODES:
+            return SimulatedNode(link, values=values)
+        own = {
+            mode.name: {n: v.value for n, v in mode.parameters.items() if v.value is not None}
+            for mode in node.modes.values()
+        }
+        return SimulatedNode(link, values=values, serves_parameters=True, mode_values=own)
 
     def _values(
         self, node: Part, mode: str, targets: Mapping[str, Status]
@@ -312,12 +319,11 @@ class _Play:
             return
         mode = status.mode or DEFAULT
         node.mode = mode
-        if node.link is Link.MODES:
-            self._publish(name, Kind.GET_MODE, mode)
-            return
         values = self._values(self._model.parts[name], mode, self.world.manager.targets)
         node.values.update(values)
         self._publish(name, Kind.GET_PARAMETERS, values)
+        if node.link is Link.MODES:
+            self._publish(name, Kind.GET_MODE, mode)
 
     def _publish(self, name: str, kind: Kind, what: Any) -> None:
         if not self.world.nodes[name].is_dead:

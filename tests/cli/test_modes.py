@@ -238,6 +238,7 @@ cell:
     parts: [arm/device]
     modes:
       __DEFAULT__: {arm/device: active.SLOW, ros__parameters: {limit: 0.3}}
+      HIGH: {arm/device: active.SLOW, ros__parameters: {limit: 0.9}}
 """
 DEVICE = """\
 version: 1
@@ -299,28 +300,24 @@ def test_a_part_of_an_application_file_is_known_with_the_option_alone(
     assert error in outcome.err
 
 
-@pytest.mark.parametrize("words", [("manage", "cell.yaml"), ("simulate", "cell.yaml", "s.yaml")])
-def test_values_of_a_parent_cannot_be_given_to_a_device(
-    run: Runner, cell: Path, words: tuple[str, ...]
-) -> None:
+def test_values_of_a_parent_are_given_to_a_device(run: Runner, cell: Path) -> None:
     text = changed(
         DEVICE,
         "      SLOW: {speed: 0.2}",
         "      __DEFAULT__: {limit: $(parent limit)}\n      SLOW: {speed: 0.2}",
     )
     (cell / "device.yaml").write_text(text, encoding="utf-8")
-    assert run("modes", "check", "cell.yaml", "--application", "device.yaml").status == 0
-    outcome = run("modes", *words, "--application", "device.yaml")
-    assert (outcome.status, outcome.out) == (2, "")
-    assert (
-        outcome.err
-        == """\
-device.yaml:10:28: error: 'arm/device' has mode services: the manager cannot give it 'limit' of its parent. \
-Write its value in each mode [MG-8880]
-        __DEFAULT__: {limit: $(parent limit)}
-                             ^~~~~~~~~~~~~~~
-"""
-    )
+    (cell / "s.yaml").write_text("- {at: 0 s, request: cell, target: active.HIGH}\n", encoding="utf-8")
+    outcome = run("modes", "simulate", "cell.yaml", "s.yaml", "--application", "device.yaml")
+    assert (outcome.status, outcome.err) == (0, "")
+    calls = [line.split("device ")[1] for line in outcome.out.splitlines() if "call " in line]
+    assert calls == [
+        "change_state configure",
+        "set_parameters_atomically",
+        "change_mode SLOW",
+        "change_state activate",
+    ]
+    assert "          cell active.HIGH" in outcome.out
 
 
 @pytest.mark.usefixtures("cell")

@@ -5,12 +5,13 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from microros_gen.cli.modes.devices import read_system
 from microros_gen.mode_manager.scope import select_scope
 from microros_gen.mode_manager.server import ModeManager
 from microros_gen.mode_manager.settings import Settings
@@ -58,12 +59,23 @@ arm/device:
       SLOW: {ros__parameters: {speed: 0.25}}
       FAST: {ros__parameters: {speed: 2.0}}
 """
+LIMITED = """\
+cell:
+  ros__parameters:
+    type: system
+    parts: [arm/device]
+    modes:
+      __DEFAULT__: {arm/device: active.SLOW, ros__parameters: {limit: 0.25}}
+      WIDE: {arm/device: active.SLOW, ros__parameters: {limit: 0.75}}
+      QUICK: {arm/device: active.FAST, ros__parameters: {limit: 0.75}}
+"""
 STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror")
 KINDS = {
     "change_mode": "system_modes_msgs/srv/ChangeMode",
     "get_available_modes": "system_modes_msgs/srv/GetAvailableModes",
     "get_mode": "system_modes_msgs/srv/GetMode",
     "change_state": "lifecycle_msgs/srv/ChangeState",
+    "get_parameters": "rcl_interfaces/srv/GetParameters",
     "set_parameters": "rcl_interfaces/srv/SetParameters",
 }
 CONFIGURE, CLEANUP, ACTIVATE, DEACTIVATE = 1, 2, 3, 4
@@ -228,3 +240,50 @@ def test_a_manager_changes_the_mode_while_the_device_is_inactive(asker: Asker, d
     asker.peer.spin(lambda: [s for s in states if not s.endswith("ing")] == reached, seconds(20))
     assert [s for s in states if not s.endswith("ing")] == reached
     assert not any("refuse" in line for line in lines)
+
+
+def test_a_manager_gives_values_of_the_parent_and_notices_those_of_others(
+    asker: Asker, domain: int, tmp_path: Path
+) -> None:
+    """As `--application` does: the modes are on the device, the limit is the cell's."""
+    model_path, application = tmp_path / "cell.yaml", tmp_path / "microros.yaml"
+    model_path.write_text(LIMITED, encoding="utf-8")
+    application.write_text(APPLICATION, encoding="utf-8")
+    model, _ = read_system(model_path, [application])
+    lines: list[str] = []
+
+    def has(speed: float, limit: float) -> bool:
+        values = asker.ask("get_parameters", names=["speed", "limit"])["values"]
+        return [value["double_value"] for value in values] == [speed, limit]
+
+    with Peer(f"manager_{os.getpid()}", domain=domain) as peer:
+        manager = ModeManager(peer, model, select_scope(model), lines.append)
+        orchestrator = manager.orchestrator
+
+        def until(condition: Callable[[], bool]) -> None:
+            end = deadline(60)
+            while not condition():
+                manager.turn()
+                assert time.monotonic() < end, lines
+
+        def change(mode: str) -> None:
+            orchestrator.request("cell", active(mode))
+            until(lambda: orchestrator.statuses()["cell"] == active(mode))
+
+        until(lambda: orchestrator.statuses()["arm/device"].state == "unconfigured")
+        change("__DEFAULT__")
+        assert has(0.25, 0.25)
+        change("WIDE")
+        assert has(0.25, 0.75)
+        change("QUICK")
+        assert has(2.0, 0.75)
+        until(lambda: not orchestrator.progress.is_moving("cell"))
+        assert not any("others" in line for line in lines)
+        for name, value in (("speed", 1.5), ("limit", 0.125)):
+            parameter = {"name": name, "value": {"type": DOUBLE, "double_value": value}}
+            assert asker.ask("set_parameters", parameters=[parameter])["results"][0]["successful"]
+            until(lambda: any("from active.FAST to active" in line for line in lines))
+            until(lambda: orchestrator.statuses()["cell"] == active("QUICK"))
+            until(lambda: not orchestrator.progress.is_moving("cell"))
+            assert has(2.0, 0.75)
+            lines.clear()

@@ -134,7 +134,7 @@ def test_values_of_a_parent_that_are_not_sent_are_logged() -> None:
         "      __DEFAULT__:\n        gripper: inactive\n",
         "      __DEFAULT__:\n        ros__parameters: {limit: 0.3}\n        gripper: inactive\n",
     )
-    line = "joint: it has mode services, and does not get speed of its parent"
+    line = "joint: it serves no parameters, and does not get speed of its parent"
     for link, count in ((Link.MODES, 1), (Link.PARAMETERS, 0)):
         world = World(model_of(text), {"gripper": Node(), "joint": Node(link)})
         world.let(3)

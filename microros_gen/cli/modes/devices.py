@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
-from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
+from microros_gen.diagnostics import Diagnostics
 from microros_gen.modes.leaflets import parts_of
 from microros_gen.modes.model import Model
 from microros_gen.modes.reader import parse_model, read_source
@@ -27,26 +27,3 @@ def read_system(path: Path, applications: Sequence[Path]) -> tuple[Model, frozen
     diagnostics.check()
     assert model is not None
     return model, frozenset(devices)
-
-
-def refuse_templates(model: Model, names: Iterable[str]) -> None:
-    """Raise UserError for values of a parent in modes of nodes with mode services: they get the name of a mode."""
-    found = [
-        Diagnostic(
-            f"'{name}' has mode services: the manager cannot give it '{parameter}' of its parent",
-            value.span,
-            "Write its value in each mode",
-            id="MG-8880",
-        )
-        for name in sorted(names)
-        for mode in model.parts[name].modes.values()
-        for parameter, value in mode.parameters.items()
-        if value.parent
-    ]
-    if found:
-        raise UserError(_without_twins(found))
-
-
-def _without_twins(found: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """Return each place once: modes inherit values of __DEFAULT__ with their places."""
-    return list({d.span: d for d in found}.values())

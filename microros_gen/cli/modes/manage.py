@@ -66,14 +66,13 @@ def manage_command(
     SIGTERM end it with status 0.
     """
     from microros_gen.agent.server import stopped_by_signals
-    from microros_gen.cli.modes.devices import read_system, refuse_templates
+    from microros_gen.cli.modes.devices import read_system
     from microros_gen.mode_manager.scope import select_nodes, select_scope
     from microros_gen.mode_manager.server import ModeManager
     from microros_gen.mode_manager.turns import ManagerInTurn
 
-    system, devices = read_system(model, applications)
+    system, _ = read_system(model, applications)
     scope = select_scope(system, roots, without)
-    refuse_templates(system, devices.intersection(scope.names))
     settings = Settings(call_s=timeout, reconfigured=select_nodes(system, scope, reconfigure))
     turn = ManagerInTurn(
         scope,

@@ -47,13 +47,12 @@ def simulate_command(
     \b
     microros-gen modes simulate robot.yaml faults.yaml
     """
-    from microros_gen.cli.modes.devices import read_system, refuse_templates
+    from microros_gen.cli.modes.devices import read_system
     from microros_gen.mode_manager.scope import select_nodes, select_scope
     from microros_gen.mode_manager.simulation import simulate
     from microros_gen.modes.script import read_script
 
     system, devices = read_system(model, applications)
-    refuse_templates(system, devices)
     scope = select_scope(system)
     settings = Settings(call_s=timeout, reconfigured=select_nodes(system, scope, reconfigure))
     services = select_nodes(system, scope, with_services) | devices

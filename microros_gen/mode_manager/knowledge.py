@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What follows from a model, targets and what is known of leaves: statuses, and the values that they should have."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from microros_gen.mode_manager.calls import Kind, Link, Values
+from microros_gen.mode_manager.leaf import Leaf, has_values
+from microros_gen.modes.inference import Inference
+from microros_gen.modes.model import ACTIVE, DEFAULT, UNKNOWN, Model, Part, Status
+from microros_gen.modes.templates import resolve
+
+
+class Knowledge:
+    """A view of the targets, which others change."""
+
+    def __init__(self, model: Model, targets: Mapping[str, Status]) -> None:
+        self.model = model
+        self.targets = targets
+        self._inference = Inference(model)
+
+    def infer_system(self, system: Part, actual: Mapping[str, Status]) -> Status:
+        """Return the status of a system; `actual` has the status of each of its parts."""
+        return self._inference.infer_system(system, self.targets.get(system.name), actual)
+
+    def status(self, leaf: Leaf, targets: Mapping[str, Status] | None = None) -> Status:
+        """Return the status of a leaf as it was last known; `targets` None: the present ones.
+
+        One that reports its mode is in none while its parameters have other values than those of this mode.
+        """
+        known = self.targets if targets is None else targets
+        if leaf.state != ACTIVE:
+            return Status(leaf.state)
+        if leaf.link is Link.SYSTEM:
+            return Status(ACTIVE, leaf.mode)
+        if leaf.link is Link.MODES:
+            return Status(ACTIVE, leaf.mode if self._fits(leaf, known) else "")
+        if Kind.GET_PARAMETERS in leaf.stale and not leaf.values:
+            return Status(UNKNOWN) if leaf.parameters else Status(ACTIVE, DEFAULT)
+        return self._inference.infer_node(leaf.part, leaf.values, known)
+
+    def wanted(self, leaf: Leaf) -> Values:
+        """Return the values of the mode that is the leaf's target; of a system only those that its parent gives."""
+        target = leaf.target
+        if target is None or target.state != ACTIVE:
+            return {}
+        values = self._values(leaf, target.mode, self.targets)
+        return {name: value for name, value in values.items() if name in leaf.parameters}
+
+    def lacks_values(self, leaf: Leaf) -> bool:
+        """Return whether a system of another manager has not got the values of its parent."""
+        return (
+            leaf.link is Link.SYSTEM
+            and leaf.reports_values
+            and not has_values(leaf.values, self.wanted(leaf))
+        )
+
+    def _fits(self, leaf: Leaf, targets: Mapping[str, Status]) -> bool:
+        if not leaf.has_known_values or leaf.mode not in leaf.part.modes:
+            return True
+        return has_values(leaf.values, self._values(leaf, leaf.mode, targets))
+
+    def _values(self, leaf: Leaf, mode: str, targets: Mapping[str, Status]) -> Values:
+        return resolve(self.model, leaf.part, leaf.part.modes[mode], targets)
