@@ -8,7 +8,15 @@ from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
 from microros_gen.mode_manager.orchestrator import Orchestrator
-from microros_gen.modes.model import ERROR, UNKNOWN, Status
+from microros_gen.modes.model import (
+    ERROR,
+    ERROR_LEVEL,
+    STALE_LEVEL,
+    UNKNOWN,
+    WARN_LEVEL,
+    DiagnosticLevels,
+    Status,
+)
 from microros_gen.records import dataclass
 
 TOPIC = "/diagnostics"
@@ -21,6 +29,7 @@ OK, WARN, FAILED, STALE = range(4)
 NODE, SYSTEM, SUBSYSTEM = "node", "system", "subsystem"
 """What a row is about; a subsystem has another manager."""
 LEVELS = ("ok", "warning", "error", "stale")
+_NAMES = {WARN: WARN_LEVEL, FAILED: ERROR_LEVEL, STALE: STALE_LEVEL}
 _NS = 1_000_000_000
 
 
@@ -49,7 +58,8 @@ def _row(manager: Orchestrator, name: str, actual: Status) -> Row:
     leaf = manager.leaves.get(name)
     level, message = OK, ""
     if leaf is not None and (leaf.problem or (leaf.failure and target is not None)):
-        level, message = FAILED, leaf.problem or leaf.failure
+        reason = leaf.failure if not leaf.problem or leaf.reaction else ""
+        level, message = FAILED, ": ".join(text for text in (reason, leaf.problem) if text)
     elif leaf is not None and actual.state == UNKNOWN:
         level, message = STALE, leaf.failure or "it is not known yet"
     elif actual.state == ERROR or name in manager.oscillating:
@@ -125,15 +135,24 @@ def read_rows(message: Mapping[str, Any]) -> Iterator[Row]:
         )
 
 
-def read_problems(message: Mapping[str, Any], parts: Collection[str]) -> Iterator[tuple[str, str, str]]:
-    """Yield part, name of the status and error (empty: none) of each status that belongs to one of `parts`.
+def read_problems(
+    message: Mapping[str, Any], levels: Mapping[str, DiagnosticLevels]
+) -> Iterator[tuple[str, str, str]]:
+    """Yield part, name of the status and error (empty: none) of each status that belongs to one of the parts.
 
     A status belongs to a part if its name is that of the node, or begins with it and a colon, as diagnostic_updater
-    writes it. Errors count; warnings and stale values do not.
+    writes it. `levels` says for each part which levels are errors.
     """
     for status in message["status"]:
         name = status["name"].lstrip("/")
-        part = next((p for p in parts if name == p or name.startswith(f"{p}:")), None)
+        part = next((p for p in levels if name == p or name.startswith(f"{p}:")), None)
         if part is None or status["hardware_id"] == HARDWARE:
             continue
-        yield part, name, (status["message"] or "error") if status["level"] == FAILED else ""
+        yield part, name, error_of(levels[part], part, name, int(status["level"]), status["message"])
+
+
+def error_of(levels: DiagnosticLevels, part: str, name: str, level: int, message: str) -> str:
+    """Return the text of an error of a part; empty: the level is none for the status `name`."""
+    own = name[len(part) :].lstrip(":").strip()
+    word = _NAMES.get(level, "")
+    return (message or word) if word and levels.is_error(word, own) else ""

@@ -87,6 +87,8 @@ class Leaf:
     passing_since: float = 0.0
     """Since when it is between two states; 0: it is not."""
     unanswered: int = 0
+    reaction: str = ""
+    """The mode that it went to by itself, for an error that is not over yet: rules do not command it the same again."""
     problem: str = ""
     """An error that the part's diagnosis reports."""
 

@@ -14,6 +14,7 @@ from microros_gen.mode_manager.adoption import adopted
 from microros_gen.mode_manager.announcing import announce_request, changes
 from microros_gen.mode_manager.calls import Announcement, Call, Kind, Link
 from microros_gen.mode_manager.commander import Commander
+from microros_gen.mode_manager.contingency import await_reaction, note_reaction
 from microros_gen.mode_manager.hearing import (
     SILENT,
     hear_link,
@@ -131,6 +132,8 @@ class Orchestrator:
         leaf = self.leaves[name]
         if text and not leaf.problem:
             self._log(f"{name}: {text}")
+        if not text and leaf.problem:
+            leaf.reaction = ""
         leaf.problem = text
 
     def answer(self, call: Call, success: bool, reason: str = "", **facts: object) -> None:
@@ -193,11 +196,18 @@ class Orchestrator:
         if leaf.link is Link.ABSENT:
             return
         before, was_settled = self.status(leaf), leaf.is_settled(self.status(leaf))
+        failure = leaf.failure
         take(leaf, self._clock())
         after = self.status(leaf)
+        reaction = note_reaction(leaf, before, after, was_settled)
+        if reaction:
+            self._applied.clear()
+            if reaction != failure:
+                self._log(f"{name}: {reaction}")
+            return
         if leaf.target is None or after == before or leaf.is_settled(after):
             if leaf.is_settled(after) and leaf.failure != SILENT:
-                leaf.failure, leaf.deviates, leaf.settle_until = "", False, 0.0
+                leaf.failure, leaf.deviates, leaf.settle_until, leaf.reaction = "", False, 0.0, ""
             return
         if was_settled and leaf.link is Link.SYSTEM:
             leaf.failure = f"it left {leaf.target} for {after} by itself"
@@ -205,9 +215,15 @@ class Orchestrator:
         elif (was_settled and before.state != UNKNOWN) or self._is_foreign(leaf):
             self._log(f"{name}: others changed it from {before} to {after}")
             self._deviate(leaf)
+            await_reaction(leaf, after, self._clock(), self.settings)
 
     def _is_foreign(self, leaf: Leaf) -> bool:
-        """Return whether a failed leaf changed although nothing was commanded."""
+        """Return whether a failed leaf changed although nothing was commanded.
+
+        One that reacts to an error changes as it likes, until it is unconfigured: it was reset.
+        """
+        if leaf.reaction and self.status(leaf).state != UNCONFIGURED:
+            return False
         return bool(leaf.failure) and self._clock() - leaf.commanded >= self.settings.grace_s
 
     def _deviate(self, leaf: Leaf) -> None:
@@ -289,7 +305,7 @@ class Orchestrator:
                 continue
             self._log(f"{system.name}: rule {rule.name}: {rule.new_target}")
             self.rules[system.name] = rule.name
-            self._set_target(system, rule.new_target)
+            self._set_target(system, rule.new_target, by_rule=True)
         for leaf in self.leaves.values():
             is_known = leaf.call is None and not leaf.stale
             if (
@@ -300,17 +316,22 @@ class Orchestrator:
                 leaf.deviates = False
                 leaf.retries += 1
 
-    def _set_target(self, part: Part, target: Status, must_configure: bool = False) -> None:
+    def _set_target(
+        self, part: Part, target: Status, must_configure: bool = False, by_rule: bool = False
+    ) -> None:
         statuses = self.statuses()
         for below, goal in spread(self.model, self.scope, part, target):
             if not self.scope.is_external(below.name):
                 self._announced += announce_request(below.name, statuses[below.name], goal)
             self.targets[below.name] = goal
             leaf = self.leaves.get(below.name)
-            if leaf is not None:
+            if leaf is not None and not (by_rule and leaf.reaction and leaf.target == goal):
+                keeps = by_rule and leaf.has_reached and leaf.target == goal
+                leaf.reaction = ""
                 leaf.target, leaf.must_configure = goal, must_configure
                 leaf.attempts, leaf.settle_until, leaf.wait_until = 0, 0.0, 0.0
-                leaf.deviates = leaf.restores = leaf.reconfigures = leaf.has_reached = False
+                leaf.deviates = leaf.restores = leaf.reconfigures = False
+                leaf.has_reached = keeps  # a node that reacts to an error leaves it then
                 leaf.is_mode_late = False
                 if leaf.link is not Link.ABSENT and leaf.failure != SILENT:
                     leaf.failure = ""

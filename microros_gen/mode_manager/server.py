@@ -54,6 +54,7 @@ class ModeManager(Serving):
         self._links = {
             name: PartLink(peer, self.orchestrator, leaf) for name, leaf in self.orchestrator.leaves.items()
         }
+        self._levels = {name: leaf.part.diagnostics for name, leaf in self.orchestrator.leaves.items()}
         self._problems = Problems(self.orchestrator, sources)
         self._graph = peer.graph()
         self._lost: dict[str, frozenset[str]] = {}
@@ -108,7 +109,7 @@ class ModeManager(Serving):
             self._diagnostics.publish(array_of(rows))
 
     def _diagnostic(self, message: dict[str, Any]) -> None:
-        for part, source, text in read_problems(message, self.orchestrator.leaves):
+        for part, source, text in read_problems(message, self._levels):
             self._problems.report(part, source, text)
 
     def _parameters(self, event: dict[str, Any]) -> None:

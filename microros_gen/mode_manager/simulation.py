@@ -19,7 +19,9 @@ from microros_gen.mode_manager.calls import (
     Kind,
     Link,
 )
+from microros_gen.mode_manager.diagnosis import error_of
 from microros_gen.mode_manager.orchestrator import Orchestrator
+from microros_gen.mode_manager.problems import Problems
 from microros_gen.mode_manager.scope import select_scope
 from microros_gen.mode_manager.settings import Settings
 from microros_gen.mode_manager.simulated_node import ANSWER_S, GOALS, PASSING, SimulatedNode
@@ -39,6 +41,8 @@ from microros_gen.modes.model import (
 from microros_gen.modes.script import (
     CHANGE,
     DELAY,
+    DIAGNOSE,
+    DIAGNOSED,
     FAIL,
     LEAVE,
     REFUSE,
@@ -207,6 +211,7 @@ class _Play:
         self.trace = Trace()
         scope = select_scope(model)
         self.world = SimulatedWorld(model, nodes, scope, settings, self._log, self._turn)
+        self._problems = Problems(self.world.manager)
         self.world.run(_BEFORE_US)
         self.trace.steps.clear()  # what the manager learns first is no part of the script
 
@@ -252,7 +257,18 @@ class _Play:
         elif event.kind == SILENCE:
             node.is_dead = True
         elif event.kind == LEAVE:
+            self._problems.forget(event.part)
             self.world.leave(event.part)
+        elif event.kind == DIAGNOSE:
+            self._diagnose(event)
+
+    def _diagnose(self, event: Event) -> None:
+        """Let /diagnostics have a status of a node, as the manager reads it."""
+        name = f"{event.part}: {event.name}" if event.name else event.part
+        levels = self._model.parts[event.part].diagnostics
+        text = error_of(levels, event.part, name, DIAGNOSED.index(event.level), "")
+        self._problems.report(event.part, name, text)
+        self._problems.step()
 
     def _turn(self, calls: Sequence[Call]) -> None:
         self.trace.now_us = self.world.now_us - _BEFORE_US

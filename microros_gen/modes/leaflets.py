@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from microros_gen.application.mode_decl import ModeDecl
-from microros_gen.application.model import NodeDecl, ParameterDecl
+from microros_gen.application.model import Application, NodeDecl, ParameterDecl
 from microros_gen.application.modes import set_parameters, start_value, value_in
 from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.modes.model import Mode, Part, Scalar, Value
@@ -14,18 +14,31 @@ from microros_gen.modes.model import Mode, Part, Scalar, Value
 _NOWHERE = Span(Source("", ""), 1, 1)
 
 
-def parts_of(nodes: Iterable[NodeDecl]) -> dict[str, Part]:
+def parts_of(applications: Iterable[Application]) -> dict[str, Part]:
     """Return a part for each node with modes, by its name in model files.
 
-    Each of its modes has every parameter that one of them sets, as on the device.
+    Each of its modes has every parameter that one of them sets, as on the device. Modes that a check of the diagnosis
+    requests are contingencies.
     """
-    found: dict[str, Part] = {}
-    for node in nodes:
-        if node.modes:
-            name = f"{node.namespace}/{node.name}".strip("/")
-            modes = {mode.name: _mode(node, mode) for mode in node.modes}
-            found[name] = Part(name, False, node.name_span or node.span or _NOWHERE, modes)
-    return found
+    return {
+        part.name: part
+        for application in applications
+        for index, node in enumerate(application.nodes)
+        if node.modes
+        for part in (_part(node, _contingencies(application, index)),)
+    }
+
+
+def _part(node: NodeDecl, contingencies: tuple[str, ...]) -> Part:
+    name = f"{node.namespace}/{node.name}".strip("/")
+    modes = {mode.name: _mode(node, mode) for mode in node.modes}
+    span = node.name_span or node.span or _NOWHERE
+    return Part(name, False, span, modes, contingencies=contingencies)
+
+
+def _contingencies(application: Application, node: int) -> tuple[str, ...]:
+    checks = application.diagnosis.checks if application.diagnosis is not None else ()
+    return tuple(dict.fromkeys(check.mode for check in checks if check.mode and check.node == node))
 
 
 def _mode(node: NodeDecl, mode: ModeDecl) -> Mode:

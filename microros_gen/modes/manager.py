@@ -60,6 +60,7 @@ class Manager:
         self.nodes: dict[str, Status] = {node.name: Status(UNCONFIGURED) for node in model.nodes}
         self._inference = Inference(model)
         self._stuck: set[str] = set()
+        self._reacted: set[str] = set()
         self._shown: Mapping[str, Status] = self.statuses()
 
     def statuses(self) -> Mapping[str, Status]:
@@ -68,7 +69,7 @@ class Manager:
 
     def request(self, part: str, target: Status) -> Iterator[Step]:
         """Command a part to be `target` and settle."""
-        yield from self._command(self.model.parts[part], target)
+        yield from self._command(self.model.parts[part], target, is_request=True)
         yield from self.settle()
 
     def fail(self, node: str, status: Status) -> Iterator[Step]:
@@ -79,6 +80,8 @@ class Manager:
     def change(self, node: str, status: Status) -> Iterator[Step]:
         """Let a node be changed to `status` by somebody else, and settle."""
         self.nodes[node] = status
+        if status.state == ACTIVE and status.mode in self.model.parts[node].contingencies:
+            self._reacted.add(node)
         if status != self._shown.get(node):
             self._shown = {**self._shown, node: status}
             yield Step(STATUS, node, status)
@@ -109,12 +112,23 @@ class Manager:
     def _repeat(self) -> Iterator[Step]:
         for name, status in self.nodes.items():
             target = self.targets.get(name)
-            if target is not None and name not in self._stuck and not status.is_same(target):
+            if target is None or name in self._stuck or name in self._reacted:
+                continue
+            if not status.is_same(target):
                 self.nodes[name] = target
                 yield Step(REPEAT, name, target)
 
-    def _command(self, part: Part, target: Status, by_rule: bool = False) -> Iterator[Step]:
-        """Set the target of a part and of all below it: first what is stopped, the last started one first."""
+    def _command(
+        self, part: Part, target: Status, by_rule: bool = False, is_request: bool = False
+    ) -> Iterator[Step]:
+        """Set the target of a part and of all below it: first what is stopped, the last started one first.
+
+        A node that went to a mode by itself stays there unless somebody requests another one, or a rule does.
+        """
+        stays = part.name in self._reacted and not is_request and self.targets.get(part.name) == target
+        if stays:
+            return
+        self._reacted.discard(part.name)
         if not by_rule:
             if self.targets.get(part.name) == target and self.statuses()[part.name].is_same(target):
                 return
@@ -128,7 +142,7 @@ class Manager:
         commands = {name: self.model.command(part, target, name) for name in sequence}
         stopped = [name for name in reversed(sequence) if commands[name].state != ACTIVE]
         for name in [*stopped, *(name for name in sequence if name not in stopped)]:
-            yield from self._command(self.model.parts[name], commands[name])
+            yield from self._command(self.model.parts[name], commands[name], is_request=is_request)
 
     def _snapshot(self) -> object:
         return tuple(sorted(self.targets.items(), key=lambda i: i[0])), tuple(self.nodes.items())

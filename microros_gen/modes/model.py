@@ -36,6 +36,9 @@ STATES = (
 )
 """The states of lifecycle_msgs/msg/State as the package spells them."""
 
+WARN_LEVEL, ERROR_LEVEL, STALE_LEVEL = "warn", "error", "stale"
+"""Levels of /diagnostics that can be errors of a node."""
+
 Scalar = bool | int | float | str
 
 
@@ -105,8 +108,23 @@ class Rule:
 
 
 @dataclass(frozen=True)
+class DiagnosticLevels:
+    """Which levels of /diagnostics are errors of a node; besides ERROR only for statuses in `names`, if it has some."""
+
+    levels: tuple[str, ...] = (ERROR_LEVEL,)
+    names: tuple[str, ...] = ()
+
+    def is_error(self, level: str, name: str) -> bool:
+        """Return whether a status `name` (without the node's) with this level is an error."""
+        is_named = not self.names or name in self.names
+        return level == ERROR_LEVEL or (level in self.levels and is_named)
+
+
+@dataclass(frozen=True)
 class Part:
     """A node or a system; `parts`, `rules` and `start_after` are those of a system.
+
+    `contingencies` are modes that a node changes to by itself, for an error.
 
     `rules` are sorted by name, modes are in the order of the file. `start_after` has for a part the parts that are
     commanded before it.
@@ -119,6 +137,8 @@ class Part:
     parts: tuple[Named, ...] = ()
     rules: tuple[Rule, ...] = ()
     start_after: Mapping[str, tuple[Named, ...]] = field(default_factory=dict)
+    contingencies: tuple[str, ...] = ()
+    diagnostics: DiagnosticLevels = DiagnosticLevels()
 
     @property
     def part_names(self) -> tuple[str, ...]:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 
 from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.documents.tree_read import check_keys, expect_mapping, read_choice
@@ -17,6 +17,7 @@ from microros_gen.records import dataclass
 PARAMETERS = "ros__parameters"
 _NODE_KEYS = ("type", "modes")
 _SYSTEM_KEYS = (*_NODE_KEYS, "parts", "rules", "start_after")
+_OPTIONAL_NODE_KEYS = ("contingencies", "diagnostics")
 _NAME = re.compile(r"[A-Za-z_]\w*(/[A-Za-z_]\w*)*", re.ASCII)
 _MODE = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
@@ -42,12 +43,17 @@ def plain_name(name: str) -> str:
     return name.removeprefix("/")
 
 
-def parse_outlines(tree: MappingNode, diagnostics: Diagnostics) -> tuple[dict[str, Outline], frozenset[str]]:
-    """Return the parts by name, in the order of the file, and the names of those that cannot be read."""
+def parse_outlines(
+    tree: MappingNode, diagnostics: Diagnostics, with_leaflets: Collection[str] = ()
+) -> tuple[dict[str, Outline], frozenset[str]]:
+    """Return the parts by name, in the order of the file, and the names of those that cannot be read.
+
+    Nodes in `with_leaflets` have modes elsewhere, and need not have them here.
+    """
     found: dict[str, Outline] = {}
     unreadable: set[str] = set()
     for name, entry in _parts(tree, ""):
-        outline = _outline(name, entry, diagnostics)
+        outline = _outline(name, entry, diagnostics, name in with_leaflets)
         if outline is None:
             unreadable.add(name)
             continue
@@ -77,7 +83,7 @@ def _is_namespace(entry: Entry) -> bool:
     return bool(below) and not any("type" in inner.entries for inner in below)
 
 
-def _outline(name: str, entry: Entry, diagnostics: Diagnostics) -> Outline | None:
+def _outline(name: str, entry: Entry, diagnostics: Diagnostics, has_leaflet: bool) -> Outline | None:
     if not _NAME.fullmatch(name):
         message = f"'{name}' is not the name of a part"
         diagnostics.error(message, entry.key_span, "Use letters, digits, '_' and '/'", id="MG-8805")
@@ -96,8 +102,9 @@ def _outline(name: str, entry: Entry, diagnostics: Diagnostics) -> Outline | Non
     if kind is None and body.get("type") is not None:
         return None
     is_system = kind is not None and kind.name == "system"
-    required = (*_NODE_KEYS, "parts") if is_system else _NODE_KEYS
-    check_keys(body, _SYSTEM_KEYS if is_system else _NODE_KEYS, required, diagnostics)
+    required = (*_NODE_KEYS, "parts") if is_system else ("type",) if has_leaflet else _NODE_KEYS
+    known = _SYSTEM_KEYS if is_system else (*_NODE_KEYS, *_OPTIONAL_NODE_KEYS)
+    check_keys(body, known, required, diagnostics)
     if kind is None:
         return None
     return Outline(name, is_system, entry.key_span, body, _modes(name, body, diagnostics))

@@ -20,7 +20,8 @@ from microros_gen.modes.report import OPEN, PROVEN, REFUTED, Property
 def check_reachable(model: Model, settled: Settled, most: int, diagnostics: Diagnostics) -> Property:
     """Report modes of parts that no mode of their system commands, and no rule of theirs leads to.
 
-    A part that is in no system is requested from outside, and `__DEFAULT__` is what activation leads to. `settled` is
+    A part that is in no system is requested from outside, `__DEFAULT__` is what activation leads to, and
+    contingencies are reached by the node itself. `settled` is
     what `settle_all` returns of the model with `most`.
     """
     certain = settle_all(model, most, without_alike) if any(map(alike_modes, model.nodes)) else settled
@@ -45,7 +46,8 @@ def check_reachable(model: Model, settled: Settled, most: int, diagnostics: Diag
 
 def _commanded(model: Model, part: Part) -> frozenset[Status]:
     parent = model.parts[model.parents[part.name]]
-    return frozenset({active(), *(model.command(parent, goal, part.name) for goal in model.targets(parent))})
+    commands = (model.command(parent, goal, part.name) for goal in model.targets(parent))
+    return frozenset({active(), *commands, *map(active, part.contingencies)})
 
 
 def _surely(part: Part, settled: Settled, commanded: frozenset[Status]) -> frozenset[Status]:

@@ -14,6 +14,7 @@ from microros_gen.documents.yaml_tree import parse_yaml
 from microros_gen.modes.hierarchy import check_start_order, find_parents
 from microros_gen.modes.leaflets import check_twins
 from microros_gen.modes.model import DEFAULT, Mode, Model, Part
+from microros_gen.modes.node_keys import parse_contingencies, parse_levels
 from microros_gen.modes.outline import PARAMETERS, Outline, parse_outlines
 from microros_gen.modes.part_names import parse_parts
 from microros_gen.modes.statuses import Subject
@@ -60,16 +61,18 @@ def parse_model(
     if tree is None and not found.has_errors():
         found.error(f"'{source.name}' has no parts", hint="Write at least one node", id="MG-8802")
     mapping = expect_mapping(tree, "a model file", found)
-    outlines, unreadable = parse_outlines(mapping, found) if mapping is not None else ({}, frozenset())
+    outlines, unreadable = (
+        parse_outlines(mapping, found, leaflets) if mapping is not None else ({}, frozenset[str]())
+    )
     subjects = {name: Subject(name, False, tuple(part.modes)) for name, part in leaflets.items()}
-    subjects |= {name: outline.subject for name, outline in outlines.items()}
+    subjects |= {name: o.subject for name, o in outlines.items() if o.modes or name not in leaflets}
     lists = {o.name: parse_parts(o, subjects, unreadable, found) for o in outlines.values() if o.is_system}
     parents = find_parents({name: listed.parts for name, listed in lists.items()}, found)
     has_structure = not found.has_errors()
     parts = {
         name: parse_system(outline, lists[name], subjects, found)
         if outline.is_system
-        else Part(name, False, outline.span, _node_modes(outline, found))
+        else _node(outline, leaflets.get(name), found)
         for name, outline in outlines.items()
     }
     check_twins(parts, leaflets, found)
@@ -80,6 +83,18 @@ def parse_model(
         check_templates(model, found)
     diagnostics.extend(sorted(found, key=lambda d: (d.span.line, d.span.column) if d.span else (0, 0)))
     return None if found.has_errors() else model
+
+
+def _node(outline: Outline, leaflet: Part | None, diagnostics: Diagnostics) -> Part:
+    """Return a node; what its application file says of it counts as well."""
+    is_here = leaflet is None or "modes" in outline.body.entries
+    modes = _node_modes(outline, diagnostics) if is_here or leaflet is None else dict(leaflet.modes)
+    own = parse_contingencies(outline.body, outline.name, tuple(modes), diagnostics)
+    contingencies = dict.fromkeys((*own, *(leaflet.contingencies if leaflet else ())))
+    levels = parse_levels(outline.body, outline.name, diagnostics)
+    return Part(
+        outline.name, False, outline.span, modes, contingencies=tuple(contingencies), diagnostics=levels
+    )
 
 
 def _node_modes(outline: Outline, diagnostics: Diagnostics) -> dict[str, Mode]:

@@ -10,6 +10,7 @@
 - {at: 9 s, refuse: drive_base, calls: [activate], reason: too hot}
 - {at: 10 s, silence: drive_base}
 - {at: 11 s, leave: drive_base}
+- {at: 12 s, diagnose: manipulator, level: warn, name: motor}
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from microros_gen.documents.tree_read import check_keys, expect_mapping, read_te
 from microros_gen.documents.tree_values import items, text_of, time_of
 from microros_gen.documents.yaml_tree import MappingNode, SequenceNode, YamlNode, parse_yaml
 from microros_gen.modes.model import ERROR, Model, Status, Value
+from microros_gen.modes.node_keys import LEVELS
 from microros_gen.modes.outline import plain_name
 from microros_gen.modes.reader import read_source
 from microros_gen.modes.statuses import Subject, parse_status, parse_target
@@ -31,7 +33,9 @@ from microros_gen.modes.values import parse_values
 from microros_gen.records import dataclass
 
 REQUEST, FAIL, REPAIR, CHANGE = "request", "fail", "repair", "change"
-DELAY, REFUSE, SILENCE, LEAVE = "delay", "refuse", "silence", "leave"
+DELAY, REFUSE, SILENCE, LEAVE, DIAGNOSE = "delay", "refuse", "silence", "leave", "diagnose"
+DIAGNOSED = ("ok", *LEVELS)
+"""Levels of /diagnostics, by their numbers there."""
 CALLS = ("configure", "cleanup", "activate", "deactivate", "change_mode", "set_parameters")
 """What a node can refuse: transitions of its life cycle, and the two ways into a mode."""
 _KEYS: Mapping[str, tuple[str, ...]] = {
@@ -43,6 +47,7 @@ _KEYS: Mapping[str, tuple[str, ...]] = {
     REFUSE: ("calls", "reason"),
     SILENCE: (),
     LEAVE: (),
+    DIAGNOSE: ("level", "name"),
 }
 _DETAILS = frozenset(key for keys in _KEYS.values() for key in keys)
 
@@ -53,7 +58,8 @@ class Event:
 
     `status` is the target of a request and the state of a failure or change; None: a change of `parameters`.
     `delay_us` is how long a node takes for a response from then on. `calls` are those that are
-    late, none: all, or that a node refuses, for `reason`.
+    late, none: all, or that a node refuses, for `reason`. `level` is what /diagnostics has of a node from then on, for
+    its status `name`.
     """
 
     time_us: int
@@ -64,11 +70,14 @@ class Event:
     delay_us: int = 0
     calls: tuple[str, ...] = ()
     reason: str = ""
+    level: str = ""
+    name: str = ""
 
     def __str__(self) -> str:
         values = ", ".join(f"{name}: {value.value}" for name, value in self.parameters.items())
         words = [self.kind, self.part, str(self.status or ""), f"{{{values}}}" if values else ""]
         words += [seconds_text(self.delay_us) if self.kind == DELAY else "", ", ".join(self.calls)]
+        words += [self.name, self.level]
         return " ".join(word for word in words if word)
 
 
@@ -156,6 +165,8 @@ def _with_details(
         return event
     if event.kind == REFUSE:
         return _refusal(event, node, diagnostics)
+    if event.kind == DIAGNOSE:
+        return _diagnosis(event, node, diagnostics)
     if event.kind == DELAY:
         check_keys(node, tuple(node.entries), ("time",), diagnostics)
         delay_us, calls = _time(node, "time", diagnostics), _calls(node, diagnostics)
@@ -186,6 +197,19 @@ def _refusal(event: Event, node: MappingNode, diagnostics: Diagnostics) -> Event
     calls = _calls(node, diagnostics)
     reason = read_text(node, "reason", diagnostics)
     return replace(event, calls=calls or CALLS, reason=reason) if calls is not None else None
+
+
+def _diagnosis(event: Event, node: MappingNode, diagnostics: Diagnostics) -> Event | None:
+    check_keys(node, tuple(node.entries), ("level",), diagnostics)
+    value = node.get("level")
+    if value is None:
+        return None
+    level = text_of(value) or ""
+    if level not in DIAGNOSED:
+        hint = nearest(level, DIAGNOSED) or f"Known: {', '.join(DIAGNOSED)}"
+        diagnostics.error(f"unknown level '{level}' of a diagnosis", value.span, hint, id="MG-8884")
+        return None
+    return replace(event, level=level, name=read_text(node, "name", diagnostics))
 
 
 def _calls(event: MappingNode, diagnostics: Diagnostics) -> tuple[str, ...] | None:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from microros_gen.application.find import read_application
-from microros_gen.application.model import NodeDecl
+from microros_gen.application.model import Application, NodeDecl
 from microros_gen.application.parameter_find import with_parameter_files
 from microros_gen.application.parser import parse_application
 from microros_gen.diagnostics import Diagnostics
@@ -38,10 +38,13 @@ def check(path: Path, applications: Sequence[Path] = (), most: int = MOST_COMBIN
     """
     diagnostics = Diagnostics()
     source = read_source(path, diagnostics)
-    nodes = [node for application in applications for node in read_nodes(application, diagnostics)]
+    declared = read_applications(applications, diagnostics)
+    nodes = [node for application in declared for node in application.nodes]
     has_nodes = not diagnostics.has_errors()
     found = Diagnostics()
-    model = parse_model(source, found, parts_of(nodes) if has_nodes else {}) if source is not None else None
+    model = (
+        parse_model(source, found, parts_of(declared) if has_nodes else {}) if source is not None else None
+    )
     if has_nodes or all(diagnostic.id != _UNKNOWN_PART for diagnostic in found):
         diagnostics.extend(found)  # otherwise the application files may have what is missing
     if model is None or diagnostics.has_errors():
@@ -64,10 +67,12 @@ def check_model(model: Model, nodes: Sequence[NodeDecl] = (), most: int = MOST_C
     return Report(model.source.name, properties, tuple(diagnostics))
 
 
-def read_nodes(path: Path, diagnostics: Diagnostics) -> tuple[NodeDecl, ...]:
-    """Return the nodes of an application file with all parameters that they declare."""
-    source = read_application(path, Path(), diagnostics)
-    application = parse_application(source, diagnostics) if source is not None else None
-    if application is None:
-        return ()
-    return with_parameter_files(application, path.parent, diagnostics)[0].nodes
+def read_applications(paths: Sequence[Path], diagnostics: Diagnostics) -> tuple[Application, ...]:
+    """Return the applications of files with all parameters that their nodes declare; those with errors are left out."""
+    found = []
+    for path in paths:
+        source = read_application(path, Path(), diagnostics)
+        application = parse_application(source, diagnostics) if source is not None else None
+        if application is not None:
+            found.append(with_parameter_files(application, path.parent, diagnostics)[0])
+    return tuple(found)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -10,9 +11,14 @@ from typing import Any
 
 import pytest
 
+from microros_gen.cli.modes.devices import read_system
 from microros_gen.mode_manager.diagnosis import read_problems
+from microros_gen.mode_manager.scope import select_scope
+from microros_gen.mode_manager.server import ModeManager
+from microros_gen.modes.model import DiagnosticLevels, active
+from microros_gen.ros.peer import Peer
 from tests.support.agent.observer import Observer
-from tests.support.agent.process import running_agent
+from tests.support.agent.process import environment, running_agent
 from tests.support.e2e.commanded import CommandedProgram
 from tests.support.e2e.images import C_FILES, Images, ends_well, started
 from tests.support.e2e.relay import Relay
@@ -209,7 +215,7 @@ def test_levels_and_the_requested_mode(board: Board) -> None:
     board.call("accept")
     assert board.next("battery", lambda s: values(s)["mode waits"] == "false")["level"] == ERROR
     assert board.call("show")[2] == ["SLOW 2"]
-    problems = list(read_problems({"status": [error]}, ["arm/device"]))
+    problems = list(read_problems({"status": [error]}, {"arm/device": DiagnosticLevels()}))
     assert problems == [("arm/device", "arm/device: battery", "value below 11000")]
     board.call("set 11199")
     assert board.next("battery", lambda s: values(s)["value"] == "11199")["level"] == ERROR
@@ -218,6 +224,62 @@ def test_levels_and_the_requested_mode(board: Board) -> None:
     board.call("set 11700")
     assert board.next("battery", lambda s: s["level"] == OK)["message"] == "ok"
     assert board.call("show")[2] == ["SLOW 0"]
+
+
+CELL = """\
+cell:
+  ros__parameters:
+    type: system
+    parts: [arm/device]
+    modes:
+      __DEFAULT__: {arm/device: inactive}
+      RUN: {arm/device: active}
+"""
+
+
+def test_a_mode_manager_leaves_the_requested_mode_alone(
+    board: Board, domain: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The check's mode is known from the application file: it is shown, and no rule or request changes it."""
+    (tmp_path / "cell.yaml").write_text(CELL, encoding="utf-8")
+    (tmp_path / "microros.yaml").write_text(APPLICATION, encoding="utf-8")
+    model, _ = read_system(tmp_path / "cell.yaml", [tmp_path / "microros.yaml"])
+    assert model.parts["arm/device"].contingencies == ("SLOW",)
+    for name, value in environment(domain).items():
+        monkeypatch.setenv(name, value)
+    lines: list[str] = []
+    with Peer(f"manager_{os.getpid()}", domain=domain) as peer:
+        manager = ModeManager(peer, model, select_scope(model), lines.append)
+        orchestrator = manager.orchestrator
+
+        def until(condition: Callable[[], bool]) -> None:
+            end = deadline(60)
+            while not condition():
+                manager.turn()
+                assert time.monotonic() < end, lines
+
+        def actual(part: str) -> str:
+            return str(orchestrator.statuses()[part])
+
+        board.call("set 12000")
+        until(lambda: actual("arm/device") != "unknown")
+        orchestrator.request("cell", active("RUN"))
+        until(lambda: actual("cell") == "active.RUN")
+        board.call("set 10999")
+        until(lambda: actual("cell") == "errorprocessing")
+        until(lambda: "arm/device: it went to active.SLOW by itself" in lines)
+        begin = time.monotonic()
+        until(lambda: time.monotonic() > begin + 4)
+        assert board.call("show")[2] == ["SLOW 2"]
+        board.call("set 12000")
+        until(lambda: actual("arm/device") == "active.SLOW")
+        begin = time.monotonic()
+        until(lambda: time.monotonic() > begin + 2)
+        assert board.call("show")[2] == ["SLOW 0"]
+        assert actual("cell") == "activating"
+        orchestrator.request("cell", active("RUN"))
+        until(lambda: actual("cell") == "active.RUN")
+        assert board.call("show")[2] == ["__DEFAULT__ 0"]
 
 
 @pytest.mark.system

@@ -20,7 +20,7 @@ from microros_gen.mode_manager.diagnosis import array_of, read_problems, read_ro
 from microros_gen.mode_manager.monitor import OLD_S, UNMANAGED, Overview
 from microros_gen.mode_manager.page import served_page
 from microros_gen.mode_manager.problems import Problem, Problems
-from microros_gen.modes.model import active
+from microros_gen.modes.model import DiagnosticLevels, active
 from tests.support.mode_manager.world import Node, World
 from tests.support.modes.models import changed, model_of, model_text
 from tests.support.patience import seconds
@@ -127,7 +127,7 @@ def test_errors_of_others_belong_to_parts() -> None:
             status("arm: cpu", 2, ""),
         ]
     }
-    assert list(read_problems(message, ["left/arm", "arm"])) == [
+    assert list(read_problems(message, {"left/arm": DiagnosticLevels(), "arm": DiagnosticLevels()})) == [
         ("left/arm", "left/arm: motor", "hot"),
         ("left/arm", "left/arm", ""),
         ("arm", "arm", ""),

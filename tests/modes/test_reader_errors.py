@@ -11,6 +11,27 @@ BASE = model_text("robot")
 ARM = model_text("arm")
 
 CASES = [
+    (
+        "camera:\n  ros__parameters:\n    type: node\n",
+        "camera:\n  ros__parameters:\n    type: node\n    contingencies: [SAVE]\n",
+        "MG-8881",
+        "SAVE]",
+        "'contingencies' of 'camera': unknown mode 'SAVE'",
+    ),
+    (
+        "camera:\n  ros__parameters:\n    type: node\n",
+        "camera:\n  ros__parameters:\n    type: node\n    diagnostics: {level: warm}\n",
+        "MG-8882",
+        "warm}",
+        "unknown level 'warm' of the diagnostics of 'camera'. Did you mean 'warn'?",
+    ),
+    (
+        "camera:\n  ros__parameters:\n    type: node\n",
+        "camera:\n  ros__parameters:\n    type: node\n    contingencies: {a: b}\n",
+        "MG-8883",
+        "{a: b}",
+        "'contingencies' must be a text, or a list of texts",
+    ),
     ("", "", "MG-8802", "", "has no parts"),
     (
         "base:\n  ros__parameters:\n    type: system",

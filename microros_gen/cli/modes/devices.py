@@ -10,7 +10,7 @@ from microros_gen.diagnostics import Diagnostics
 from microros_gen.modes.leaflets import parts_of
 from microros_gen.modes.model import Model
 from microros_gen.modes.reader import parse_model, read_source
-from microros_gen.modes.verification import read_nodes
+from microros_gen.modes.verification import read_applications
 
 
 def read_system(path: Path, applications: Sequence[Path]) -> tuple[Model, frozenset[str]]:
@@ -20,9 +20,9 @@ def read_system(path: Path, applications: Sequence[Path]) -> tuple[Model, frozen
     """
     diagnostics = Diagnostics()
     source = read_source(path, diagnostics)
-    nodes = [node for application in applications for node in read_nodes(application, diagnostics)]
+    declared = read_applications(applications, diagnostics)
     diagnostics.check()
-    devices = parts_of(nodes)
+    devices = parts_of(declared)
     model = parse_model(source, diagnostics, devices) if source is not None else None
     diagnostics.check()
     assert model is not None
