@@ -57,7 +57,7 @@ class Commander:
         if is_waiting and now - leaf.polled >= interval_s:
             leaf.polled = now
             leaf.stale |= leaf.queries
-        if is_waiting and leaf.doubts:
+        if (is_waiting or leaf.deviates) and leaf.doubts:
             leaf.stale |= leaf.doubts
             leaf.doubts.clear()
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 
 from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from microros_gen.mode_manager.calls import Link
+from microros_gen.mode_manager.calls import Call, Kind, Link
 from microros_gen.mode_manager.diagnosis import FAILED, TOPIC, TYPE, rows_of
 from microros_gen.mode_manager.simulation import simulate
 from microros_gen.modes import Event, Manager, Status
@@ -93,6 +94,31 @@ def test_a_declared_mode_is_left_alone(order: str) -> None:
     row = next(row for row in rows_of(world.manager) if row.part == "device")
     assert (row.level, row.message) == (FAILED, "it went to active.SAFE by itself")
     assert world.log.count("device: it went to active.SAFE by itself") == 1
+
+
+@pytest.mark.parametrize("between", [Kind.GET_STATE, Kind.GET_MODE, Kind.GET_PARAMETERS])
+def test_a_reaction_right_after_a_command(between: Kind) -> None:
+    """Its events may be those of the command: the device is asked, and reacts between two of the questions."""
+    world = cell()
+    world.request("cell", Status("inactive"))
+    device = world.nodes["device"]
+    carry_out, reacted = device.carry_out, []
+
+    def reacting(call: Call) -> dict[str, Any]:
+        response = carry_out(call)
+        if call.kind is between and device.state == "active" and not reacted:
+            reacted.append(call)
+            react(world)
+        return response
+
+    vars(device)["carry_out"] = reacting
+    world.request("cell", RUN, 0.1)
+    first = len(world.sent)
+    world.let(30)
+    assert reacted
+    assert world.commands(first) == []
+    assert world.status("device") == "active.SAFE"
+    assert world.manager.leaves["device"].failure == "it went to active.SAFE by itself"
 
 
 def test_states_that_arrive_one_after_another() -> None:
