@@ -8,13 +8,14 @@ target fails after some attempts; then, when no part of its system is on its way
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 
 from microros_gen.mode_manager.adoption import adopted
 from microros_gen.mode_manager.announcing import announce_request, changes
 from microros_gen.mode_manager.calls import Announcement, Call, Kind, Link
 from microros_gen.mode_manager.commander import Commander
 from microros_gen.mode_manager.contingency import await_reaction, note_reaction
+from microros_gen.mode_manager.degrading import Degrading
 from microros_gen.mode_manager.hearing import (
     SILENT,
     hear_link,
@@ -31,7 +32,6 @@ from microros_gen.mode_manager.progress import Progress
 from microros_gen.mode_manager.scope import Scope
 from microros_gen.mode_manager.settings import Settings
 from microros_gen.mode_manager.targets import spread
-from microros_gen.modes.manager import rule_of
 from microros_gen.modes.model import (
     ERROR,
     INACTIVE,
@@ -63,10 +63,6 @@ class Orchestrator:
         self.settings = settings or Settings()
         self.targets: dict[str, Status] = {}
         self.leaves = {part.name: Leaf(part) for part in scope.leaves}
-        self.rules: dict[str, str] = {}
-        """The rule that was applied last to a system since its last request."""
-        self.oscillating: set[str] = set()
-        self._applied: dict[str, int] = {}
         self._clock = clock
         self._log = log
         self._knowledge = Knowledge(model, self.targets)
@@ -74,14 +70,25 @@ class Orchestrator:
         self._adopted = False
         self._announced: list[Announcement] = []
         self.progress = Progress(model, scope, self.leaves, self.targets, self.status)
+        self._degrading = Degrading(model, self.settings, log)
         self._commander = Commander(self._knowledge, self.progress, self.settings, log)
         self._shown: Mapping[str, Status] = self.statuses()
+
+    @property
+    def rules(self) -> Mapping[str, str]:
+        """Return the rule that was applied last to each system since the last request, as far as it is not over."""
+        return self._degrading.rules
+
+    @property
+    def oscillating(self) -> Collection[str]:
+        """Return the systems whose rules do not end."""
+        return self._degrading.oscillating
 
     # What happens
 
     def request(self, name: str, target: Status, must_configure: bool = False) -> None:
         """Command a part to be `target`. `must_configure`: unconfigured nodes do not count as inactive."""
-        self._forget_rules()
+        self._degrading.request()
         self._set_target(self.model.parts[name], target, must_configure)
 
     def clean_up(self, name: str) -> None:
@@ -201,7 +208,7 @@ class Orchestrator:
         after = self.status(leaf)
         reaction = note_reaction(leaf, before, after, was_settled)
         if reaction:
-            self._applied.clear()
+            self._degrading.change()
             if reaction != failure:
                 self._log(f"{name}: {reaction}")
             return
@@ -236,7 +243,7 @@ class Orchestrator:
             leaf.failure = "others change it again and again"
             self._log(f"{leaf.name}: {leaf.failure}")
             return
-        self._applied.clear()
+        self._degrading.change()
         leaf.deviates = not leaf.is_settled(self.status(leaf))
 
     def _query(self, leaf: Leaf, call: Call, now: float, success: bool, facts: Mapping[str, object]) -> None:
@@ -293,19 +300,11 @@ class Orchestrator:
     def _settle(self) -> None:
         """Apply rules bottom up; where none holds, command again what others changed."""
         for system in self.scope.systems:
-            if self.progress.is_moving(system.name) or system.name in self.oscillating:
+            if self.progress.is_moving(system.name) or system.name in self._degrading.oscillating:
                 continue
-            rule = rule_of(system, self.targets.get(system.name), self.statuses())
-            if rule is None:
-                continue
-            self._applied[system.name] = self._applied.get(system.name, 0) + 1
-            if self._applied[system.name] > 2 * len(self.model.targets(system)):
-                self.oscillating.add(system.name)
-                self._log(f"{system.name}: its rules oscillate, and are not applied until the next request")
-                continue
-            self._log(f"{system.name}: rule {rule.name}: {rule.new_target}")
-            self.rules[system.name] = rule.name
-            self._set_target(system, rule.new_target, by_rule=True)
+            goal = self._degrading.next(system, self.targets.get(system.name), self.statuses(), self._clock())
+            if goal is not None:
+                self._set_target(system, goal, by_rule=True)
         for leaf in self.leaves.values():
             is_known = leaf.call is None and not leaf.stale
             if (
@@ -324,6 +323,8 @@ class Orchestrator:
             if not self.scope.is_external(below.name):
                 self._announced += announce_request(below.name, statuses[below.name], goal)
             self.targets[below.name] = goal
+            if below is not part or not by_rule:
+                self._degrading.command(below.name)
             leaf = self.leaves.get(below.name)
             if leaf is not None and not (by_rule and leaf.reaction and leaf.target == goal):
                 keeps = by_rule and leaf.has_reached and leaf.target == goal
@@ -335,8 +336,3 @@ class Orchestrator:
                 leaf.is_mode_late = False
                 if leaf.link is not Link.ABSENT and leaf.failure != SILENT:
                     leaf.failure = ""
-
-    def _forget_rules(self) -> None:
-        self._applied.clear()
-        self.rules.clear()
-        self.oscillating.clear()

@@ -27,4 +27,6 @@ class Settings:
     """Parts that are unknown after this time are absent."""
     adopt_s: float = 60.0
     """Parts may appear so long after the start, and the modes of their systems are taken over."""
+    recover_s: float = 60.0
+    """A system returns from a degraded mode at most `attempts` times in this time."""
     reconfigured: frozenset[str] = frozenset()

@@ -10,7 +10,8 @@ of the parts of a system are independent of each other.
 The combinations of a system are not enumerated. Its parts are taken one after another. Of the parts so far four facts
 are kept for each target of the system: whether one is in error processing, whether one is not what is commanded, which
 rule holds (the last one by name), and which other modes fit. Combinations that are equal in these stay equal whatever
-follows. At the end they say for each target which rule is next: a cycle of targets is an oscillation.
+follows. At the end they say for each target which rule is next, or is undone (`recovery`): a cycle of targets is an
+oscillation.
 
 That proves more than requests: whatever happened before, the first rule that is applied commands all parts of its
 system again, and from there on the functions above say what follows.
@@ -45,8 +46,9 @@ Behaviors = dict[tuple[Status, ...], Failures]
 
 _Led = Mapping[Status, frozenset[Status]]
 
-_Seen = tuple[bool, bool, int, int]
-"""Error processing, deviates, the index of the rule that holds or -1, the modes that fit as bits."""
+_Seen = tuple[bool, bool, int, int, int]
+"""Error processing, deviates, the index of the rule that holds or -1, the modes that fit and the rules that can be
+undone, both as bits."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +75,6 @@ class Settled:
     led: Mapping[str, _Led]
 
 
-_STABLE = -1
 _WORK = 64
 """How many pairs of combinations and behaviors are looked at, for each combination that may be kept."""
 
@@ -140,7 +141,7 @@ def _combine(
     """Return what can be seen of all parts together, by target, with the fewest failures that this takes."""
     targets = model.targets(system)
     every_mode = (1 << len(system.modes)) - 1
-    kept: dict[tuple[_Seen, ...], Failures] = {((False, False, -1, every_mode),) * len(targets): ()}
+    kept: dict[tuple[_Seen, ...], Failures] = {((False, False, -1, every_mode, 0),) * len(targets): ()}
     for name in system.part_names:
         seen = _distinct(
             (_seen(model, system, name, outcomes), failures) for outcomes, failures in behaviors[name].items()
@@ -172,8 +173,8 @@ def _distinct(
 def _join(a: _Seen, b: _Seen) -> _Seen:
     rule = a[2] if a[2] > b[2] else b[2]
     if a[0] or b[0]:
-        return True, True, rule, 0  # nothing else can be seen then
-    return False, a[1] or b[1], rule, a[3] & b[3]
+        return True, True, rule, 0, a[4] | b[4]  # nothing else can be seen then
+    return False, a[1] or b[1], rule, a[3] & b[3], a[4] | b[4]
 
 
 def _seen(model: Model, system: Part, name: str, outcomes: tuple[Status, ...]) -> tuple[_Seen, ...]:
@@ -195,7 +196,12 @@ def _seen(model: Model, system: Part, name: str, outcomes: tuple[Status, ...]) -
         modes = sum(
             1 << i for i, m in enumerate(system.modes.values()) if actual.is_same(m.commands[name].target)
         )
-        found.append((actual.state == ERROR, not fulfills(actual, command), rule, modes))
+        undone = sum(
+            1 << i
+            for i, r in enumerate(system.rules)
+            if r.recover_part == name and any(map(actual.is_same, r.recover_statuses))
+        )
+        found.append((actual.state == ERROR, not fulfills(actual, command), rule, modes, undone))
     return tuple(found)
 
 
@@ -207,39 +213,58 @@ def _outcomes(
     behaviors: Behaviors = {}
     led: dict[Status, set[Status]] = {target: set() for target in targets}
     for seen, failures in sorted(combined.items(), key=lambda item: len(item[1])):
-        following = [_next(system, targets, i, seen) for i in range(len(targets))]
         outcomes: list[Status] = []
         for start, target in enumerate(targets):
-            path = _path(start, following)
-            last = path[-1]
+            path, rules = _path(system, targets, start, seen)
             led[target].update(targets[i] for i in path[1:])
-            if following[last] == _STABLE:
-                outcomes.append(_infer(system, targets[last], seen[last]))
+            if not rules:
+                outcomes.append(_infer(system, targets[path[-1]], seen[path[-1]]))
                 continue
             outcomes.append(Status(UNKNOWN))
-            rules = tuple(system.rules[seen[i][2]].name for i in path[path.index(following[last]) :])
             cycles.setdefault(frozenset(rules), Oscillation(system.name, target, failures, rules))
         behaviors.setdefault(tuple(outcomes), failures)
     return list(cycles.values()), behaviors, {target: frozenset(after) for target, after in led.items()}
 
 
-def _next(system: Part, targets: tuple[Status, ...], at: int, seen: tuple[_Seen, ...]) -> int:
-    """Return the index of the target after a rule, which may be the same one; _STABLE: no rule holds."""
-    error, deviates, rule, _ = seen[at]
-    return targets.index(system.rules[rule].new_target) if rule >= 0 and (error or deviates) else _STABLE
+_At = tuple[int, tuple[int, ...]]
+"""The index of a target, and those of the rules that led there and can be undone: the history of `recovery`."""
 
 
-def _path(start: int, following: list[int]) -> list[int]:
-    """Return the targets from `start` until one is stable, or until the next one is among them."""
-    path = [start]
-    while (after := following[path[-1]]) != _STABLE and after not in path:
-        path.append(after)
-    return path
+def _next(system: Part, targets: tuple[Status, ...], at: _At, seen: tuple[_Seen, ...]) -> tuple[_At, str]:
+    """Return what follows, which may be the same, and the rule that leads there, or is undone; "": it is stable."""
+    target, history = at
+    error, deviates, rule, _, undone = seen[target]
+    if rule >= 0 and (error or deviates):
+        goal = targets.index(system.rules[rule].new_target)
+        path = (*history, rule)
+        cut = (path[:i] for i, r in enumerate(path) if targets.index(system.rules[r].if_target) == goal)
+        return (goal, next(cut, path)), system.rules[rule].name
+    if history and undone >> history[-1] & 1:
+        last = system.rules[history[-1]]
+        return (targets.index(last.if_target), history[:-1]), last.name
+    return at, ""
+
+
+def _path(
+    system: Part, targets: tuple[Status, ...], start: int, seen: tuple[_Seen, ...]
+) -> tuple[list[int], tuple[str, ...]]:
+    """Return the targets from `start` until one is stable, and none; or the rules of a cycle that follows."""
+    at: _At = (start, ())
+    known: dict[_At, int] = {}
+    path, rules = [start], list[str]()
+    while at not in known:
+        known[at] = len(rules)
+        at, rule = _next(system, targets, at, seen)
+        if not rule:
+            return path, ()
+        path.append(at[0])
+        rules.append(rule)
+    return path, tuple(dict.fromkeys(rules[known[at] :]))
 
 
 def _infer(system: Part, target: Status, seen: _Seen) -> Status:
     """Return what `Inference.infer_system` returns of parts of which this is seen."""
-    error, deviates, _, modes = seen
+    error, deviates, _, modes, _ = seen
     if error:
         return Status(ERROR)
     if not deviates:

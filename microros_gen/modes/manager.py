@@ -17,14 +17,16 @@ from collections.abc import Iterator, Mapping
 
 from microros_gen.modes.inference import Inference
 from microros_gen.modes.model import ACTIVE, UNCONFIGURED, Model, Part, Rule, Status, start_sequence
+from microros_gen.modes.recovery import History, extended, recovery_of
 from microros_gen.records import dataclass
 
 COMMAND, RULE, REPEAT, STATUS, OSCILLATION = "command", "rule", "repeat", "status", "oscillation"
+RECOVERY = "recovery"
 
 
 @dataclass(frozen=True)
 class Step:
-    """One step of a trace. `kind` is command, rule (its name in `rule`), repeat, status or oscillation."""
+    """One step of a trace. `kind` is command, rule or recovery (name in `rule`), repeat, status or oscillation."""
 
     kind: str
     part: str
@@ -34,6 +36,8 @@ class Step:
     def __str__(self) -> str:
         if self.kind == RULE:
             return f"rule {self.rule}: {self.part} {self.status}"
+        if self.kind == RECOVERY:
+            return f"rule {self.rule}: {self.part} {self.status} again"
         if self.kind == OSCILLATION:
             return f"oscillates: {self.part} {self.status} again"
         return f"{self.kind} {self.part} {self.status}"
@@ -61,6 +65,7 @@ class Manager:
         self._inference = Inference(model)
         self._stuck: set[str] = set()
         self._reacted: set[str] = set()
+        self._histories: dict[str, History] = {}
         self._shown: Mapping[str, Status] = self.statuses()
 
     def statuses(self) -> Mapping[str, Status]:
@@ -106,7 +111,13 @@ class Manager:
             rule = rule_of(system, self.targets.get(system.name), statuses)
             if rule is not None:
                 step = Step(RULE, system.name, rule.new_target, rule.name)
+                self._histories[system.name] = extended(self._histories.get(system.name, ()), rule)
                 return [step, *self._command(system, rule.new_target, by_rule=True)]
+            undone = recovery_of(self._histories.get(system.name, ()), statuses)
+            if undone is not None:
+                self._histories[system.name] = self._histories[system.name][:-1]
+                step = Step(RECOVERY, system.name, undone.if_target, undone.name)
+                return [step, *self._command(system, undone.if_target, by_rule=True)]
         return list(self._repeat())
 
     def _repeat(self) -> Iterator[Step]:
@@ -130,6 +141,7 @@ class Manager:
             return
         self._reacted.discard(part.name)
         if not by_rule:
+            self._histories.pop(part.name, None)
             if self.targets.get(part.name) == target and self.statuses()[part.name].is_same(target):
                 return
             yield Step(COMMAND, part.name, target)
@@ -145,7 +157,9 @@ class Manager:
             yield from self._command(self.model.parts[name], commands[name], is_request=is_request)
 
     def _snapshot(self) -> object:
-        return tuple(sorted(self.targets.items(), key=lambda i: i[0])), tuple(self.nodes.items())
+        histories = ((name, tuple(r.name for r in h)) for name, h in self._histories.items() if h)
+        targets = tuple(sorted(self.targets.items(), key=lambda i: i[0]))
+        return targets, tuple(self.nodes.items()), tuple(sorted(histories))
 
     def _changes(self) -> Iterator[Step]:
         """Yield the status of each part that is another one than before, parts before their systems."""

@@ -97,7 +97,10 @@ class Mode:
 
 @dataclass(frozen=True)
 class Rule:
-    """If a system with the target `if_target` is not in it, and `if_part` is in `if_status`, its target changes."""
+    """If a system with the target `if_target` is not in it, and `if_part` is in `if_status`, its target changes.
+
+    It changes back when the part `recover_part` is in one of `recover_statuses`; without them it does not.
+    """
 
     name: str
     if_target: Status
@@ -105,6 +108,12 @@ class Rule:
     if_status: Status
     new_target: Status
     span: Span
+    recover_part: str = ""
+    recover_statuses: tuple[Status, ...] = ()
+
+    def recovers(self, statuses: Mapping[str, Status]) -> bool:
+        """Return whether the rule, which was applied, is undone; `statuses` are those of the parts of its system."""
+        return any(statuses[self.recover_part].is_same(status) for status in self.recover_statuses)
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from microros_gen.documents.named import Named
 from microros_gen.documents.tree_read import check_keys, expect_mapping
 from microros_gen.documents.tree_values import entries, items, text_of
 from microros_gen.documents.yaml_tree import Entry, MappingNode, SequenceNode, YamlNode
-from microros_gen.modes.model import DEFAULT, Command, Mode, Part, Rule, Value
+from microros_gen.modes.model import DEFAULT, Command, Mode, Part, Rule, Status, Value
 from microros_gen.modes.outline import PARAMETERS, Outline, plain_name
 from microros_gen.modes.part_names import PartList, parse_names
 from microros_gen.modes.statuses import Subject, parse_status, parse_target
@@ -18,6 +18,7 @@ from microros_gen.modes.values import inherit, parse_values
 from microros_gen.records import dataclass
 
 _RULE_KEYS = ("if_target", "if_part", "new_target")
+_RECOVER_KEY = "recover_if"
 
 
 @dataclass(frozen=True)
@@ -106,7 +107,7 @@ def _rule(entry: Entry, outline: Outline, parts: _Parts, diagnostics: Diagnostic
     node = expect_mapping(entry.value, f"the rule '{entry.key}'", diagnostics)
     if node is None:
         return None
-    check_keys(node, _RULE_KEYS, _RULE_KEYS, diagnostics)
+    check_keys(node, (*_RULE_KEYS, _RECOVER_KEY), _RULE_KEYS, diagnostics)
     if_target, if_part, new_target = (node.get(key) for key in _RULE_KEYS)
     if if_target is None or if_part is None or new_target is None:
         return None
@@ -117,7 +118,29 @@ def _rule(entry: Entry, outline: Outline, parts: _Parts, diagnostics: Diagnostic
         return None
     part, status = pair
     parsed = parse_status(status, parts.subjects[part], diagnostics)
-    return Rule(entry.key, target, part, parsed, goal, entry.key_span) if parsed else None
+    if parsed is None:
+        return None
+    recover_part, statuses = _recovery(node.get(_RECOVER_KEY), outline, parts, diagnostics)
+    return Rule(entry.key, target, part, parsed, goal, entry.key_span, recover_part, statuses)
+
+
+def _recovery(
+    node: YamlNode | None, outline: Outline, parts: _Parts, diagnostics: Diagnostics
+) -> tuple[str, tuple[Status, ...]]:
+    """Return the part and the statuses of `recover_if: [part, inactive, …]`; none without the key."""
+    if node is None:
+        return "", ()
+    found = items(node)
+    if not isinstance(node, SequenceNode) or len(found) < 2 or text_of(found[0]) is None:
+        message = f"'{_RECOVER_KEY}' must be a part and its states"
+        hint = f"Write {_RECOVER_KEY}: [part, inactive, unconfigured]"
+        diagnostics.error(message, node.span, hint, id="MG-8885")
+        return "", ()
+    name = _part_name(found[0], outline, parts, diagnostics)
+    if not name:
+        return "", ()
+    parsed = (parse_status(each, parts.subjects[name], diagnostics) for each in found[1:])
+    return name, tuple(status for status in parsed if status is not None)
 
 
 def _part_status(
@@ -129,14 +152,20 @@ def _part_status(
         message = "'if_part' must be a part and its state"
         diagnostics.error(message, node.span, "Write if_part: [part, inactive]", id="MG-8830")
         return None
-    name = plain_name(text_of(found[0]) or "")
-    if name not in parts.subjects:
-        if parts.is_complete:
-            hint = nearest(name, parts.subjects) or f"Known: {', '.join(parts.subjects)}"
-            message = f"'{name}' is no part of '{outline.name}', whose rule names it"
-            diagnostics.error(message, found[0].span, hint, id="MG-8831")
-        return None
-    return name, found[1]
+    name = _part_name(found[0], outline, parts, diagnostics)
+    return (name, found[1]) if name else None
+
+
+def _part_name(node: YamlNode, outline: Outline, parts: _Parts, diagnostics: Diagnostics) -> str:
+    """Return the name of a part in a rule; empty: the system does not have it."""
+    name = plain_name(text_of(node) or "")
+    if name in parts.subjects:
+        return name
+    if parts.is_complete:
+        hint = nearest(name, parts.subjects) or f"Known: {', '.join(parts.subjects)}"
+        message = f"'{name}' is no part of '{outline.name}', whose rule names it"
+        diagnostics.error(message, node.span, hint, id="MG-8831")
+    return ""
 
 
 def _start_after(outline: Outline, parts: _Parts, diagnostics: Diagnostics) -> dict[str, tuple[Named, ...]]:

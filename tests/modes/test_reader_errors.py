@@ -167,6 +167,13 @@ CASES = [
         "$(parent speed)",
         "is of type integer, and 'speed' of the parent is double",
     ),
+    (
+        "if_part: [base, activating]",
+        "if_part: [base, activating]\n        recover_if: [base]",
+        "MG-8885",
+        "[base]",
+        "'recover_if' must be a part and its states",
+    ),
     ("[base, activating]", "base", "MG-8830", "base", "'if_part' must be a part and its state"),
     (
         "[base, activating]",

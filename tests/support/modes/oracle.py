@@ -35,6 +35,8 @@ class PlainRule:
     part: str
     status: str
     new_target: str
+    recover: str = ""
+    """`part status`: when the rule is undone."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +84,8 @@ class PlainModel:
                 yield f"      {rule.name}:\n        if_target: {rule.if_target}"
                 yield f"        if_part: [{rule.part}, {rule.status}]"
                 yield f"        new_target: {rule.new_target}"
+                if rule.recover:
+                    yield f"        recover_if: [{', '.join(rule.recover.split())}]"
 
     def _nodes(self) -> Iterator[str]:
         for name, modes in self.nodes.items():
@@ -119,29 +123,46 @@ def settle(
     if system is None:
         return failures.get(part, target)
     known = set() if known is None else known
-    known.add(target)
+    passed: set[tuple[str, ...]] = set()
+    way: list[tuple[str, PlainRule]] = []  # from which target each rule led on
     while True:
+        known.add(target)
+        place = (target, *(rule.name for _, rule in way))
+        if place in passed:
+            raise OscillatesError(part)
+        passed.add(place)
         actual = {p: settle(model, p, _commanded(system, target, p), failures) for p in system.parts}
         status = _infer(system, target, actual)
-        following = _following(system, target, status, actual)
-        if not following:
+        rule = _following(system, target, status, actual)
+        if rule is not None:
+            way.append((target, rule))
+            target = rule.new_target
+            before = [start for start, _ in way]
+            if target in before:
+                del way[before.index(target) :]
+        elif way and way[-1][1].recover and _is_over(way[-1][1], actual):
+            target = way.pop()[0]
+        else:
             return status
-        target = following
-        if target in known:
-            raise OscillatesError(part)
-        known.add(target)
 
 
-def _following(system: PlainSystem, target: str, status: str, actual: Mapping[str, str]) -> str:
-    """Return the target after a rule; empty: none holds."""
+def _is_over(rule: PlainRule, actual: Mapping[str, str]) -> bool:
+    part, wanted = rule.recover.split()
+    return actual[part] == wanted or (
+        not wanted.startswith("active") and actual[part].split(".")[0] == wanted
+    )
+
+
+def _following(system: PlainSystem, target: str, status: str, actual: Mapping[str, str]) -> PlainRule | None:
+    """Return the rule that holds."""
     holding = sorted(
-        (rule.name, rule.new_target)
-        for rule in system.rules
+        (rule.name, i)
+        for i, rule in enumerate(system.rules)
         if rule.if_target == target
         and actual[rule.part].split(".")[0] == rule.status.split(".")[0]
         and (not rule.status.startswith("active.") or actual[rule.part] == rule.status)
     )
-    return holding[-1][1] if holding and status != target else ""
+    return system.rules[holding[-1][1]] if holding and status != target else None
 
 
 def reached(model: PlainModel, name: str, above: str) -> set[str]:
@@ -211,8 +232,8 @@ def _apply_one(model: PlainModel, targets: dict[str, str], failures: Mapping[str
     for name, system in model.systems.items():
         actual[name] = _infer(system, targets[name], {part: actual[part] for part in system.parts})
         following = _following(system, targets[name], actual[name], actual)
-        if following:
-            _command(model, name, following, targets)
+        if following is not None:
+            _command(model, name, following.new_target, targets)
             return True
     return False
 

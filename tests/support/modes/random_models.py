@@ -32,10 +32,25 @@ def _system(draw: st.DrawFn, parts: dict[str, tuple[str, ...]], systems: tuple[s
     modes = {mode: {p: draw(_command(modes, p in systems)) for p, modes in parts.items()} for mode in names}
     targets = st.sampled_from(("inactive", *(f"active.{mode}" for mode in names)))
     rules = [
-        PlainRule(f"r{i}", draw(targets), part, draw(_status(part, parts, systems)), draw(targets))
+        PlainRule(
+            f"r{i}",
+            draw(targets),
+            part,
+            draw(_status(part, parts, systems)),
+            draw(targets),
+            draw(_recovery(parts, systems)),
+        )
         for i, part in enumerate(draw(st.lists(st.sampled_from(sorted(parts)), max_size=6)))
     ]
     return PlainSystem(modes, tuple(rules))
+
+
+def _recovery(parts: dict[str, tuple[str, ...]], systems: tuple[str, ...]) -> st.SearchStrategy[str]:
+    """Draw when a rule is undone; often never."""
+    found = st.sampled_from(sorted(parts)).flatmap(
+        lambda part: _status(part, parts, systems).map(lambda status: f"{part} {status}")
+    )
+    return st.one_of(st.just(""), found)
 
 
 def _command(modes: tuple[str, ...], is_system: bool) -> st.SearchStrategy[str]:
