@@ -4,21 +4,34 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from microros_gen.mode_manager.calls import Kind, Link, Values
 from microros_gen.mode_manager.leaf import Leaf, has_values
 from microros_gen.modes.inference import Inference
-from microros_gen.modes.model import ACTIVE, DEFAULT, UNKNOWN, Model, Part, Status
-from microros_gen.modes.templates import resolve
+from microros_gen.modes.model import ACTIVE, DEFAULT, UNKNOWN, Model, Part, Status, Value
+from microros_gen.modes.templates import parent_value, resolve
+from microros_gen.modes.values import type_of
 
 
 class Knowledge:
     """A view of the targets, which others change."""
 
     def __init__(self, model: Model, targets: Mapping[str, Status]) -> None:
-        self.model = model
+        self.model = self._origin = model
         self.targets = targets
         self._inference = Inference(model)
+
+    def set_parent_values(self, name: str, values: Values) -> None:
+        """Take values of the parent of a system: they replace `$(parent …)` in its modes."""
+        system = self._origin.parts[name]
+        modes = {
+            mode.name: replace(mode, parameters={n: _set(v, values) for n, v in mode.parameters.items()})
+            for mode in system.modes.values()
+        }
+        parts = {**self.model.parts, name: replace(system, modes=modes)}
+        self.model = replace(self.model, parts=parts)
+        self._inference = Inference(self.model)
 
     def infer_system(self, system: Part, actual: Mapping[str, Status]) -> Status:
         """Return the status of a system; `actual` has the status of each of its parts."""
@@ -45,8 +58,9 @@ class Knowledge:
         target = leaf.target
         if target is None or target.state != ACTIVE:
             return {}
-        values = self._values(leaf, target.mode, self.targets)
-        return {name: value for name, value in values.items() if name in leaf.parameters}
+        if leaf.part.is_system:
+            return {n: parent_value(self.model, leaf.part, n, self.targets) for n in leaf.parameters}
+        return self._values(leaf, target.mode, self.targets)
 
     def lacks_values(self, leaf: Leaf) -> bool:
         """Return whether a system of another manager has not got the values of its parent."""
@@ -63,3 +77,8 @@ class Knowledge:
 
     def _values(self, leaf: Leaf, mode: str, targets: Mapping[str, Status]) -> Values:
         return resolve(self.model, leaf.part, leaf.part.modes[mode], targets)
+
+
+def _set(value: Value, values: Values) -> Value:
+    known = values.get(value.parent)
+    return value if known is None else replace(value, value=known, type=type_of(known), parent="")

@@ -114,9 +114,15 @@ class Leaf:
 
     @property
     def parameters(self) -> tuple[str, ...]:
-        """Return the names of the parameters of its modes that a manager sets; of a system those of a parent."""
+        """Return the names of the parameters of its modes that a manager sets; of a system those that its parent gives.
+
+        These have their names there.
+        """
         if self.part.is_system:
-            return self.inherited
+            parents = (
+                value.parent for mode in self.part.modes.values() for value in mode.parameters.values()
+            )
+            return tuple(dict.fromkeys(name for name in parents if name))
         return tuple(dict.fromkeys(name for mode in self.part.modes.values() for name in mode.parameters))
 
     @property

@@ -81,7 +81,7 @@ class PartLink:
         """Return how the part is reached; None: that is not clear yet."""
         name = f"/{self._leaf.name}"
         if self._leaf.part.is_system:
-            return Link.SYSTEM if graph.count_servers(f"{name}/change_mode") else Link.ABSENT
+            return self._found_system(graph, now)
         if name not in nodes:
             return Link.ABSENT
         if self._since is None:
@@ -95,6 +95,14 @@ class PartLink:
             return Link.MODES if f"{name}/change_mode" in services else Link.PARAMETERS
         is_plain = f"{name}/set_parameters_atomically" in services and now - self._since >= PLAIN_S
         return Link.PLAIN if is_plain else None
+
+    def _found_system(self, graph: Graph, now: float) -> Link | None:
+        """Return whether another manager has it; if it takes values, its services for them are waited for."""
+        if not graph.count_servers(f"/{self._leaf.name}/change_mode"):
+            return Link.ABSENT
+        self._since = now if self._since is None else self._since
+        is_early = bool(self._leaf.parameters) and now - self._since < SETTLE_S
+        return None if is_early and not self._serves_parameters(graph) else Link.SYSTEM
 
     def _serves_parameters(self, graph: Graph) -> bool:
         names = (f"/{self._leaf.name}/{kind.value}" for kind in _VALUES)

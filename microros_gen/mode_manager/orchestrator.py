@@ -12,7 +12,7 @@ from collections.abc import Callable, Collection, Mapping
 
 from microros_gen.mode_manager.adoption import adopted
 from microros_gen.mode_manager.announcing import announce_request, changes
-from microros_gen.mode_manager.calls import Announcement, Call, Kind, Link
+from microros_gen.mode_manager.calls import Announcement, Call, Kind, Link, Values
 from microros_gen.mode_manager.commander import Commander
 from microros_gen.mode_manager.contingency import await_reaction, note_reaction
 from microros_gen.mode_manager.degrading import Degrading
@@ -28,6 +28,7 @@ from microros_gen.mode_manager.hearing import (
 )
 from microros_gen.mode_manager.knowledge import Knowledge
 from microros_gen.mode_manager.leaf import Leaf
+from microros_gen.mode_manager.parent_values import refusal_of
 from microros_gen.mode_manager.progress import Progress
 from microros_gen.mode_manager.scope import Scope
 from microros_gen.mode_manager.settings import Settings
@@ -68,6 +69,7 @@ class Orchestrator:
         self._knowledge = Knowledge(model, self.targets)
         self._started = clock()
         self._adopted = False
+        self._parent_values: dict[str, Values] = {}
         self._announced: list[Announcement] = []
         self.progress = Progress(model, scope, self.leaves, self.targets, self.status)
         self._degrading = Degrading(model, self.settings, log)
@@ -101,6 +103,29 @@ class Orchestrator:
                 and leaf.link is not Link.SYSTEM
             ):
                 leaf.target = self.targets[leaf.name] = Status(UNCONFIGURED)
+
+    def parent_values(self, system: str) -> Values:
+        """Return the values that another manager has set for a system whose parent it manages, by their names there."""
+        return self._parent_values.get(system, {})
+
+    def set_parent_values(self, system: str, values: Values) -> str:
+        """Take such values, all or none; return why they are refused, empty: they are not."""
+        reason = refusal_of(self.model, system, values)
+        if reason:
+            return reason
+        self._parent_values[system] = {**self.parent_values(system), **values}
+        self._knowledge.set_parent_values(system, self._parent_values[system])
+        self._degrading.change()
+        self._adopted = self._adopted and system in self.targets
+        for leaf in self.progress.below(system):
+            if (
+                leaf.inherited
+                and leaf.link is not Link.ABSENT
+                and leaf.failure != SILENT
+                and not leaf.reaction
+            ):
+                leaf.failure, leaf.attempts = "", 0
+        return ""
 
     def link(self, name: str, link: Link, serves_parameters: bool = False) -> None:
         """Note how a leaf is reached from now on; `serves_parameters`: one with mode services does so, too."""

@@ -13,9 +13,11 @@ from microros_gen.mode_manager.diagnosis import TOPIC, TYPE, Row, array_of, read
 from microros_gen.mode_manager.links import PartLink
 from microros_gen.mode_manager.messages import values_of
 from microros_gen.mode_manager.orchestrator import Orchestrator
+from microros_gen.mode_manager.parent_values import takers
 from microros_gen.mode_manager.problems import Problems, ProblemSource
 from microros_gen.mode_manager.scope import Scope
 from microros_gen.mode_manager.served import ServedPart
+from microros_gen.mode_manager.served_values import ServedValues
 from microros_gen.mode_manager.settings import Settings
 from microros_gen.modes.model import Model
 from microros_gen.ros.peer import Peer
@@ -51,6 +53,8 @@ class ModeManager(Serving):
         self.orchestrator = Orchestrator(model, scope, time.monotonic, settings, report)
         parts = [*scope.systems, *(leaf for leaf in scope.leaves if not leaf.is_system)]
         self._served = {part.name: ServedPart(peer, self.orchestrator, part) for part in parts}
+        for name in takers(model, scope):
+            ServedValues(peer, self.orchestrator, name)
         self._links = {
             name: PartLink(peer, self.orchestrator, leaf) for name, leaf in self.orchestrator.leaves.items()
         }

@@ -68,6 +68,13 @@ def resolve(
     return {name: _resolved(model, part, value, targets) for name, value in mode.parameters.items()}
 
 
+def parent_value(
+    model: Model, part: Part, name: str, targets: Mapping[str, Status]
+) -> Scalar | tuple[Scalar, ...] | None:
+    """Return the value of the parameter `name` of the system that a part is in, while the systems have `targets`."""
+    return _resolved(model, part, Value(None, "", part.span, part.span, name), targets)
+
+
 def _resolved(
     model: Model, part: Part, value: Value, targets: Mapping[str, Status]
 ) -> Scalar | tuple[Scalar, ...] | None:

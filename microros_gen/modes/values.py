@@ -55,6 +55,14 @@ def _value(name: str, entry: Entry, diagnostics: Diagnostics) -> Value | None:
     return None
 
 
+def type_of(value: Scalar | tuple[Scalar, ...] | None) -> str:
+    """Return the type of ROS 2 of a value or a list of values; empty: it has none."""
+    if isinstance(value, tuple):
+        kinds = set(map(_type_of, value))
+        return f"{kinds.pop()}[]" if len(kinds) == 1 else ""
+    return _type_of(value)
+
+
 def _type_of(value: Scalar | None) -> str:
     """Return the type of ROS 2; empty: it has none."""
     if isinstance(value, bool):

@@ -51,11 +51,11 @@ q:
 
 
 def world() -> World:
-    made = World(model_of(ARM), {"p": Node(values={"v": 1}), "q": Node(values={"w": 1})})
-    made.let(3)
-    made.request("arm", active())
-    assert made.status("arm") == "active.__DEFAULT__"
-    return made
+    arm = World(model_of(ARM), {"p": Node(values={"v": 1}), "q": Node(values={"w": 1})})
+    arm.let(3)
+    arm.request("arm", active())
+    assert arm.status("arm") == "active.__DEFAULT__"
+    return arm
 
 
 def played(script: str, text: str = ARM) -> Played:
@@ -172,16 +172,16 @@ def test_failures_on_many_days_do_not_count_as_an_oscillation() -> None:
 
 def test_a_session_that_was_lost() -> None:
     text = changed(ARM, "[p, errorprocessing]", "[p, unknown]")
-    made = World(model_of(text), {"p": Node(values={"v": 1}), "q": Node(values={"w": 1})})
-    made.let(3)
-    made.request("arm", active())
-    made.leave("p")
-    made.let(5)
-    assert targets(made) == "active.LIMP"
-    made.nodes["p"].is_dead, made.nodes["p"].state = False, "unconfigured"
-    made.join("p", made.nodes["p"])
-    made.let(5)
-    assert made.status("arm") == "active.__DEFAULT__"
+    arm = World(model_of(text), {"p": Node(values={"v": 1}), "q": Node(values={"w": 1})})
+    arm.let(3)
+    arm.request("arm", active())
+    arm.leave("p")
+    arm.let(5)
+    assert targets(arm) == "active.LIMP"
+    arm.nodes["p"].is_dead, arm.nodes["p"].state = False, "unconfigured"
+    arm.join("p", arm.nodes["p"])
+    arm.let(5)
+    assert arm.status("arm") == "active.__DEFAULT__"
 
 
 def test_a_device_that_reacts_to_its_error_is_commanded_when_that_is_over() -> None:
@@ -195,20 +195,20 @@ def test_a_device_that_reacts_to_its_error_is_commanded_when_that_is_over() -> N
         "      __DEFAULT__: {ros__parameters: {v: 1}}\n      SAFE: {ros__parameters: {v: 0}}",
     )
     device = Node(Link.MODES)
-    made = World(model_of(text), {"p": device, "q": Node(values={"w": 1})})
-    made.let(3)
-    made.request("arm", active())
-    first = len(made.sent)
-    made.manager.hear_problem("p", "battery: low")
+    arm = World(model_of(text), {"p": device, "q": Node(values={"w": 1})})
+    arm.let(3)
+    arm.request("arm", active())
+    first = len(arm.sent)
+    arm.manager.hear_problem("p", "battery: low")
     device.mode = "SAFE"
-    made.manager.hear_mode("p", "SAFE")
-    made.let(10)
-    assert targets(made) == "active.LIMP"
-    assert not [call for _, call in made.sent[first:] if call.part == "p"]
-    made.manager.hear_problem("p", "")
-    made.let(5)
-    assert (device.mode, made.status("arm")) == ("__DEFAULT__", "active.__DEFAULT__")
-    assert [call.kind for _, call in made.sent[first:] if call.part == "p"] == [Kind.CHANGE_MODE]
+    arm.manager.hear_mode("p", "SAFE")
+    arm.let(10)
+    assert targets(arm) == "active.LIMP"
+    assert not [call for _, call in arm.sent[first:] if call.part == "p"]
+    arm.manager.hear_problem("p", "")
+    arm.let(5)
+    assert (device.mode, arm.status("arm")) == ("__DEFAULT__", "active.__DEFAULT__")
+    assert [call.kind for _, call in arm.sent[first:] if call.part == "p"] == [Kind.CHANGE_MODE]
 
 
 def test_rules_that_lead_back_to_the_failure_are_refuted(tmp_path: Path) -> None:
