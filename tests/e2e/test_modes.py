@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from microros_gen.cli.modes.devices import read_system
+from microros_gen.mode_manager.leaflet import mine
 from microros_gen.mode_manager.scope import select_scope
 from microros_gen.mode_manager.server import ModeManager
 from microros_gen.mode_manager.settings import Settings
@@ -287,3 +288,22 @@ def test_a_manager_gives_values_of_the_parent_and_notices_those_of_others(
             until(lambda: not orchestrator.progress.is_moving("cell"))
             assert has(2.0, 0.75)
             lines.clear()
+
+
+def test_each_mode_of_the_device_is_mined(asker: Asker) -> None:
+    """What is printed are the values of the application file; the device is in its mode of before then."""
+    asker.state(CONFIGURE)
+    asker.state(ACTIVATE)
+    assert asker.change("FAST")
+    reported: list[str] = []
+    assert mine(asker.peer, "arm/device", seconds(30), reported.append).startswith(
+        "# Read in the mode FAST. Its modes: __DEFAULT__, SLOW, FAST "
+    )
+    text = mine(asker.peer, "arm/device", seconds(30), reported.append, each_mode=True)
+    assert (asker.mode(), reported) == ("FAST", [])
+    modes = model_of(text).parts["arm/device"].modes
+    assert {name: mode.parameters["speed"].value for name, mode in modes.items()} == {
+        "__DEFAULT__": 0.5,
+        "SLOW": 0.25,
+        "FAST": 2.0,
+    }

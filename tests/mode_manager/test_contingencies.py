@@ -60,24 +60,22 @@ def cell(text: str = CELL) -> World:
 
 def react(world: World, order: str = "states first") -> None:
     """Let the device reconfigure itself; its events are published in one of several orders."""
-    device, manager = world.nodes["device"], world.manager
+    device = world.nodes["device"]
     device.mode, device.state = "SAFE", "active"
     device.values.update(SPEEDS["SAFE"])
-    events = [lambda: manager.hear_mode("device", "SAFE")]
-    states = [
-        lambda s=s: manager.hear_state("device", s)
-        for s in ("deactivating", "inactive", "activating", "active")
-    ]
-    values = [lambda: manager.hear_parameters("device", SPEEDS["SAFE"])]
-    for event in {
-        "states first": [*states, *values, *events],
-        "mode first": [*events, *states, *values],
-        "values first": [*values, *states, *events],
-        "no states": [*values, *events],
+    reported: list[tuple[Kind, Any]] = [(Kind.GET_MODE, "SAFE")]
+    passed = ("deactivating", "inactive", "activating", "active")
+    states: list[tuple[Kind, Any]] = [(Kind.GET_STATE, state) for state in passed]
+    values: list[tuple[Kind, Any]] = [(Kind.GET_PARAMETERS, SPEEDS["SAFE"])]
+    for kind, what in {
+        "states first": [*states, *values, *reported],
+        "mode first": [*reported, *states, *values],
+        "values first": [*values, *states, *reported],
+        "no states": [*values, *reported],
         "one state": states[:2],
         "nothing": [],
     }[order]:
-        event()
+        world.publish("device", kind, what)
 
 
 @pytest.mark.parametrize(
@@ -102,7 +100,7 @@ def test_a_reaction_right_after_a_command(between: Kind) -> None:
     world = cell()
     world.request("cell", Status("inactive"))
     device = world.nodes["device"]
-    carry_out, reacted = device.carry_out, []
+    carry_out, reacted = device.carry_out, list[Call]()
 
     def reacting(call: Call) -> dict[str, Any]:
         response = carry_out(call)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import ExitStack
 
 import pytest
 from hypothesis import given
@@ -11,8 +12,10 @@ from hypothesis import strategies as st
 
 from microros_gen.diagnostics import UserError
 from microros_gen.mode_manager.leaflet import leaflet, mine
+from microros_gen.modes.model import Scalar
 from microros_gen.ros.peer import Peer
 from tests.support.agent.process import environment, own_domain
+from tests.support.mode_manager.device import Device, alive
 from tests.support.mode_manager.processes import node
 from tests.support.modes.models import model_of
 
@@ -54,9 +57,66 @@ def test_a_node_of_rclpy(monkeypatch: pytest.MonkeyPatch) -> None:
     ):
         running.wait_for("node ready")
         assert mine(peer, "/left/wheel", 30.0, reported.append) == leaflet(
-            "left/wheel", {"count": 2, "names": ("a", "b"), "speed": 1.0}
+            "left/wheel",
+            {"count": 2, "names": ("a", "b"), "speed": 1.0},
+            comment="Its current values; it does not say in which mode.",
         )
+        with pytest.raises(UserError) as refused:
+            mine(peer, "/left/wheel", 30.0, reported.append, each_mode=True)
+        assert [d.id for d in refused.value.diagnostics] == ["MG-8886"]
         with pytest.raises(UserError) as raised:
             mine(peer, "/right/wheel", 0.3, reported.append)
     assert [d.id for d in raised.value.diagnostics] == ["MG-8877"]
     assert reported == []
+
+
+SPEEDS = {"__DEFAULT__": {"speed": 0.5}, "SLOW": {"speed": 0.2}, "FAST": {"speed": 2.0, "law": "QUICK"}}
+
+
+def device() -> Device:
+    found = Device("device", tuple(SPEEDS), {"speed": 0.2, "law": "SLOW", "limit": 3}, SPEEDS)
+    found.state, found.mode = "active", "SLOW"
+    return found
+
+
+@pytest.mark.ros
+def test_each_mode_is_read_and_the_first_one_is_restored(stack: ExitStack, domain: int) -> None:
+    """Only what differs from __DEFAULT__ is printed; a mode that the node refuses is left out, and reported."""
+    assert domain >= 0
+    mined, reported = device(), list[str]()
+    stack.enter_context(alive(mined))
+    peer = stack.enter_context(Peer("miner"))
+    text = mine(peer, "/device", 30.0, reported.append)
+    modes = "__DEFAULT__, SLOW, FAST"
+    assert text.splitlines()[0] == (
+        f"# Read in the mode SLOW. Its modes: {modes} (--visit reads all of them)."
+    )
+    assert mined.requests == []
+    mined.values["law"] = "SLOW"
+    text = mine(peer, "/device", 30.0, reported.append, each_mode=True)
+    assert mined.requests == ["__DEFAULT__", "SLOW", "FAST", "SLOW"]
+    assert mined.mode == "SLOW"
+    default: dict[str, Scalar] = {"law": "SLOW", "limit": 3, "speed": 0.5}
+    others: dict[str, dict[str, Scalar]] = {"SLOW": {"speed": 0.2}, "FAST": {"law": "QUICK", "speed": 2.0}}
+    assert text == leaflet("device", default, others, "Read in each mode.")
+    read = model_of(text).parts["device"].modes
+    assert {n: v.value for n, v in read["FAST"].parameters.items()} == {**default, **others["FAST"]}
+    mined.refused = {"FAST"}
+    text = mine(peer, "/device", 30.0, reported.append, each_mode=True)
+    assert reported == ["FAST: the node does not change to it, and it is left out"]
+    assert list(model_of(text).parts["device"].modes) == ["__DEFAULT__", "SLOW"]
+
+
+@pytest.mark.ros
+def test_a_node_that_does_not_return_and_one_that_is_not_active(stack: ExitStack, domain: int) -> None:
+    assert domain >= 0
+    mined = device()
+    mined.refused = {"SLOW"}
+    stack.enter_context(alive(mined))
+    peer = stack.enter_context(Peer("miner"))
+    for identity in ("MG-8888", "MG-8887"):
+        with pytest.raises(UserError) as raised:
+            mine(peer, "/device", 30.0, print, each_mode=True)
+        assert [d.id for d in raised.value.diagnostics] == [identity]
+        mined.state = "inactive"
+    assert mine(peer, "/device", 30.0, print).startswith("# Read while it was not active")

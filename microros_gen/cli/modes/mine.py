@@ -18,18 +18,29 @@ from microros_gen.cli.modes.options import domain_option, modes_peer
     metavar="S",
     help="Seconds to wait for a node and for each of its responses.",
 )
+@click.option(
+    "--visit",
+    "each_mode",
+    is_flag=True,
+    help="Change each node to all of its modes, one after another, read its values there, and return to the first.",
+)
 @domain_option
-def mine_command(nodes: tuple[str, ...], timeout: float, domain: int | None) -> None:
+def mine_command(nodes: tuple[str, ...], timeout: float, each_mode: bool, domain: int | None) -> None:
     """Print running nodes as parts of a model file: their parameters, with the current values, as __DEFAULT__.
 
-    Other modes are then added by hand. The types are those of the values: 1.0 is a double, 1 an integer.
+    A comment says in which mode they are. With --visit all modes are printed; the node must be active and have mode
+    services. Otherwise other modes are added by hand. The types are those of the values: 1.0 is a double, 1 an integer.
 
     \b
     microros-gen modes mine /gripper /left/wheel
+    microros-gen modes mine --visit /arm/device
     """
     from microros_gen.mode_manager.leaflet import mine
 
     with modes_peer("mode_miner", domain) as peer:
         for node in nodes:
-            lines = mine(peer, node, timeout, lambda line: click.echo(f"warning: {line}", err=True))
-            click.echo(lines, nl=False)
+            click.echo(mine(peer, node, timeout, _warn, each_mode), nl=False)
+
+
+def _warn(line: str) -> None:
+    click.echo(f"warning: {line}", err=True)

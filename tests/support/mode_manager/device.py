@@ -22,7 +22,8 @@ class Device:
     """Its state and mode; it keeps the mode while it is not active.
 
     `agent_says` is published as what an agent knows of its client: 0 connected, 1 silent. With `values` it serves
-    parameters as well, of which `mode_values` has those of each mode; `reacts` has the modes that it goes to itself.
+    parameters as well, of which `mode_values` has those of each mode; `reacts` has the modes that it goes to itself,
+    and `refused` those that it does not take.
     """
 
     def __init__(
@@ -35,6 +36,7 @@ class Device:
         self.name, self.modes = name, modes
         self.values, self.mode_values = dict(values or {}), mode_values or {}
         self.reacts: list[str] = []
+        self.refused: set[str] = set()
         self.state, self.mode = "unconfigured", "__DEFAULT__"
         self.agent_says: list[int] = []
         self.requests: list[Any] = []
@@ -46,6 +48,7 @@ class Device:
         for service, kind, answer in (
             ("get_state", "lifecycle_msgs/srv/GetState", self._get_state),
             ("change_state", "lifecycle_msgs/srv/ChangeState", self._change_state),
+            ("get_available_modes", "system_modes_msgs/srv/GetAvailableModes", self._get_modes),
             ("get_mode", "system_modes_msgs/srv/GetMode", self._get_mode),
             ("change_mode", "system_modes_msgs/srv/ChangeMode", self._change_mode),
         ):
@@ -54,6 +57,7 @@ class Device:
         if self.values:
             self._changes = peer.publisher("/parameter_events", "rcl_interfaces/msg/ParameterEvent")
             for service, kind, answer in (
+                ("list_parameters", "ListParameters", self._list_parameters),
                 ("get_parameters", "GetParameters", self._get_parameters),
                 ("set_parameters", "SetParameters", self._set_parameters),
                 ("set_parameters_atomically", "SetParametersAtomically", self._set_atomically),
@@ -88,6 +92,12 @@ class Device:
             event = {"node": f"/{self.name}", "changed_parameters": parameters_of(values)}
             self._changes.publish(event)
 
+    def _list_parameters(self, _: Mapping[str, Any]) -> Mapping[str, Any]:
+        return {"result": {"names": list(self.values)}}
+
+    def _get_modes(self, _: Mapping[str, Any]) -> Mapping[str, Any]:
+        return {"available_modes": list(self.modes)}
+
     def _get_parameters(self, request: Mapping[str, Any]) -> Mapping[str, Any]:
         known = {p["name"]: p["value"] for p in parameters_of(self.values)}
         return {"values": [known.get(name, {"type": 0}) for name in request["names"]]}
@@ -119,7 +129,8 @@ class Device:
     def _change_mode(self, request: Mapping[str, Any]) -> Mapping[str, Any]:
         mode = request["mode_name"]
         self.requests.append(mode)
-        if self.state not in ("active", "inactive") or mode not in self.modes:
+        accepts = mode in self.modes and mode not in self.refused
+        if self.state not in ("active", "inactive") or not accepts:
             return {"success": False}
         self._enter(mode)
         return {"success": True}
