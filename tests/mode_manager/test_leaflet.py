@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from contextlib import ExitStack
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -70,7 +71,11 @@ def test_a_node_of_rclpy(monkeypatch: pytest.MonkeyPatch) -> None:
     assert reported == []
 
 
-SPEEDS = {"__DEFAULT__": {"speed": 0.5}, "SLOW": {"speed": 0.2}, "FAST": {"speed": 2.0, "law": "QUICK"}}
+SPEEDS: dict[str, dict[str, Any]] = {
+    "__DEFAULT__": {"speed": 0.5},
+    "SLOW": {"speed": 0.2},
+    "FAST": {"speed": 2.0, "law": "QUICK"},
+}
 
 
 def device() -> Device:
