@@ -237,6 +237,7 @@ cell:
 """
 
 
+@pytest.mark.system
 def test_a_mode_manager_leaves_the_requested_mode_alone(
     board: Board, domain: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -115,6 +115,7 @@ device: {ros__parameters: {type: node, diagnostics: {level: [warn, stale]}}}
 
 
 @pytest.mark.ros
+@pytest.mark.system
 def test_a_warning_on_diagnostics_degrades_the_arm(stack: ExitStack, domain: int, tmp_path: Path) -> None:
     path = tmp_path / "arm.yaml"
     text = changed(ARM, GRIPPER, f"{GRIPPER}    diagnostics: {{level: warn, names: [motor]}}\n")

@@ -224,6 +224,7 @@ def test_rules_that_lead_back_to_the_failure_are_refuted(tmp_path: Path) -> None
 
 
 @pytest.mark.ros
+@pytest.mark.system
 def test_an_arm_of_rclpy_recovers(stack: ExitStack, domain: int, tmp_path: Path) -> None:
     path = tmp_path / "arm.yaml"
     path.write_text(ARM, encoding="utf-8")
