@@ -8,21 +8,26 @@ from typing import Any
 
 import pytest
 
+from microros_gen.ros.endpoints import SETTLE_S
 from microros_gen.ros.peer import Peer
 from tests.support.mode_manager.arm import ARM, GRIPPER, JOINT, start
 from tests.support.mode_manager.device import Device, alive
+from tests.support.patience import seconds
 
 pytestmark = pytest.mark.ros
 
 
 def goals_of(peer: Peer, name: str) -> list[str]:
-    """Return a list that gets the goal of each transition event of a node."""
+    """Return a list that gets the goal of each transition event of a node, which is connected already."""
     goals: list[str] = []
 
     def note(event: dict[str, Any]) -> None:
         goals.append(event["goal_state"]["label"])
 
-    peer.subscribe(f"/{name}/transition_event", "lifecycle_msgs/msg/TransitionEvent", note)
+    topic = f"/{name}/transition_event"
+    subscription = peer.subscribe(topic, "lifecycle_msgs/msg/TransitionEvent", note)
+    assert peer.spin(lambda: subscription.publishers() > 0, seconds(30)), topic
+    peer.spin(lambda: False, SETTLE_S)  # the publisher may discover the subscription a little later
     return goals
 
 
