@@ -38,8 +38,9 @@ class PackageDescription:
 
     `origin` says who brings it where it does not ship with the tool. `conditions` are those of files below files/,
     by the beginning of their paths. `transports`: empty means all. `defines` are capabilities whose functions files/
-    has. `project` says what a new project with the package consists of; None: nothing.
-    `next_folder` and `next_archive` say what the user does with the result, `{out}`.
+    has. `project` says what a new project with the package consists of; None: nothing. `next_folder` and `next_archive`
+    say what the user does with the result, `{out}`. `files_of` is the package whose files/ this one has, too; own files
+    replace those of the same path.
     """
 
     name: str
@@ -55,6 +56,7 @@ class PackageDescription:
     conditions: tuple[tuple[str, Conditions], ...]
     project: Project | None = None
     origin: str = ""
+    files_of: PackageDescription | None = None
 
     @property
     def general_plan(self) -> Path:
@@ -76,13 +78,34 @@ class PackageDescription:
 
     def conditions_of(self, path: str) -> Conditions:
         """Return the conditions of a file below files/."""
-        return tuple(each for prefix, when in self.conditions if path.startswith(prefix) for each in when)
+        own = tuple(each for prefix, when in self.conditions if path.startswith(prefix) for each in when)
+        return own if self.files_of is None else self.files_of.conditions_of(path) + own
+
+    def own_files(self) -> dict[str, Path]:
+        """Return the files below files/ by their paths there, those of `files_of` included."""
+        folder = self.folder / FILES_FOLDER
+        files = {} if self.files_of is None else self.files_of.own_files()
+        files |= {path.relative_to(folder).as_posix(): path for path in folder.rglob("*") if path.is_file()}
+        return files
+
+
+def files_of(source: Source) -> str:
+    """Return what `files_of` of a package.yaml says: the name of a package, or an empty text."""
+    tree = parse_yaml(source, Diagnostics())
+    return child_text(tree, "files_of") if isinstance(tree, MappingNode) else ""
 
 
 def parse_package(
-    source: Source, folder: Path, origin: str, diagnostics: Diagnostics
+    source: Source,
+    folder: Path,
+    origin: str,
+    diagnostics: Diagnostics,
+    base: PackageDescription | None = None,
 ) -> PackageDescription | None:
-    """Return the package that `source`, in `folder`, describes; None and errors in `diagnostics` if it is wrong."""
+    """Return the package that `source`, in `folder`, describes; None and errors in `diagnostics` if it is wrong.
+
+    `base` is the package that its `files_of` names.
+    """
     found = Diagnostics()
     tree = parse_yaml(source, found)
     if not found.has_errors():
@@ -113,6 +136,7 @@ def parse_package(
         conditions=tuple((e.key, conditions_of(e.value)) for e in entries(tree.get("files"))),
         project=parse_project(tree.get("project")),
         origin=origin,
+        files_of=base,
     )
 
 

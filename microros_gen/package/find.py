@@ -7,7 +7,7 @@ from pathlib import Path
 
 from microros_gen.diagnostics import Diagnostics, Source, nearest
 from microros_gen.documents.files import is_file, read_text, reason_of
-from microros_gen.package.description import PACKAGE_FILE, PackageDescription, parse_package
+from microros_gen.package.description import PACKAGE_FILE, PackageDescription, files_of, parse_package
 from microros_gen.selection.extension import INSTALLED, Extensions, own_name
 from microros_gen.selection.find_components import parts_folder
 
@@ -41,7 +41,10 @@ def read_package(
         )
         diagnostics.error(f"cannot read '{path}': {reason_of(error)}", hint=hint, id="MG-9203")
         return None
-    return parse_package(source, folder, origin, diagnostics)
+    base = None
+    if files_of(source) in builtin_packages():
+        base = read_package(files_of(source), diagnostics, extensions)
+    return parse_package(source, folder, origin, diagnostics, base)
 
 
 def _find(name: str, diagnostics: Diagnostics, extensions: Extensions) -> tuple[Path, str] | None:

@@ -17,7 +17,7 @@ from microros_gen.documents.own_templates import render_own
 from microros_gen.documents.templates import shared_environment
 from microros_gen.output.manifest import manifest_text
 from microros_gen.output.tree import MANIFEST
-from microros_gen.package.description import FILES_FOLDER, PackageDescription
+from microros_gen.package.description import PackageDescription
 from microros_gen.package.find import read_package
 from microros_gen.package.sbom import SBOM, sbom
 from microros_gen.package.view import PackageView, holds, package_view
@@ -146,9 +146,7 @@ def _check_twice(package: PackageDescription, files: Mapping[str, bytes], names:
 
 def _own_files(plan: PackagePlan) -> Iterator[tuple[str, Path]]:
     """Yield the files below files/ that belong to the plan, with their paths there."""
-    folder = plan.package.folder / FILES_FOLDER
-    for path in sorted(p for p in folder.rglob("*") if p.is_file()):
-        name = path.relative_to(folder).as_posix()
+    for name, path in sorted(plan.package.own_files().items()):
         if holds(plan.package.conditions_of(name), plan.planned, plan.general):
             yield name, path
 

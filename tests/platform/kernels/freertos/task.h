@@ -38,6 +38,9 @@ void vTaskSuspend(TaskHandle_t task);
 
 void kernel_critical(int is_entered);
 void vTaskDelay(TickType_t ticks);
+
+#define taskSCHEDULER_RUNNING ((BaseType_t)2)
+BaseType_t xTaskGetSchedulerState(void);
 void vTaskSuspendAll(void);
 BaseType_t xTaskResumeAll(void);
 void vTaskSetTimeOutState(TimeOut_t * now);

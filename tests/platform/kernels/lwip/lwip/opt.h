@@ -4,6 +4,7 @@
 #define STAND_IN_LWIP_OPT_H
 
 #define LWIP_NETCONN 1
+#define LWIP_SO_RCVTIMEO 1
 #ifndef LWIP_IPV6
 #define LWIP_IPV6 1
 #endif

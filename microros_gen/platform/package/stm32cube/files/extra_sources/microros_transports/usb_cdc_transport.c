@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * USB CDC, "Virtual Port Com" of STM32CubeMX at the full-speed connector; MICROROS_USB_HS: at the high-speed one. Replaces
+ * the functions Receive and TransmitCplt of the generated usbd_cdc_if.c. What has no room is not accepted from the computer,
+ * which repeats it: nothing is lost.
+ */
+#include "cubemx_transport.h"
+
+#if !defined(MICROROS_TRANSPORT) || MICROROS_TRANSPORT == MICROROS_TRANSPORT_USB_CDC
+
+#include "../microros_hal.h"
+
+#include "usbd_cdc.h"
+#include "usbd_cdc_if.h"
+
+#include <string.h>
+
+#if defined(MICROROS_USB_HS)
+#define USB_DEVICE hUsbDeviceHS
+#define USB_FUNCTIONS USBD_Interface_fops_HS
+#define USB_TRANSMIT CDC_Transmit_HS
+#define USB_PACKET CDC_DATA_HS_MAX_PACKET_SIZE
+#else
+#define USB_DEVICE hUsbDeviceFS
+#define USB_FUNCTIONS USBD_Interface_fops_FS
+#define USB_TRANSMIT CDC_Transmit_FS
+#define USB_PACKET CDC_DATA_FS_MAX_PACKET_SIZE
+#endif
+
+extern USBD_HandleTypeDef USB_DEVICE;
+
+static uint8_t rx[MICROROS_RX_SIZE];
+static uint8_t tx[MICROROS_TX_SIZE];
+static volatile size_t rx_first; /* position of the next byte to read; only the reader changes it */
+static volatile size_t rx_end;   /* position behind the last one; only the interrupt changes it */
+static volatile bool is_held;    /* the next packet was not asked for, for want of room */
+static volatile bool is_sending;
+static bool is_open;
+
+static size_t rx_room(void)
+{
+  return (rx_first + MICROROS_RX_SIZE - rx_end - 1u) % MICROROS_RX_SIZE;
+}
+
+/* Called by the interrupt of USB; there is room for a packet. */
+static int8_t usb_received(uint8_t * data, uint32_t * size)
+{
+  size_t end = rx_end;
+
+  for (uint32_t i = 0; i < *size; ++i) {
+    rx[end] = data[i];
+    end = (end + 1u) % MICROROS_RX_SIZE;
+  }
+  rx_end = end;
+  (void)USBD_CDC_SetRxBuffer(&USB_DEVICE, data);
+  if (rx_room() < (size_t)USB_PACKET) {
+    is_held = true;
+    return (int8_t)USBD_OK;
+  }
+  return (int8_t)USBD_CDC_ReceivePacket(&USB_DEVICE);
+}
+
+static int8_t usb_sent(uint8_t * data, uint32_t * size, uint8_t endpoint)
+{
+  (void)data;
+  (void)size;
+  (void)endpoint;
+  is_sending = false;
+  return (int8_t)USBD_OK;
+}
+
+/* Called again after each outage of the agent. */
+bool cubemx_transport_open(struct uxrCustomTransport * transport)
+{
+  (void)transport;
+  if (!is_open) {
+    USB_FUNCTIONS.Receive = usb_received;
+    USB_FUNCTIONS.TransmitCplt = usb_sent;
+    is_open = true;
+  }
+  return true;
+}
+
+/* What the computer sends later waits for the next session. */
+bool cubemx_transport_close(struct uxrCustomTransport * transport)
+{
+  (void)transport;
+  return true;
+}
+
+/* Waits until the bytes of the previous write are sent. Without a computer that reads, the time runs out. */
+size_t cubemx_transport_write(
+  struct uxrCustomTransport * transport, const uint8_t * buf, size_t len, uint8_t * err)
+{
+  const uint32_t start_ms = HAL_GetTick();
+  const size_t size = len < sizeof(tx) ? len : sizeof(tx);
+  uint8_t result;
+
+  (void)transport;
+  while (is_sending) {
+    if ((HAL_GetTick() - start_ms) >= MICROROS_WRITE_TIMEOUT_MS) {
+      is_sending = false; /* after the cable was pulled nothing completes; the next write asks the device */
+      *err = 1;
+      return 0;
+    }
+    cubemx_rest();
+  }
+  (void)memcpy(tx, buf, size);
+  is_sending = true;
+  result = (uint8_t)USB_TRANSMIT(tx, (uint16_t)size);
+  if (result != (uint8_t)USBD_OK) {
+    is_sending = false;
+    *err = result;
+    return 0;
+  }
+  return size;
+}
+
+static void held_packet_accept(void)
+{
+  if (is_held && rx_room() >= (size_t)USB_PACKET) {
+    const uint32_t mask = __get_PRIMASK();
+
+    __disable_irq(); /* between this task and the interrupt of USB */
+    is_held = false;
+    (void)USBD_CDC_ReceivePacket(&USB_DEVICE);
+    __set_PRIMASK(mask);
+  }
+}
+
+size_t cubemx_transport_read(
+  struct uxrCustomTransport * transport, uint8_t * buf, size_t len, int timeout, uint8_t * err)
+{
+  const uint32_t start_ms = HAL_GetTick();
+  size_t count = 0;
+
+  (void)transport;
+  (void)err;
+  while (rx_end == rx_first) {
+    if (!cubemx_rest_until(start_ms, timeout)) {
+      return 0;
+    }
+  }
+  while (count < len && rx_end != rx_first) {
+    buf[count] = rx[rx_first];
+    ++count;
+    rx_first = (rx_first + 1u) % MICROROS_RX_SIZE;
+  }
+  held_packet_accept();
+  return count;
+}
+
+#endif

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The package `stm32cube`: its sources compile for STM32 processors, and its functions over stand-ins reach ROS 2.
+
+The compilation against tests/support/package/stm32_hal is a check of syntax: those headers have the declarations that
+the package calls. What was seen with the public HAL is in docs/verification/ports.md.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from microros_gen import compiler
+from microros_gen.package.render import describe, plan_package, render_package
+from tests.support.agent.observer import observing
+from tests.support.agent.process import own_domain, running_agent
+from tests.support.command_line import Runner
+from tests.support.package.pio import running
+from tests.support.paths import TESTS
+from tests.support.patience import seconds
+
+STAND_INS = TESTS / "support" / "package"
+KERNELS = TESTS / "platform" / "kernels"
+LIBRARY = "micro_ros_stm32cubemx_utils"
+HEADERS = "microros_static_library/libmicroros/microros_include"
+WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Werror")
+PROCESSORS = {
+    "cortex-m0plus": (),
+    "cortex-m4": ("-DMICROROS_TIME_US=timer_count",),
+    "cortex-m7": ("-DSTM32_HAS_CACHE",),
+    "cortex-m33": ("-DMICROROS_USB_HS", "-DMICROROS_UART_CALLBACK=0"),
+}
+TASKS = """\
+version: 1
+profiles: [pure_sender]
+components: [+multithread, +diagnosis]
+nodes: [{name: n, publishers: [{topic: t, type: std_msgs/msg/Int32}]}]
+"""
+
+
+def written(folder: Path, config: Path | None = None) -> Path:
+    """Write the package below `folder`; return its folder."""
+    out = folder / LIBRARY
+    compiler.write(render_package(plan_package(describe("stm32cube"), config)), out)
+    return out
+
+
+def complaints(out: Path, processor: str, *flags: str, kernel: bool = False) -> str:
+    """Return what the compiler says of the package's own sources."""
+    if shutil.which("arm-none-eabi-gcc") is None:
+        pytest.skip("no arm-none-eabi-gcc")
+    folders = [out / HEADERS, STAND_INS / "stm32_hal", STAND_INS / "stm32_hal" / "usb", KERNELS / "lwip"]
+    folders += [out / "extra_sources" / "microros_transports", *([KERNELS / "freertos"] if kernel else [])]
+    files = [path for path in sorted(out.rglob("*.c")) if "src" not in path.parts]
+    if not kernel:
+        files = [path for path in files if path.name != "microros_lock.c"]
+    call = [
+        "arm-none-eabi-gcc",
+        f"-mcpu={processor}",
+        "-mthumb",
+        "-std=c99",
+        "-fsyntax-only",
+        *WARNINGS,
+        *flags,
+    ]
+    call += [*(f"-I{path}" for path in folders), *map(str, files)]
+    return subprocess.run(call, capture_output=True, text=True, check=False).stderr
+
+
+@pytest.mark.builds
+@pytest.mark.parametrize("processor", PROCESSORS)
+def test_the_sources_call_what_the_hal_declares(processor: str, tmp_path: Path) -> None:
+    assert complaints(written(tmp_path), processor, *PROCESSORS[processor]) == ""
+
+
+@pytest.mark.builds
+def test_the_sources_call_what_the_kernel_declares(folder: Path) -> None:
+    (folder / "own.yaml").write_text(TASKS)
+    out = written(folder, folder / "own.yaml")
+    assert complaints(out, "cortex-m4", kernel=True) == ""
+    lock = subprocess.run(
+        ["gcc", "-fsyntax-only", f"-I{out / HEADERS}", f"-I{STAND_INS / 'stm32_hal'}"]
+        + [str(out / "extra_sources" / "microros_lock.c")],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert "+multithread needs FreeRTOS" in lock.stderr
+
+
+@pytest.mark.builds
+@pytest.mark.parametrize("chosen", ["DMA", "IT", "USB_CDC", "UDP"])
+def test_one_transport_is_left_where_all_files_are_compiled(chosen: str, tmp_path: Path) -> None:
+    if shutil.which("arm-none-eabi-gcc") is None:
+        pytest.skip("no arm-none-eabi-gcc")
+    out = written(tmp_path)
+    folders = [out / HEADERS, STAND_INS / "stm32_hal", STAND_INS / "stm32_hal" / "usb", KERNELS / "lwip"]
+    found = []
+    for source in sorted((out / "extra_sources" / "microros_transports").glob("*.c")):
+        made = tmp_path / f"{source.stem}.o"
+        call = ["arm-none-eabi-gcc", "-mcpu=cortex-m4", "-mthumb", "-c", str(source), "-o", str(made)]
+        call += [*(f"-I{path}" for path in folders), f"-DMICROROS_TRANSPORT=MICROROS_TRANSPORT_{chosen}"]
+        subprocess.run(call, check=True)
+        names = subprocess.run(["arm-none-eabi-nm", str(made)], capture_output=True, text=True, check=True)
+        found += [source.stem] * names.stdout.count(" T cubemx_transport_open")
+    assert found == [f"{chosen.lower()}_transport"]
+
+
+def made(folder: Path, *call: str) -> subprocess.CompletedProcess[str]:
+    """Run a command of a build in a folder; it must succeed."""
+    done = subprocess.run(call, cwd=folder, capture_output=True, text=True, timeout=seconds(200), check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done
+
+
+def project(folder: Path, config: Path | None = None) -> Path:
+    """Write a project as STM32CubeMX makes it, for this computer, with the package."""
+    shutil.copytree(STAND_INS / "stm32_project", folder)
+    shutil.copytree(STAND_INS / "stm32_hal", folder / "hal")
+    written(folder, config)
+    return folder
+
+
+@pytest.mark.ros
+@pytest.mark.builds
+@pytest.mark.system
+@pytest.mark.parametrize("transport", ["dma", "it"])
+def test_the_example_reaches_ros(transport: str, tmp_path: Path) -> None:
+    place = project(tmp_path / "project")
+    made(place, "make", "-j2", f"MICROROS_TRANSPORT={transport}")
+    domain, link = own_domain(), tmp_path / "line"
+    with (
+        running_agent(domain, "--domain", str(domain), transport=("pty", "--link", str(link))),
+        observing(domain) as observer,
+        running(place / "build" / "project.elf", STM32_LINE=str(link), STM32_ERROR_EVERY="400"),
+    ):
+        observer.subscribe("/cubemx_publisher", "std_msgs/msg/Int32")
+        samples = observer.got(4, timeout_s=40, topic="/cubemx_publisher")
+    numbers = [value["data"] for _, value in samples]
+    assert numbers == list(range(numbers[0], numbers[0] + len(numbers)))
+
+
+@pytest.mark.builds
+@pytest.mark.system
+def test_cmake_builds_the_same_project(tmp_path: Path) -> None:
+    place = project(tmp_path / "project")
+    made(place, "cmake", "-S", ".", "-B", "build", "-DMICROROS_TRANSPORT=it")
+    made(place, "cmake", "--build", "build", "-j2")
+    assert os.access(place / "build" / "project", os.X_OK)
+    wrong = subprocess.run(
+        ["cmake", "-S", ".", "-B", "other", "-DMICROROS_TRANSPORT=spi"],
+        cwd=place,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert "MICROROS_TRANSPORT is 'spi'; it must be dma, it, usb_cdc, udp or none" in wrong.stderr
+
+
+def test_what_the_package_defines_is_not_asked_for(run: Runner, folder: Path) -> None:
+    (folder / "more.yaml").write_text(TASKS)
+    for options in ((), ("-c", "more.yaml")):
+        done = run("package", "stm32cube", *options, "-o", "out")
+        assert (done.status, "you define" in done.out) == (0, False), done.err
