@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import os
+import select
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -18,6 +20,7 @@ from microros_gen.selection.find_components import components_folder
 from microros_gen.selection.find_profiles import load_builtin_profiles
 from tests.support.command_line import Runner
 from tests.support.environments import clean_environ
+from tests.support.patience import deadline
 
 NOT_NEEDED = (
     *("lark", "elftools", "squarify", "rclpy", "asyncio", "jsonschema", "microros_gen.agent.core"),
@@ -28,7 +31,7 @@ NOT_NEEDED = (
         "microros_gen.migrate",
         "microros_gen.ros.peer",
     ),
-    *("microros_gen.mode_manager.orchestrator"),
+    "microros_gen.mode_manager.orchestrator",
     *("microros_gen.toolchain.compile", "microros_gen.typesupport.plan.types"),
 )
 """What takes long to import; with any of them a press of Tab takes more than 150 ms."""
@@ -44,6 +47,18 @@ _microros_gen_completion microros-gen
 printf '%s\\n' "${COMPREPLY[@]}"
 complete -p microros-gen
 """
+
+ZSH = """\
+autoload -Uz compinit
+compinit -u -D
+source <(microros-gen completion zsh)
+write_line() { print -r -- "$BUFFER" > "$LINE_FILE"; print -r -- writ""ten }
+zle -N write_line
+bindkey '^X' write_line
+PROMPT='> '
+print -r -- typ""ing
+"""
+SEARCHED = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
 
 
 def offered(*words: str) -> list[str]:
@@ -129,7 +144,6 @@ def test_a_press_of_tab_imports_little(words: tuple[str, ...]) -> None:
 @pytest.mark.skipif(shutil.which("bash") is None, reason="no bash")
 @pytest.mark.builds
 def test_in_a_real_bash(tmp_path: Path) -> None:
-    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
     for words, expected in {
         ("res",): ["resolve"],
         ("build", "--profile", "pure_s"): ["pure_sender"],
@@ -137,12 +151,77 @@ def test_in_a_real_bash(tmp_path: Path) -> None:
     }.items():
         command = ["bash", "--norc", "-c", BASH, "bash", "microros-gen", *words]
         done = subprocess.run(
-            command, env=clean_environ(PATH=path), cwd=tmp_path, capture_output=True, text=True, check=True
+            command,
+            env=clean_environ(PATH=SEARCHED),
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            check=True,
         )
         *found, registered = done.stdout.splitlines()
         assert found == expected
         assert registered == "complete -o nosort -F _microros_gen_completion microros-gen"
         assert done.stderr == ""
+
+
+COMPLETED = {
+    "microros-gen res": "microros-gen resolve",
+    "microros-gen build --profile pure_s": "microros-gen build --profile pure_sender",
+    "microros-gen interfaces std_msgs/msg/Bo": "microros-gen interfaces std_msgs/msg/Bool",
+}
+
+
+@pytest.mark.skipif(shutil.which("fish") is None, reason="no fish: apt-get install fish")
+@pytest.mark.builds
+def test_in_a_real_fish(tmp_path: Path) -> None:
+    environment = clean_environ(PATH=SEARCHED, HOME=str(tmp_path), XDG_CONFIG_HOME=str(tmp_path))
+    for typed, expected in COMPLETED.items():
+        script = 'microros-gen completion fish | source; complete --do-complete "$argv[1]"'
+        done = subprocess.run(
+            ["fish", "--no-config", "-c", script, typed],
+            env=environment,
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        found = [line.partition("\t")[0] for line in done.stdout.splitlines() if line]
+        assert (found, done.stderr) == ([expected.split()[-1]], "")
+
+
+@pytest.mark.skipif(shutil.which("zsh") is None, reason="no zsh: apt-get install zsh")
+@pytest.mark.builds
+def test_in_a_real_zsh(tmp_path: Path) -> None:
+    """Keys are typed at a terminal; the last one writes what the line then has."""
+    result, start = tmp_path / "line", tmp_path / "start.zsh"
+    start.write_text(ZSH)
+    environment = clean_environ(PATH=SEARCHED, HOME=str(tmp_path), TERM="dumb", LINE_FILE=str(result))
+    for typed, expected in COMPLETED.items():
+        result.unlink(missing_ok=True)
+        terminal, end = os.openpty()
+        zsh = subprocess.Popen(
+            ["zsh", "-f", "-i"], env=environment, cwd=tmp_path, stdin=end, stdout=end, stderr=end
+        )
+        try:
+            os.close(end)
+            os.write(terminal, f"source {start}\n".encode())
+            _read_until(terminal, "typing")
+            os.write(terminal, f"{typed}\t\x18".encode())
+            _read_until(terminal, "written")
+            assert result.read_text().strip() == expected
+        finally:
+            zsh.kill()
+            zsh.wait()
+            os.close(terminal)
+
+
+def _read_until(terminal: int, text: str) -> None:
+    """Read what a shell prints until it has printed `text`."""
+    found, end = "", deadline(20)
+    while text not in found:
+        assert time.monotonic() < end, found
+        if select.select([terminal], [], [], 0.5)[0]:
+            found += os.read(terminal, 4096).decode(errors="replace")
 
 
 @pytest.mark.parametrize(

@@ -63,6 +63,28 @@ def test_nothing_is_lost_over_a_bad_network(
 
 
 @pytest.mark.system
+def test_nothing_is_lost_over_6lowpan(images: Images, observer: Observer, domain: int) -> None:
+    """IPv6 with datagrams of at most 80 bytes, as frames of IEEE 802.15.4 hold them (D1.4, 4.9.1), and with loss."""
+    count = 200
+    with (
+        Relay("::1") as relay,
+        running_agent(
+            domain, "--domain", str(domain), transport=("udp6", "--port", "0", "--bind", "::1")
+        ) as agent,
+    ):
+        transport = f"transport: {{type: udp, agent: '[::1]:{relay.port}', mtu: 80}}"
+        image = images.build(0, APPLICATION.format(transport=transport), flags=QUICK)
+        program = image.application(
+            C_FILES / "echo.c", image.out.parent / "echo", "-std=c99", "-Wall", "-Werror"
+        )
+        relay.connect(agent.port)
+        relay.fault = lossy(count)
+        counted = echo(observer, program, count, 60)
+    assert counted["resent"] > count // 8
+    assert 60 < relay.largest <= 80
+
+
+@pytest.mark.system
 def test_nothing_is_lost_over_a_bad_line(
     images: Images, observer: Observer, domain: int, tmp_path: Path
 ) -> None:

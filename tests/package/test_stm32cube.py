@@ -83,8 +83,10 @@ def test_the_sources_call_what_the_kernel_declares(folder: Path) -> None:
     out = written(folder, folder / "own.yaml")
     assert complaints(out, "cortex-m4", kernel=True) == ""
     lock = subprocess.run(
-        ["gcc", "-fsyntax-only", f"-I{out / HEADERS}", f"-I{STAND_INS / 'stm32_hal'}"]
-        + [str(out / "extra_sources" / "microros_lock.c")],
+        [
+            *("gcc", "-fsyntax-only", f"-I{out / HEADERS}", f"-I{STAND_INS / 'stm32_hal'}"),
+            str(out / "extra_sources" / "microros_lock.c"),
+        ],
         capture_output=True,
         text=True,
         check=False,

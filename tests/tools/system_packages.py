@@ -32,6 +32,8 @@ NEEDED = {
     "/usr/share/arduino/hardware/arduino/avr/boards.txt": "arduino-core-avr",
     "/usr/include/libelf.h": "libelf-dev",
     "make": "make",
+    "zsh": "zsh",
+    "fish": "fish",
     "tcc": "tcc",
     "nm": "binutils",
     "valgrind": "valgrind",

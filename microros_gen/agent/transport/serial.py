@@ -12,6 +12,7 @@ import fcntl
 import os
 import re
 import stat
+import struct
 import termios
 import tty
 from pathlib import Path
@@ -21,6 +22,14 @@ from microros_gen.agent.transport.line import Line
 from microros_gen.diagnostics import Diagnostic, UserError
 
 DEFAULT_BAUD = 115_200
+_GET_SERIAL, _SET_SERIAL = 0x541E, 0x541F
+"""TIOCGSERIAL and TIOCSSERIAL of Linux (asm-generic/ioctls.h), which Python has no names for."""
+_SERIAL_STRUCT = 128
+"""Room for struct serial_struct of linux/serial.h: 72 bytes with 64-bit pointers."""
+_FLAGS = 16
+"""Where it has `flags`: after type, line, port and irq."""
+_LOW_LATENCY = 1 << 13
+"""ASYNC_LOW_LATENCY of linux/tty_flags.h."""
 _ABSENT = (errno.ENOENT, errno.ENXIO, errno.ENODEV, errno.EIO)
 
 
@@ -59,6 +68,7 @@ def open_device(device: str, baud: int) -> int:
         except BlockingIOError as error:
             raise OSError(errno.EBUSY, os.strerror(errno.EBUSY)) from error
         _make_raw(descriptor, baud)
+        make_prompt(descriptor)
     except termios.error as error:
         os.close(descriptor)
         raise OSError(*error.args) from error
@@ -66,6 +76,24 @@ def open_device(device: str, baud: int) -> int:
         os.close(descriptor)
         raise
     return descriptor
+
+
+def make_prompt(descriptor: int) -> bool:
+    """Ask the driver of a device to pass on bytes at once; return whether it does.
+
+    An FTDI adapter otherwise collects them for 16 ms. A device without the setting (USB CDC, a pseudo-terminal) and
+    a user who may not change it are no errors.
+    """
+    settings = bytearray(_SERIAL_STRUCT)
+    try:
+        fcntl.ioctl(descriptor, _GET_SERIAL, settings)
+        (flags,) = struct.unpack_from("=i", settings, _FLAGS)
+        if not flags & _LOW_LATENCY:
+            struct.pack_into("=i", settings, _FLAGS, flags | _LOW_LATENCY)
+            fcntl.ioctl(descriptor, _SET_SERIAL, settings)
+    except OSError:
+        return False
+    return True
 
 
 class Pty(Line):

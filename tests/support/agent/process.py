@@ -100,7 +100,7 @@ def running_agent(
     agent = AgentProcess(process)
     try:
         place = agent.wait_for(READY).rpartition(" ")[2].rstrip('"}')
-        if transport[0] == "udp4":
+        if transport[0] in ("udp4", "udp6"):
             agent.port = int(place.rpartition(":")[2])
         agent.device = place
         yield agent

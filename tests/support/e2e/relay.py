@@ -80,14 +80,18 @@ class _Waiting:
 class Relay:
     """Listens on a separate port from the start; used as a context manager."""
 
-    def __init__(self) -> None:
+    def __init__(self, host: str = "127.0.0.1") -> None:
+        """`host`: the loopback address of IPv4, or ::1 of IPv6."""
+        self._host = host
+        self.largest = 0
+        """Bytes of the largest datagram that passed."""
         self.fault: Fault = no_fault
         self.cut: Cut = no_cut
         self.passed = 0
         self.shortened = 0
         self.sent: Counter[int] = Counter()
         """Messages of clients by the id of their first submessage."""
-        self._front = _socket()
+        self._front = _socket(host)
         self.port: int = self._front.getsockname()[1]
         self._target = 0
         self._backs: dict[tuple[str, int], socket.socket] = {}
@@ -136,6 +140,7 @@ class Relay:
             data, address = arrived.recvfrom(65535)
         except OSError:
             return  # the news that nobody listens there
+        self.largest = max(self.largest, len(data))
         if client is not None:
             self._pass_on(data, lambda part: self._front.sendto(part, client))
         elif self._target:
@@ -144,8 +149,8 @@ class Relay:
 
     def _back(self, client: tuple[str, int]) -> socket.socket:
         if client not in self._backs:
-            back = _socket()
-            back.connect(("127.0.0.1", self._target))
+            back = _socket(self._host)
+            back.connect((self._host, self._target))
             self._backs[client] = back
             self._selector.register(back, selectors.EVENT_READ, client)
         return self._backs[client]
@@ -166,8 +171,8 @@ class Relay:
                 continue  # lost, as on a network
 
 
-def _socket() -> socket.socket:
-    opened = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+def _socket(host: str) -> socket.socket:
+    opened = socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET, socket.SOCK_DGRAM)
     opened.setblocking(False)
-    opened.bind(("127.0.0.1", 0))
+    opened.bind((host, 0))
     return opened
