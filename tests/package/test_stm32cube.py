@@ -103,16 +103,18 @@ def test_one_transport_is_left_where_all_files_are_compiled(chosen: str, tmp_pat
     folders = [out / HEADERS, STAND_INS / "stm32_hal", STAND_INS / "stm32_hal" / "usb", KERNELS / "lwip"]
     found = []
     for source in sorted((out / "extra_sources" / "microros_transports").glob("*.c")):
-        made = tmp_path / f"{source.stem}.o"
-        call = ["arm-none-eabi-gcc", "-mcpu=cortex-m4", "-mthumb", "-c", str(source), "-o", str(made)]
+        compiled = tmp_path / f"{source.stem}.o"
+        call = ["arm-none-eabi-gcc", "-mcpu=cortex-m4", "-mthumb", "-c", str(source), "-o", str(compiled)]
         call += [*(f"-I{path}" for path in folders), f"-DMICROROS_TRANSPORT=MICROROS_TRANSPORT_{chosen}"]
         subprocess.run(call, check=True)
-        names = subprocess.run(["arm-none-eabi-nm", str(made)], capture_output=True, text=True, check=True)
+        names = subprocess.run(
+            ["arm-none-eabi-nm", str(compiled)], capture_output=True, text=True, check=True
+        )
         found += [source.stem] * names.stdout.count(" T cubemx_transport_open")
     assert found == [f"{chosen.lower()}_transport"]
 
 
-def made(folder: Path, *call: str) -> subprocess.CompletedProcess[str]:
+def succeed(folder: Path, *call: str) -> subprocess.CompletedProcess[str]:
     """Run a command of a build in a folder; it must succeed."""
     done = subprocess.run(call, cwd=folder, capture_output=True, text=True, timeout=seconds(200), check=False)
     assert done.returncode == 0, done.stdout + done.stderr
@@ -133,7 +135,7 @@ def project(folder: Path, config: Path | None = None) -> Path:
 @pytest.mark.parametrize("transport", ["dma", "it"])
 def test_the_example_reaches_ros(transport: str, tmp_path: Path) -> None:
     place = project(tmp_path / "project")
-    made(place, "make", "-j2", f"MICROROS_TRANSPORT={transport}")
+    succeed(place, "make", "-j2", f"MICROROS_TRANSPORT={transport}")
     domain, link = own_domain(), tmp_path / "line"
     with (
         running_agent(domain, "--domain", str(domain), transport=("pty", "--link", str(link))),
@@ -150,8 +152,8 @@ def test_the_example_reaches_ros(transport: str, tmp_path: Path) -> None:
 @pytest.mark.system
 def test_cmake_builds_the_same_project(tmp_path: Path) -> None:
     place = project(tmp_path / "project")
-    made(place, "cmake", "-S", ".", "-B", "build", "-DMICROROS_TRANSPORT=it")
-    made(place, "cmake", "--build", "build", "-j2")
+    succeed(place, "cmake", "-S", ".", "-B", "build", "-DMICROROS_TRANSPORT=it")
+    succeed(place, "cmake", "--build", "build", "-j2")
     assert os.access(place / "build" / "project", os.X_OK)
     wrong = subprocess.run(
         ["cmake", "-S", ".", "-B", "other", "-DMICROROS_TRANSPORT=spi"],

@@ -21,6 +21,11 @@ CORE = TESTS / "package" / "arduino_core"
 NETWORK = """\
 #pragma once
 #include <HostNetwork.h>
+#define LED_BUILTIN 13
+#define OUTPUT 1
+void pinMode(int pin, int mode);
+void digitalWrite(int pin, int value);
+int digitalRead(int pin);
 typedef HostUDP EthernetUDP;
 enum EthernetLinkStatus { Unknown, LinkON, LinkOFF };
 struct NativeEthernetClass {
@@ -61,7 +66,11 @@ def library(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_it_has_the_files_of_arduino(library: Path) -> None:
     arduino = render_package(plan_package(describe("arduino"), None))
-    own = [name for name in arduino if name.startswith("src/micro_ros_") or name.endswith((".cpp", ".ino"))]
+    own = [
+        name
+        for name in arduino
+        if name.startswith("src/micro_ros_arduino") or name.endswith((".cpp", ".ino"))
+    ]
     assert own
     for name in own:
         assert (library / name).read_bytes() == arduino[name], name

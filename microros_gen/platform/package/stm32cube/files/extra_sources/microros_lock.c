@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The lock of `+multithread`: a recursive mutex of FreeRTOS, whose holder inherits the priority of who waits. */
+/* The lock of `+multithread`: a recursive mutex of FreeRTOS, whose holder inherits the priority of the waiting task. */
 #include "microros_hal.h"
 
 #include "microros/port.h"

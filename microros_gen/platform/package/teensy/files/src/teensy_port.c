@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The number of the chip, so that each Teensy has a client key of its own. */
+/* The number of the chip, so that each Teensy has its own client key. */
 #include "microros/port.h"
 
 #include <Arduino.h>

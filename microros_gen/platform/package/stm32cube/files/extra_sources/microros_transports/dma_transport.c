@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * A UART with DMA: circular for what arrives, so that no interrupt is needed for a byte; what is sent is copied, so that a
- * write does not wait for the line. A Cortex-M7 with data cache: both buffers have cache lines of their own.
+ * write does not wait for the line. A Cortex-M7 with data cache: the buffers share no cache line.
  */
 #include "cubemx_transport.h"
 

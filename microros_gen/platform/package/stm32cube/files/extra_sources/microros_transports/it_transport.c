@@ -23,7 +23,7 @@ static uint8_t rx[MICROROS_RX_SIZE];
 static uint8_t tx[MICROROS_TX_SIZE];
 static uint8_t arriving;
 static volatile size_t rx_first; /* position of the next byte to read; only the reader changes it */
-static volatile size_t rx_end;   /* position behind the last one; only the interrupt changes it */
+static volatile size_t rx_end;   /* position after the last one; only the interrupt changes it */
 static UART_HandleTypeDef * volatile line;
 
 /* Does nothing for another UART. A byte without room is lost: the frame that it belongs to is repeated or dropped. */

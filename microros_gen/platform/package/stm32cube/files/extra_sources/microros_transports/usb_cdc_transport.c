@@ -32,7 +32,7 @@ extern USBD_HandleTypeDef USB_DEVICE;
 static uint8_t rx[MICROROS_RX_SIZE];
 static uint8_t tx[MICROROS_TX_SIZE];
 static volatile size_t rx_first; /* position of the next byte to read; only the reader changes it */
-static volatile size_t rx_end;   /* position behind the last one; only the interrupt changes it */
+static volatile size_t rx_end;   /* position after the last one; only the interrupt changes it */
 static volatile bool is_held;    /* the next packet was not asked for, for want of room */
 static volatile bool is_sending;
 static bool is_open;
