@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from microros_gen.diagnostics import Diagnostics, Source
+from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.documents.files import is_file
 from microros_gen.documents.schema import load_schema, validate
 from microros_gen.documents.tree_values import child_text, entries, items, text_of
@@ -84,15 +84,19 @@ class PackageDescription:
     def own_files(self) -> dict[str, Path]:
         """Return the files below files/ by their paths there, those of `files_of` included."""
         folder = self.folder / FILES_FOLDER
-        files = {} if self.files_of is None else self.files_of.own_files()
-        files |= {path.relative_to(folder).as_posix(): path for path in folder.rglob("*") if path.is_file()}
+        own = {path.relative_to(folder).as_posix(): path for path in folder.rglob("*") if path.is_file()}
+        replaced = {name.removesuffix(".j2") for name in own}
+        taken = {} if self.files_of is None else self.files_of.own_files()
+        files = {name: path for name, path in taken.items() if name.removesuffix(".j2") not in replaced}
+        files |= own
         return files
 
 
-def files_of(source: Source) -> str:
-    """Return what `files_of` of a package.yaml says: the name of a package, or an empty text."""
+def files_of(source: Source) -> tuple[str, Span | None]:
+    """Return what `files_of` of a package.yaml says, and where: the name of a package, or an empty text."""
     tree = parse_yaml(source, Diagnostics())
-    return child_text(tree, "files_of") if isinstance(tree, MappingNode) else ""
+    node = tree.get("files_of") if isinstance(tree, MappingNode) else None
+    return (text_of(node) or "", node.span) if node is not None else ("", None)
 
 
 def parse_package(

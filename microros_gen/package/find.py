@@ -41,9 +41,13 @@ def read_package(
         )
         diagnostics.error(f"cannot read '{path}': {reason_of(error)}", hint=hint, id="MG-9203")
         return None
-    base = None
-    if files_of(source) in builtin_packages():
-        base = read_package(files_of(source), diagnostics, extensions)
+    taken, span = files_of(source)
+    known = tuple(each for each in builtin_packages() if each != folder.name)
+    if taken and taken not in known:
+        hint = nearest(taken, known) or f"Available: {', '.join(known)}"
+        diagnostics.error(f"unknown package '{taken}'", span, hint, id="MG-9201")
+        return None
+    base = read_package(taken, diagnostics, extensions) if taken else None
     return parse_package(source, folder, origin, diagnostics, base)
 
 

@@ -156,3 +156,22 @@ def test_conditions_choose_files(run: Runner, folder: Path) -> None:
 
     assert found() == {"general", "int32"}
     assert found("-c", "own.yaml") == {"executor"}
+
+
+def test_files_of_another_package_are_taken_over(run: Runner, folder: Path) -> None:
+    package = written(folder, OWN + "files_of: cmake\n")
+    (package / "files").mkdir()
+    (package / "files" / "README.md").write_text("mine\n")
+    result = run("package", "./mine", "-o", "out")
+    assert result.status == 0, result.err
+    assert (folder / "out" / "README.md").read_text() == "mine\n"
+    assert "add_library(microros STATIC" in (folder / "out" / "CMakeLists.txt").read_text()
+
+
+def test_files_of_an_unknown_package_are_refused(run: Runner, folder: Path) -> None:
+    written(folder, OWN + "files_of: cmakee\n")
+    result = run("package", "./mine", "-o", "out")
+    assert result.status == 2
+    assert "mine/package.yaml:7:11: error: unknown package 'cmakee'. Did you mean 'cmake'?" in without_id(
+        result.err
+    )
