@@ -7,7 +7,6 @@ import os
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -21,6 +20,7 @@ from microros_gen.ros.peer import Peer
 from tests.support.agent.process import environment
 from tests.support.e2e.commanded import CommandedProgram
 from tests.support.e2e.images import C_FILES, Images, ends_well, started
+from tests.support.e2e.mode_asker import ACTIVATE, CONFIGURE, DEACTIVATE, DOUBLE, ModeAsker
 from tests.support.e2e.relay import Relay
 from tests.support.modes.models import model_of
 from tests.support.patience import deadline, seconds
@@ -71,78 +71,20 @@ cell:
       QUICK: {arm/device: active.FAST, ros__parameters: {limit: 0.75}}
 """
 STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror")
-KINDS = {
-    "change_mode": "system_modes_msgs/srv/ChangeMode",
-    "get_available_modes": "system_modes_msgs/srv/GetAvailableModes",
-    "get_mode": "system_modes_msgs/srv/GetMode",
-    "change_state": "lifecycle_msgs/srv/ChangeState",
-    "get_parameters": "rcl_interfaces/srv/GetParameters",
-    "set_parameters": "rcl_interfaces/srv/SetParameters",
-}
-CONFIGURE, CLEANUP, ACTIVATE, DEACTIVATE = 1, 2, 3, 4
-DOUBLE = 3
 REJECTED = 4001
 
 
-class Asker:
-    """A node of ROS with clients of the device's services and its events."""
+class Asker(ModeAsker):
+    """The same with the program that has the device."""
 
     def __init__(self, program: CommandedProgram, peer: Peer) -> None:
-        self.program, self.peer = program, peer
-        self.clients = {name: peer.client(f"/arm/device/{name}", kind) for name, kind in KINDS.items()}
-        self.events: list[tuple[str, str]] = []
-        self.times: list[int] = []
-        peer.subscribe("/arm/device/mode_event", "system_modes_msgs/msg/ModeEvent", self._keep)
-        self._await("get_mode", {})
-        self._await("change_mode", {"mode_name": "NONE"})
-        self._await("change_state", {"transition": {"id": 0, "label": "none"}})
-        self._await_events()
-
-    def _keep(self, event: Any) -> None:
-        self.events.append((event["start_mode"]["label"], event["goal_mode"]["label"]))
-        self.times.append(event["timestamp"])
-
-    def _await(self, name: str, request: dict[str, Any]) -> None:
-        """Repeat a request that changes nothing until it is answered: the first ones may come too early."""
-        end = deadline(60)
-        while self.clients[name].call(request, seconds(1)) is None:
-            assert time.monotonic() < end, name
-
-    def _await_events(self) -> None:
-        """Change modes until an event arrives, then begin with what the program starts with."""
-        end = deadline(60)
-        self.state(CONFIGURE)
-        while not self.events:
-            assert time.monotonic() < end
-            self.change("__DEFAULT__")
-            self.peer.spin(lambda: self.events, 0.5)
-        self.state(CLEANUP)
-        self.peer.spin(lambda: False, 0.5)
-        self.events.clear()
-        self.times.clear()
-
-    def ask(self, name: str, **request: Any) -> Any:
-        answer = self.clients[name].call(request, seconds(30))
-        assert answer is not None, name
-        return answer
-
-    def change(self, mode: str) -> bool:
-        return bool(self.ask("change_mode", mode_name=mode)["success"])
-
-    def state(self, transition: int) -> None:
-        assert self.ask("change_state", transition={"id": transition, "label": ""})["success"]
-
-    def mode(self) -> str:
-        return str(self.ask("get_mode")["current_mode"])
+        super().__init__(peer)
+        self.program = program
 
     def shown(self) -> str:
         """Return speed and state, as the program has them."""
         _, _, (line,) = self.program.call("show")
         return line
-
-    def await_events(self, count: int) -> list[tuple[str, str]]:
-        assert self.peer.spin(lambda: len(self.events) >= count, seconds(20)), self.events
-        return self.events
 
 
 @pytest.fixture(scope="module")

@@ -258,6 +258,10 @@ class Board:
         """Reset the board; its emulator must have been started with `restarts`."""
         self._emulator.call("system_reset")
 
+    def pause(self) -> None:
+        """Stop the processor and its clock until `go_on`."""
+        self._emulator.call("stop")
+
     def words(self, symbol: str, count: int = 1) -> list[int]:
         """Return words of memory, from `symbol` on."""
         data = self.memory(self._symbols[symbol], 4 * count)
