@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * A node with a life cycle: one call for each line of standard input, answered with lines and "ret CODE TEXT".
- * Meanwhile the executor spins. What a callback returns is set by a line; each call of one is counted.
+ * Meanwhile the executor spins. What a callback returns is set by a line; each call of one is counted. Once a callback
+ * can also do something while the node is in the state of its transition: change the state, or wait for the next line,
+ * with or without spinning.
  */
 #define _POSIX_C_SOURCE 200809L
 #include <stdbool.h>
@@ -30,9 +32,51 @@ static rclc_lifecycle_service_context_t context = {&lifecycle};
 static int outcomes[CALLBACKS];
 static int calls[CALLBACKS];
 
+static int inside = CALLBACKS; /* which callback does something, once */
+static char inside_what;        /* c: change the state by all ids, the last one `inside_last`; s: spin; b: block */
+static unsigned int inside_last;
+
+static void try_change(unsigned int id)
+{
+  const rcl_ret_t result = rclc_lifecycle_change_state(&lifecycle, id, true);
+
+  rcl_reset_error();
+  (void)printf("inside %u %d %u\n", id, (int)result, machine.current_state->id);
+}
+
+/* Ids that leave the state of the transition are left to `inside_last`. */
+static void change_inside(void)
+{
+  for (unsigned int id = 0; id < 300u; ++id) {
+    if (id > UINT8_MAX || rcl_lifecycle_get_transition_by_id(machine.current_state, (uint8_t)id) == NULL) {
+      try_change(id);
+    }
+  }
+  if (inside_last != 0u) {
+    try_change(inside_last);
+  }
+}
+
+static void wait_inside(bool spins)
+{
+  struct pollfd input = {0, POLLIN, 0};
+
+  while (poll(&input, 1, spins ? 0 : -1) == 0) {
+    check(rclc_executor_spin_some(&executor, RCL_MS_TO_NS(2)), "a spin within a callback");
+  }
+}
+
 static int called(int which)
 {
   ++calls[which];
+  if (inside == which) {
+    inside = CALLBACKS;
+    if (inside_what == 'c') {
+      change_inside();
+    } else {
+      wait_inside(inside_what == 's');
+    }
+  }
   return outcomes[which];
 }
 
@@ -107,7 +151,62 @@ static void print_calls(void)
   (void)printf("\n");
 }
 
-/* outcome INDEX CODE | change ID | trigger ID | state | calls | reset */
+/* Goes from each state by each id, or by a label; prints state, id and goal of what exists. */
+static void print_table(const char * label)
+{
+  for (unsigned int i = 1; i < machine.transition_map.states_size; ++i) {
+    for (unsigned int id = 0; id <= (label == NULL ? UINT8_MAX : 0u); ++id) {
+      machine.current_state = &machine.transition_map.states[i];
+      if (
+        (label == NULL ? rcl_lifecycle_trigger_transition_by_id(&machine, (uint8_t)id, false)
+                       : rcl_lifecycle_trigger_transition_by_label(&machine, label, false)) == RCL_RET_OK) {
+        (void)printf("%s %u %s\n", machine.transition_map.states[i].label, id, machine.current_state->label);
+      }
+      rcl_reset_error();
+    }
+  }
+  machine.current_state = &machine.transition_map.states[1];
+}
+
+static void print_transitions(void)
+{
+  for (unsigned int i = 1; i < machine.transition_map.states_size; ++i) {
+    const rcl_lifecycle_state_t * state = &machine.transition_map.states[i];
+
+    for (unsigned int j = 0; j < state->valid_transition_size; ++j) {
+      const rcl_lifecycle_transition_t * transition = &state->valid_transitions[j];
+
+      (void)printf(
+        "%u %s %s %s\n", transition->id, transition->label, transition->start->label, transition->goal->label);
+    }
+  }
+}
+
+/* What needs no new node. */
+static bool run_on_machine(char ** word)
+{
+  const char * what = word[0];
+
+  if (strcmp(what, "inside") == 0) {
+    inside = atoi(word[1]);
+    inside_what = word[2][0];
+    inside_last = word[3] != NULL ? (unsigned int)atoi(word[3]) : 0u;
+  } else if (strcmp(what, "place") == 0) {
+    machine.current_state = &machine.transition_map.states[atoi(word[1])];
+  } else if (strcmp(what, "table") == 0) {
+    print_table(word[1]);
+  } else if (strcmp(what, "transitions") == 0) {
+    print_transitions();
+  } else {
+    return false;
+  }
+  return true;
+}
+
+/*
+ * outcome INDEX CODE | change ID | trigger ID | state | calls | reset | inside INDEX c|s|b [ID] | place STATE |
+ * table [LABEL] | transitions
+ */
 static rcl_ret_t run(char ** word)
 {
   const char * what = word[0];
@@ -125,7 +224,7 @@ static rcl_ret_t run(char ** word)
   } else if (strcmp(what, "reset") == 0) {
     end();
     begin();
-  } else {
+  } else if (!run_on_machine(word)) {
     return RCL_RET_INVALID_ARGUMENT;
   }
   return RCL_RET_OK;

@@ -59,6 +59,31 @@ def _state(state: Any) -> list[Any]:
     return [state.id, state.label]
 
 
+def _kinds() -> dict[str, Any]:
+    from lifecycle_msgs import srv
+
+    transitions = srv.GetAvailableTransitions
+    return dict(zip(WHATS, (srv.GetState, srv.GetAvailableStates, transitions, transitions), strict=True))
+
+
+def _content(what: str, response: Any) -> Any:
+    if what == "state":
+        return _state(response.current_state)
+    if what == "available_states":
+        return [_state(state) for state in response.available_states]
+    return [
+        [*_state(t.transition), *_state(t.start_state), *_state(t.goal_state)]
+        for t in response.available_transitions
+    ]
+
+
+_PATHS: tuple[list[int], ...] = (
+    *([], [1], [1, 10], [1, 10, 2], [1, 10, 3], [1, 10, 3, 30], [1, 10, 3, 30, 4]),
+    *([5], [5, 50], [1, 12]),
+)
+"""Transitions by id: to each state that a machine can be in."""
+
+
 class _Peer:
     """The peer's side: a node that asks, and the model, which is made again by `reset`."""
 
@@ -74,6 +99,10 @@ class _Peer:
         self._model: Any = None
         self._outcomes: dict[str, str] = {}
         self._calls: list[str] = []
+        self._inside: dict[str, Any] = {}
+        self._seen: list[Any] = []
+        self._released = threading.Event()
+        self._responses: dict[str, Any] = {}
         self._turn = threading.Lock()
 
     def spin(self) -> None:
@@ -101,6 +130,8 @@ class _Peer:
         def callback(name: str) -> Any:
             def run(_node: Any, _state: Any) -> Any:
                 peer._calls.append(name)
+                if name in peer._inside:
+                    peer._inside.pop(name)()
                 return getattr(TransitionCallbackReturn, peer._outcomes.get(name, "SUCCESS"))
 
             return run
@@ -128,6 +159,88 @@ class _Peer:
         except rclpy_implementation.RCLError:
             return [False, self._model._state_machine.current_state[0]]
         return [True, self._model._state_machine.current_state[0]]
+
+    def change_inside(self, name: str, ids: list[int]) -> bool:
+        """Let the next call of a callback change the state by each id; `seen` has id, whether it moved, and state."""
+        self._inside[name] = lambda: self._change_inside(ids)
+        return True
+
+    def _change_inside(self, ids: list[int]) -> None:
+        for identifier in ids:
+            before = self._model._state_machine.current_state
+            self.api(identifier)
+            after = self._model._state_machine.current_state
+            self._seen.append([identifier, after != before, after[0]])
+
+    def ask_inside(self, name: str, changes: list[list[Any]]) -> bool:
+        """Let the next call of a callback ask the node's own services, as another thread's request would.
+
+        `seen` has the four lists, and for each change, id and label, `success` (false where it raises) and the state.
+        """
+        self._inside[name] = lambda: self._ask_inside(changes)
+        return True
+
+    def _ask_inside(self, changes: list[list[Any]]) -> None:
+        from lifecycle_msgs.msg import Transition
+        from lifecycle_msgs.srv import ChangeState
+        from rclpy.impl.implementation_singleton import rclpy_implementation
+
+        for what, kind in _kinds().items():
+            answer = getattr(self._model, f"_LifecycleNodeMixin__on_get_{what}")
+            self._seen.append(_content(what, answer(kind.Request(), kind.Response())))
+        for identifier, label in changes:
+            request = ChangeState.Request(transition=Transition(id=identifier, label=label))
+            try:
+                answer = self._model._LifecycleNodeMixin__on_change_state(request, ChangeState.Response())
+                success = bool(answer.success)
+            except rclpy_implementation.RCLError:
+                success = False
+            self._seen.append([success, self._model._state_machine.current_state[0]])
+
+    def wait_inside(self, name: str) -> bool:
+        """Let the next call of a callback wait for `release`, while its executor does nothing else."""
+        self._released.clear()
+        self._inside[name] = lambda: self._released.wait(seconds(60))
+        return True
+
+    def release(self) -> bool:
+        self._released.set()
+        return True
+
+    def seen(self) -> list[Any]:
+        """Return what callbacks have seen since the last call."""
+        found, self._seen = self._seen, []
+        return found
+
+    def table(self, labels: list[str]) -> list[Any]:
+        """Let a machine of librcl_lifecycle go from each state by each id, and by each label: what exists.
+
+        Each is state, id or label, and goal.
+        """
+        from rclpy.impl.implementation_singleton import rclpy_implementation
+
+        def machine_in(path: list[int]) -> Any:
+            machine = rclpy_implementation.LifecycleStateMachine(self._model.handle, False)
+            for step in path:
+                machine.trigger_transition_by_id(step, False)
+            return machine
+
+        found: list[Any] = []
+        for path in _PATHS:
+            machine = machine_in(path)
+            start = machine.current_state[1]
+            for trigger in (*range(256), *labels):
+                by = "label" if isinstance(trigger, str) else "id"
+                try:
+                    getattr(machine, f"trigger_transition_by_{by}")(trigger, False)
+                except rclpy_implementation.RCLError:
+                    continue
+                found.append([start, trigger, machine.current_state[1]])
+                machine = machine_in(path)
+        return found
+
+    def state_of_machine(self) -> list[Any]:
+        return list(self._model._state_machine.current_state)
 
     def graph_of_machine(self) -> list[Any]:
         """Return the transitions of librcl_lifecycle."""
@@ -179,26 +292,24 @@ class _Peer:
         return None if response is None else bool(response.success)
 
     def get(self, node: str, what: str, timeout: float) -> Any:
-        from lifecycle_msgs import srv
-
-        names = {
-            "state": "GetState",
-            "available_states": "GetAvailableStates",
-            "available_transitions": "GetAvailableTransitions",
-            "transition_graph": "GetAvailableTransitions",
-        }
-        kind = getattr(srv, names[what])
+        kind = _kinds()[what]
         response = self._call(kind, f"{node}/get_{what}", kind.Request(), timeout)
-        if response is None:
-            return None
-        if what == "state":
-            return _state(response.current_state)
-        if what == "available_states":
-            return [_state(state) for state in response.available_states]
-        return [
-            [*_state(t.transition), *_state(t.start_state), *_state(t.goal_state)]
-            for t in response.available_transitions
-        ]
+        return None if response is None else _content(what, response)
+
+    def begin_change(self, node: str, id: int, label: str = "") -> bool:
+        """Request a change without waiting for its response: `changed`."""
+        from lifecycle_msgs.msg import Transition
+        from lifecycle_msgs.srv import ChangeState
+
+        client = self._client(ChangeState, f"{node}/change_state")
+        request = ChangeState.Request(transition=Transition(id=id, label=label))
+        self._responses.setdefault(node, []).append(client.call_async(request))
+        return True
+
+    def changed(self, node: str) -> list[bool | None]:
+        """Return `success` of the changes that were begun; None: no response yet."""
+        futures = self._responses.get(node, [])
+        return [bool(future.result().success) if future.done() else None for future in futures]
 
     def switch(self, service: str, value: bool, timeout: float) -> bool | None:
         """Call a std_srvs/srv/SetBool; return whether a response came."""
@@ -206,10 +317,13 @@ class _Peer:
 
         return self._call(SetBool, service, SetBool.Request(data=value), timeout) is not None
 
-    def _call(self, kind: Any, name: str, request: Any, timeout: float) -> Any:
+    def _client(self, kind: Any, name: str) -> Any:
         if name not in self._clients:
             self._clients[name] = self._asker.create_client(kind, name)
-        client = self._clients[name]
+        return self._clients[name]
+
+    def _call(self, kind: Any, name: str, request: Any, timeout: float) -> Any:
+        client = self._client(kind, name)
         if not client.wait_for_service(timeout):
             return None
         done = threading.Event()

@@ -145,8 +145,10 @@ lifecycle_outcome_t rclc_lifecycle_change(
   }
   outcome = lifecycle_call(
     lifecycle_node, machine->current_state->id == error_id ? error_id : transition_id, publish_update);
-  if (outcome == LIFECYCLE_ERROR && machine->current_state->id == error_id) {
-    (void)lifecycle_call(lifecycle_node, error_id, publish_update);
+  if (
+    outcome == LIFECYCLE_ERROR && machine->current_state->id == error_id &&
+    lifecycle_call(lifecycle_node, error_id, publish_update) == LIFECYCLE_REFUSED) {
+    outcome = LIFECYCLE_REFUSED;
   }
   return outcome;
 }
