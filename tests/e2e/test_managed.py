@@ -38,7 +38,9 @@ SERVES = """\
     services: [{name: set_enabled, type: std_srvs/srv/SetBool}]
 limits: {std_srvs/srv/SetBool_Response: {message: 16}}
 entities: """
-TICKS = "    timers: [{name: control, period: 10 ms, managed: true}]\ncomponents: [+timers]\n"
+TICKS = "    timers: [{name: control, period: 10 ms, managed: true}]\ncomponents: [+timers, +diagnosis]\n"
+PERIOD_S = 0.01
+INVALID_ARGUMENT = 11
 WAYS = ("binary", "xml", "reference", "preconfigured")
 CONFIGURE, ACTIVATE, DEACTIVATE, SHUTDOWN = 1, 3, 4, 6
 STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror")
@@ -179,7 +181,10 @@ def test_the_profile_alone(
 def test_the_state_is_a_gate(
     images: Images, image_port: Relay, agent: object, observer: Observer, domain: int, tmp_path: Path
 ) -> None:
-    """A managed publisher and a managed timer: nothing while inactive, which is counted; everything while active."""
+    """A managed publisher and a managed timer: nothing while inactive, which is counted; everything while active.
+
+    The diagnosis has the count of the timer, too.
+    """
     waits = "on_full: block 5 s\n"  # on a busy machine ten messages are more than a stream has room for
     image = images.build(image_port.port, APPLICATION.format(namespace="gates") + TICKS + waits)
     program = image.application(C_FILES / "managed.c", tmp_path / "managed", *STRICT)
@@ -192,6 +197,18 @@ def test_the_state_is_a_gate(
             assert code == 0, error
             return int(line)
 
+        def grows() -> None:
+            """Every period without a call counts while the node is not active."""
+            times = [time.monotonic()]
+            counts = [number("skipped")]
+            times += [time.monotonic()]
+            time.sleep(0.3)
+            times += [time.monotonic()]
+            counts += [number("skipped")]
+            times += [time.monotonic()]
+            least, most = (times[2] - times[1]) / PERIOD_S - 1, (times[3] - times[0]) / PERIOD_S + 1
+            assert least <= counts[1] - counts[0] <= most, (counts, times)
+
         def publish(first: int) -> dict[str, list[int]]:
             """Publish five values with both publishers, and return what arrives."""
             for value in range(first, first + 5):
@@ -203,9 +220,11 @@ def test_the_state_is_a_gate(
         peer.await_services("/gates/device")
         until(arrived.matched, "no publishers")
         time.sleep(1)  # the writers know the reader
+        assert device.call("skipped nowhere")[:2] == (INVALID_ARGUMENT, "statistics: NULL or not initialized")
         dropped = number("dropped")
         assert publish(0)["position"] == []
         assert (number("dropped") - dropped, number("ticks")) == (5, 0)
+        grows()
         assert peer.change("/gates/device", CONFIGURE)
         assert publish(10)["position"] == []
         assert (number("dropped") - dropped, number("ticks")) == (10, 0)
@@ -213,11 +232,33 @@ def test_the_state_is_a_gate(
         assert publish(20)["position"] == [*range(20, 25)]
         until(lambda: number("ticks") >= 3, "the managed timer stands still")
         assert number("dropped") - dropped == 10
+        skipped, ticks = number("skipped"), number("ticks")
+        until(lambda: number("ticks") >= ticks + 10, "the managed timer stands still")
+        assert number("skipped") == skipped, "an active node skips none"
         assert peer.change("/gates/device", DEACTIVATE)
         ticks = number("ticks")
         assert publish(30)["position"] == []
         time.sleep(0.1)  # ten periods
         assert (number("dropped") - dropped, number("ticks")) == (15, ticks)
+        assert number("skipped") >= skipped + 9
+        grows()
+        observer.subscribe("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray")
+        shown: list[int] = []
+
+        def diagnosed() -> bool:
+            for topic, value in observer.ask(do="samples"):
+                if topic == "/diagnostics":
+                    shown.extend(
+                        int(entry["value"])
+                        for status in value["status"]
+                        if status["name"] == "gates/device: lifecycle"
+                        for entry in status["values"]
+                    )
+            return bool(shown)
+
+        least = number("skipped")
+        until(lambda: diagnosed() and shown[-1] >= least, "no diagnosis")
+        assert shown[-1] <= number("skipped")
         assert process.stdin is not None
         process.stdin.write("end\n")
         ends_well(process)

@@ -192,7 +192,10 @@ def _memory(plan: MemoryPlan) -> _Record:
 def _running(runtime: RuntimePlan) -> _Record:
     timers, executor, clock = runtime.timers, runtime.executor, runtime.clock
     return {
-        "timers": [timers.max, [[t.node, t.name, t.period_ns, t.kind] for t in timers.declared]],
+        "timers": [
+            timers.max,
+            [[t.node, t.name, t.period_ns, t.kind, *(["managed"] * t.managed)] for t in timers.declared],
+        ],
         "executors": [executor.max, executor.handles_max],
         "guard_conditions": executor.guard_conditions_max,
         "wait_sets": executor.wait_sets_max,

@@ -49,6 +49,11 @@ class TimersPlan:
         return any(timer.kind == "hardware" for timer in self.declared)
 
     @property
+    def has_managed(self) -> bool:
+        """Whether the state of its node manages a declared one."""
+        return any(timer.managed for timer in self.declared)
+
+    @property
     def tick_sources(self) -> tuple[TickSource, ...]:
         """The sources of ticks that declared timers use."""
         used = {timer.kind for timer in self.declared}
@@ -161,7 +166,7 @@ def _clock_plan(application: Application, selection: Selection, diagnostics: Dia
 def _timers(application: Application) -> tuple[TimerPlan, ...]:
     declared = [(index, timer) for index, node in enumerate(application.nodes) for timer in node.timers]
     return tuple(
-        TimerPlan(index, node, timer.name, timer.period_us * _NS_PER_US, timer.kind)
+        TimerPlan(index, node, timer.name, timer.period_us * _NS_PER_US, timer.kind, timer.managed)
         for index, (node, timer) in enumerate(declared)
     )
 

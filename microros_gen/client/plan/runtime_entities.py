@@ -130,10 +130,14 @@ class QueuePlan:
 
 @dataclass(frozen=True)
 class TimerPlan:
-    """A declared timer; its period in nanoseconds. `kind` is clock, rtos or hardware: what makes it ready."""
+    """A declared timer; its period in nanoseconds. `kind` is clock, rtos or hardware: what makes it ready.
+
+    `managed`: it is ready while its node is active.
+    """
 
     index: int
     node: int
     name: str
     period_ns: int
     kind: str = "clock"
+    managed: bool = False

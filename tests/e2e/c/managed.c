@@ -15,6 +15,7 @@
 #include <rcl/rcl.h>
 #include <rclc/executor.h>
 #include <rclc/rclc.h>
+#include <rcl_lifecycle/managed_timers.h>
 #include <rclc_lifecycle/rclc_lifecycle.h>
 #include <rmw_microros/rmw_microros.h>
 #include <std_msgs/msg/int32.h>
@@ -46,11 +47,12 @@ static void on_timer(rcl_timer_t * called, int64_t since_last_call)
   ++ticks;
 }
 
-/* publish VALUE: with both publishers | dropped | ticks */
+/* publish VALUE: with both publishers | dropped | ticks | skipped */
 static rcl_ret_t run(const char * what, const char * value)
 {
   std_msgs__msg__Int32 number = {0};
   rmw_uros_statistics_t statistics;
+  rcl_lifecycle_timer_statistics_t skips = {0};
   rcl_ret_t result = RCL_RET_OK;
 
   if (strcmp(what, "publish") == 0) {
@@ -63,6 +65,9 @@ static rcl_ret_t run(const char * what, const char * value)
     (void)printf("%u\n", (unsigned int)statistics.dropped);
   } else if (strcmp(what, "ticks") == 0) {
     (void)printf("%u\n", ticks);
+  } else if (strcmp(what, "skipped") == 0) {
+    result = rcl_lifecycle_get_timer_statistics(&timer, strcmp(value, "nowhere") == 0 ? NULL : &skips);
+    (void)printf("%u\n", (unsigned int)skips.skipped);
   } else {
     return RCL_RET_INVALID_ARGUMENT;
   }
