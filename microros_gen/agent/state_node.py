@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from microros_gen.agent.states import ClientState
 from microros_gen.ros.endpoints import Value
@@ -21,37 +21,54 @@ LOOK_S = 0.2
 """Seconds between two checks for changes: several changes of a state in between are published once."""
 
 
+States = tuple[ClientState, ...]
+
+
 class StateNode(Serving):
-    """The topic and the service, on the node of a peer; served in the thread that calls `turn`."""
+    """The node of a peer on which the view is published; served in the thread that calls `turn`."""
 
     def __init__(
         self,
         peer: Peer,
-        states: Callable[[], tuple[ClientState, ...]],
-        depth: int,
+        states: Callable[[], States],
+        publishers: Iterable[Callable[[States, float], object]],
         report: Callable[[str], object],
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        """Create topic and service. `states` returns the latest view, in any thread; `depth`: samples for late readers.
+        """`states` returns the latest view, in any thread; `publishers` get it, with the time, when it is looked at.
 
-        `report` gets a line about each request that could not be answered. Raises RosError if the node cannot have
-        them.
+        `report` gets a line about each request or message that could not be served.
         """
         super().__init__(peer, report)
         self._states = states
+        self._publishers = tuple(publishers)
         self._clock = clock
-        self._published: dict[str, Value] = {}
         self._look_at = clock()
-        peer.serve(SERVICE, LIST_TYPE, lambda request: list_clients(self._states(), request))
-        self._topic = peer.publisher(TOPIC, STATE_TYPE, Qos(transient_local=True, depth=depth))
 
     def turn(self, wait_s: float = LOOK_S) -> None:
         """Wait for requests, at most `wait_s` seconds, and publish what has changed."""
         self._spin(min(wait_s, self._look_at - self._clock()))
         if self._clock() >= self._look_at:
-            self._look_at = self._clock() + LOOK_S
-            for value in changes(self._states(), self._published):
-                self._topic.publish(value)
+            now = self._clock()
+            self._look_at = now + LOOK_S
+            states = self._states()
+            for publish in self._publishers:
+                publish(states, now)
+
+
+class StatePublisher:
+    """The topic with each change, and the service."""
+
+    def __init__(self, peer: Peer, states: Callable[[], States], depth: int) -> None:
+        """Create both. `depth`: samples for late readers. Raises RosError if the node cannot have them."""
+        self._published: dict[str, Value] = {}
+        peer.serve(SERVICE, LIST_TYPE, lambda request: list_clients(states(), request))
+        self._topic = peer.publisher(TOPIC, STATE_TYPE, Qos(transient_local=True, depth=depth))
+
+    def __call__(self, states: States, _now: float) -> None:
+        """Publish what has changed."""
+        for value in changes(states, self._published):
+            self._topic.publish(value)
 
 
 def changes(states: tuple[ClientState, ...], published: dict[str, Value]) -> list[Value]:

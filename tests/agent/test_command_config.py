@@ -32,6 +32,7 @@ NOTHING = {
     "discovery_port": None,
     "graph_server": False,
     "client_state": False,
+    "diagnostics": False,
     "no_parameter_server": False,
     "parameter_file": None,
     "client_timeout": None,
@@ -125,6 +126,10 @@ def test_the_view_of_clients_is_asked_for(tmp_path: Path) -> None:
     assert options(head + "client_state: true\n", tmp_path).client_state
     assert not options(head, tmp_path).client_state
     assert options(head, tmp_path, client_state=True).client_state
+    assert options(head + "diagnostics: true\n", tmp_path).diagnostics
+    assert not options(head, tmp_path).watches_clients
+    only = options(head, tmp_path, diagnostics=True)
+    assert (only.client_state, only.diagnostics, only.watches_clients) == (False, True, True)
 
 
 def test_a_graph_server_inside_the_agent(tmp_path: Path) -> None:

@@ -71,6 +71,7 @@ class AgentFile:
     domain: int | None = None
     graph_server: bool = False
     client_state: bool = False
+    diagnostics: bool = False
     parameter_server: bool = True
     parameter_file: str | None = None
     limits: tuple[tuple[str, float], ...] = ()

@@ -1,36 +1,43 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The view of clients in ROS 2, from inside the agent: `--client-state`."""
+"""The view of clients in ROS 2, from inside the agent: `--client-state` and `--diagnostics`."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+from microros_gen.agent.client_diagnostics import DiagnosticsPublisher
 from microros_gen.agent.core import Agent
+from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog, Level
-from microros_gen.agent.state_node import NODE, StateNode
+from microros_gen.agent.state_node import NODE, StateNode, StatePublisher, States
 from microros_gen.cli.agent.background import in_background
+from microros_gen.cli.agent.options import AgentOptions
 from microros_gen.cli.ros_node import node_of
 from microros_gen.diagnostics import Diagnostic
 from microros_gen.ros.peer import Peer
 
 
 @contextmanager
-def client_state_node(
-    wanted: bool, agent: Agent, domain: int | None, most: int, log: EventLog
-) -> Iterator[None]:
-    """Serve from a thread while the block runs, where `wanted`; `domain` None: ROS_DOMAIN_ID.
+def client_state_node(options: AgentOptions, limits: Limits, agent: Agent, log: EventLog) -> Iterator[None]:
+    """Publish from a thread while the block runs, where the options ask for it.
 
-    The node has its own context. `most`: clients of the agent. UserError: it cannot be made.
+    The node has its own context, in the domain of the options, otherwise of ROS_DOMAIN_ID. Raises UserError if it
+    cannot be made.
     """
-    if not wanted:
+    if not options.watches_clients:
         yield
         return
-    with _peer(domain) as peer:
+    with _peer(options.domain) as peer:
+        publishers: list[Callable[[States, float], object]] = []
+        if options.client_state:
+            publishers.append(StatePublisher(peer, agent.latest_client_states, 2 * limits.clients))
+        if options.diagnostics:
+            publishers.append(DiagnosticsPublisher(peer, limits.client_timeout_s))
         node = StateNode(
             peer,
             agent.latest_client_states,
-            2 * most,
+            publishers,
             lambda line: log.emit(Level.WARNING, "client_state", "client state: {reason}", reason=line),
         )
         with in_background("client state", node.run, node.stop):

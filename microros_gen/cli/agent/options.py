@@ -75,6 +75,12 @@ _COMMON = (
         " ROS_DOMAIN_ID.",
     ),
     click.option(
+        "--diagnostics",
+        is_flag=True,
+        help="Publish a status of each client on /diagnostics once a second, and when its level changes; in the domain"
+        " of --domain, otherwise of ROS_DOMAIN_ID.",
+    ),
+    click.option(
         "--no-parameter-server",
         is_flag=True,
         help="Do not hold the parameters of clients whose application file says `parameters: {at: agent}`; another"
@@ -159,6 +165,7 @@ class AgentOptions:
     domain: int | None = None
     graph_server: bool = False
     client_state: bool = False
+    diagnostics: bool = False
     parameter_server: bool = True
     parameter_file: Path | None = None
     limits: Limits = DEFAULTS
@@ -170,6 +177,11 @@ class AgentOptions:
     verbose: int = 0
     places: Mapping[Path, Span] = field(default_factory=dict, compare=False)
     """Where the configuration file names a path."""
+
+    @property
+    def watches_clients(self) -> bool:
+        """Whether the agent keeps its view of clients."""
+        return self.client_state or self.diagnostics
 
     @staticmethod
     def of(sections: Sequence[dict[str, Any]], transports: Iterable[TransportChoice]) -> AgentOptions:
@@ -190,6 +202,7 @@ class AgentOptions:
             domain=file.domain if options["domain"] is None else options["domain"],
             graph_server=options["graph_server"] or file.graph_server,
             client_state=options["client_state"] or file.client_state,
+            diagnostics=options["diagnostics"] or file.diagnostics,
             parameter_server=file.parameter_server and not options["no_parameter_server"],
             parameter_file=options["parameter_file"] or _own_file(file, folder),
             limits=_limits(file, options),

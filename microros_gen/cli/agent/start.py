@@ -87,7 +87,7 @@ def serve(options: AgentOptions) -> None:
         strangers=shared.strangers,
         memory=MemoryGuard(limits.memory_bytes, trim=bridge.trim),
         budgets=budgets,
-        watched=options.client_state,
+        watched=options.watches_clients,
     )
     _report_memory(log, limits)
     _report_descriptors(log, limits, streams)
@@ -101,7 +101,7 @@ def serve(options: AgentOptions) -> None:
     gc.freeze()  # modules and libraries stay: to look through them now and then would stop the agent for 20 ms
     with (
         graph_server(options.graph_server, options.domain, log),
-        client_state_node(options.client_state, agent, options.domain, limits.clients, log),
+        client_state_node(options, limits, agent, log),
         parameters.running(),
         stopped_by_signals(server),
     ):
