@@ -24,11 +24,15 @@ from tests.support.firmware.avr import (
     read_line,
     simulated,
 )
-from tests.support.firmware.board import Builds, build, need
+from tests.support.firmware.board import C_FILES, Builds, Built, build, check, need, target
+from tests.support.firmware.line import open_raw
 from tests.support.firmware.running import started
+from tests.support.paths import ROOT
 from tests.support.patience import deadline
 
 FLASH, RAM = 32 * 1024, 2048
+POWER, WATCHDOG = 1, 4
+"""Of port_reset_t."""
 
 
 def test_what_a_sender_takes(builds: Builds) -> None:
@@ -147,3 +151,22 @@ def _published_until_heard(observer: Observer, number: int) -> None:
         where = {"topic": "/led", "type": "std_msgs/msg/Int16"}
         observer.ask(do="publish", values=[{"data": number}], **where)
         time.sleep(0.1)
+
+
+@pytest.mark.parametrize("name", [UNO, MEGA])
+def test_the_cause_of_a_reset(builds: Builds, name: str, tmp_path: Path) -> None:
+    """It is turned on, then the watchdog resets it; each cause is told again until the next reset."""
+    need(name)
+    processor, image = target(name), tmp_path / "reset_cause.elf"
+    parts = ROOT / "microros_gen"
+    include = parts / "components" / "diagnosis" / "include"
+    source = parts / "platform" / "cpu" / "avr" / "src" / "port_avr_reset.c"
+    flags = [*processor.c_flags, "-std=c99", "-Wall", "-Wextra", "-Werror", f"-I{include}"]
+    check([processor.compilers[0], *flags, str(C_FILES / "reset_cause.c"), str(source), "-o", str(image)])
+    built = Built(builds.build(name, SENDS).out, processor)
+    with simulated(builds, built, image) as board:
+        line = open_raw(board.device)
+        try:
+            assert read_line(line, 6) == f"{POWER}{POWER}0{WATCHDOG}{WATCHDOG}0".encode()
+        finally:
+            os.close(line)

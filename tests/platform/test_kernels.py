@@ -98,7 +98,7 @@ OF_PAIRS = {
     "lwip": VARIANTS,
     "freertos_tcp": (VARIANTS[0], *VARIANTS[2:]),
     "zephyr_sockets": (VARIANTS[0], VARIANTS[2], {**VARIANTS[3], "more": ", +diagnosis"}, SERIAL),
-    "posix_sockets": (SERIAL,),
+    "posix_sockets": (SERIAL, {**SERIAL, "more": ", +multithread, +diagnosis"}),
     "esp_idf": ({**VARIANTS[0], "more": ", +diagnosis", "session": ""}, VARIANTS[1]),
 }
 """The variants that have each source of a part at least once; an operating system is checked with one network."""
@@ -117,7 +117,7 @@ def files_of(kind: str, name: str) -> set[str]:
 
 def application(names: tuple[str, str], variant: dict[str, str]) -> str:
     """Return an application for an OS and a network."""
-    network = f", network: {names[1]}" if variant is not SERIAL else ""
+    network = f", network: {names[1]}" if "serial" not in variant["transport"] else ""
     more = {"session": KEY, **variant, "cpu": CPU, "os": names[0], "network": network}
     return APPLICATION.format(**more) + variant.get("tasks", "")
 

@@ -8,6 +8,7 @@
 #define CONFIG_PIPES 1
 #define CONFIG_SERIAL_TERMIOS 1
 #define CONFIG_TLS_NELEM 1
+#define CONFIG_BOARDCTL_RESET_CAUSE 1
 #define CONFIG_BOARDCTL_UNIQUEID 1
 #define CONFIG_BOARDCTL_UNIQUEID_SIZE 16
 #ifdef KERNEL_CORES /* of the checks, one has stacks that the kernel fills */
