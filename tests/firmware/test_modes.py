@@ -18,7 +18,7 @@ from microros_gen.image.report import measure
 from microros_gen.ros.peer import Peer
 from tests.support.agent.process import enter_domain
 from tests.support.e2e.mode_asker import ACTIVATE, CONFIGURE, ModeAsker
-from tests.support.firmware.board import Board, Builds, Built, board, generate, need
+from tests.support.firmware.board import Board, Builds, Built, board, check, generate, need
 from tests.support.firmware.footprint import bounded_stack, image_sections
 from tests.support.firmware.running import started
 from tests.support.patience import deadline, seconds
@@ -220,11 +220,26 @@ def test_what_modes_take(builds: Builds) -> None:
 
 @pytest.mark.system
 def test_the_size_of_each_mode_is_reported(builds: Builds) -> None:
-    """In flash; a number has 8 bytes, and the texts of others are in the mode that writes them."""
+    """In flash alone, as nm has it; a number has 8 bytes, and the texts of others are in the mode that writes them."""
     need(NAME)
     built = builds.build(NAME, APPLICATION)
-    report = measure(built.out, builds.application(built, "modes.c"))
+    image = builds.application(built, "modes.c")
+    report = measure(built.out, image)
     assert {use: size for owner, use, size in constants(report) if owner == "node_modes"} == EACH
+    lines = [line.split() for line in check([built.tool("nm"), "-S", str(image)]).splitlines()]
+    of_modes = [line for line in lines if len(line) == 4 and line[3].startswith("mode_of_")]
+    assert sum(int(size, 16) for _, size, _, _ in of_modes) == sum(EACH.values())
+    assert {kind for _, _, kind, _ in of_modes} <= {"r", "t"}, "they are in flash"
+
+
+@pytest.mark.system
+def test_a_further_mode_takes_no_ram(builds: Builds) -> None:
+    need(NAME)
+    more = builds.build(NAME, APPLICATION.replace("      FAST:", "      WALK: {speed: 1.0}\n      FAST:"))
+    assert "mode_of_arm_device_WALK" in " ".join(more.symbols(image := builds.application(more, "modes.c")))
+    built = builds.build(NAME, APPLICATION)
+    before = image_sections(built, builds.application(built, "modes.c"))
+    assert image_sections(more, image).ram == before.ram
 
 
 def test_a_client_without_modes_has_nothing_of_them(tmp_path: Path) -> None:
