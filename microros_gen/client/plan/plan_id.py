@@ -194,7 +194,7 @@ def _running(runtime: RuntimePlan) -> _Record:
     return {
         "timers": [
             timers.max,
-            [[t.node, t.name, t.period_ns, t.kind, *(["managed"] * t.managed)] for t in timers.declared],
+            [[t.node, t.name, t.period_ns, t.kind, *([True] * t.gated)] for t in timers.declared],
         ],
         "executors": [executor.max, executor.handles_max],
         "guard_conditions": executor.guard_conditions_max,

@@ -49,9 +49,9 @@ class TimersPlan:
         return any(timer.kind == "hardware" for timer in self.declared)
 
     @property
-    def has_managed(self) -> bool:
-        """Whether the state of its node manages a declared one."""
-        return any(timer.managed for timer in self.declared)
+    def has_gated(self) -> bool:
+        """Whether the state of its node decides when a declared one may be ready."""
+        return any(timer.gated for timer in self.declared)
 
     @property
     def tick_sources(self) -> tuple[TickSource, ...]:

@@ -132,7 +132,7 @@ class QueuePlan:
 class TimerPlan:
     """A declared timer; its period in nanoseconds. `kind` is clock, rtos or hardware: what makes it ready.
 
-    `managed`: it is ready while its node is active.
+    `gated`: the state of its node decides when it may be ready.
     """
 
     index: int
@@ -140,4 +140,4 @@ class TimerPlan:
     name: str
     period_ns: int
     kind: str = "clock"
-    managed: bool = False
+    gated: bool = False
