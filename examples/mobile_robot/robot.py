@@ -8,6 +8,7 @@ Two boards are images for a Cortex-M4 in QEMU, each with its own agent on its se
 
 from __future__ import annotations
 
+import argparse
 import subprocess
 import sys
 import time
@@ -46,6 +47,8 @@ CALL_S = 5.0
 
 def main() -> int:
     """Return 0 when the robot has reached its degraded mode."""
+    raw = argparse.RawDescriptionHelpFormatter
+    argparse.ArgumentParser(description=__doc__, formatter_class=raw).parse_args()
     sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
     try:
         check_firmware_tools()
