@@ -140,7 +140,10 @@ def send_goal_command(
             declared.goal.name, known.codec.encode(declared.goal.name, filled.value)
         )
         show(f"Sending goal:\n{_indented(texts.yaml(declared.goal.name, complete))}")
-        if not goal.send(filled.value):
+        accepted = goal.send(filled.value, lambda: bool(interrupted))
+        if accepted is None:
+            return _cancel(goal)
+        if not accepted:
             show("Goal was rejected.")
             return 1
         show(f"Goal accepted with ID: {goal.id}\n")

@@ -49,13 +49,13 @@ class Goal:
         """Spin until the three services of a server are discovered, for at most `wait_s` seconds each."""
         return all(client.wait(wait_s) for client in (self._send, self._result, self._cancel))
 
-    def send(self, goal: Mapping[str, Any]) -> bool:
+    def send(self, goal: Mapping[str, Any], given_up: Callable[[], bool]) -> bool | None:
         """Send the goal and wait for the answer; return whether the server accepted it.
 
-        Raises RosError if the server is gone meanwhile.
+        None if `given_up()` became true before. Raises RosError if the server is gone meanwhile.
         """
-        response = self._asked(self._send, {"goal_id": self._goal_id, "goal": dict(goal)}, lambda: False)
-        return response is not None and bool(response["accepted"])
+        response = self._asked(self._send, {"goal_id": self._goal_id, "goal": dict(goal)}, given_up)
+        return None if response is None else bool(response["accepted"])
 
     def result(self, given_up: Callable[[], bool]) -> tuple[int, Value] | None:
         """Wait for the end of the goal; return its status and its result, None if `given_up()` became true before.

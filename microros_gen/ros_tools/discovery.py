@@ -59,14 +59,17 @@ class Discovery:
         quiet = now - self._began >= _FIRST_S and now - self._changed >= quiet_s
         return quiet and any(name != self.own_node for name in self.graph.nodes())
 
-    def find(self, look: Callable[[], Found | None], endless: bool = False) -> Found | None:
+    def find(
+        self, look: Callable[[], Found | None], given_up: Callable[[], object] | None = None
+    ) -> Found | None:
         """Spin until `look` returns something; return it, or None if the graph is complete without it.
 
-        `endless`: never return None.
+        With `given_up`, wait until that is true instead.
         """
         end = time.monotonic() + self._wait_s
-        while (found := look()) is None and (endless or time.monotonic() < end):
-            if not endless and self._settled(_SURE_S):
+        while (found := look()) is None:
+            over = time.monotonic() >= end or self._settled(_SURE_S) if given_up is None else given_up()
+            if over:
                 break
             self._peer.spin_once(_TURN_S)
         return found
@@ -90,9 +93,9 @@ class Discovery:
             found.remove(self.own_node)
         return tuple(name for name in found if hidden or not is_hidden(name))
 
-    def topic_types(self, topic: str, endless: bool = False) -> tuple[str, ...] | None:
-        """Return the types of a topic as soon as it is discovered, None if it is not."""
-        return self.find(lambda: dict(self.graph.topics()).get(topic), endless)
+    def topic_types(self, topic: str, given_up: Callable[[], object] | None = None) -> tuple[str, ...] | None:
+        """Return the types of a topic as soon as it is discovered, None if it is not; `given_up` as for `find`."""
+        return self.find(lambda: dict(self.graph.topics()).get(topic), given_up)
 
     def service_types(self, service: str) -> tuple[str, ...] | None:
         """Return the types of a service as soon as it is discovered, None if it is not."""

@@ -2,7 +2,7 @@
 """Messages from YAML: what follows the type in `topic pub`, `service call` and `action send-goal`.
 
 Every mistake has its place in the text. A number is accepted as a text, and a text that is a number as a number, as on
-the ros2 command line. A bool needs true or false: there, every text but the empty one is true.
+the ros2 command line. A bool needs true, false, 0 or 1: there, every text but the empty one is true.
 """
 
 from __future__ import annotations

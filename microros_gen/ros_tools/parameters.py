@@ -99,7 +99,7 @@ def value_from_text(text: str, what: str = "value") -> ParameterValue:
 
 
 def parameters_of_file(source: Source, node: str, wildcard: bool) -> list[Named]:
-    """Return the parameters that a file has for a node; with `wildcard` also those of `/**`, before the others.
+    """Return the parameters that a file has for a node; with `wildcard` also those of `/**`, which its own replace.
 
     Raises UserError for a file of another form, or without parameters for the node.
     """
@@ -108,14 +108,14 @@ def parameters_of_file(source: Source, node: str, wildcard: bool) -> list[Named]
     diagnostics.check()
     found: dict[str, ParameterValue] = {}
     names = (*((_ANY_NODE,) if wildcard else ()), node, node.lstrip("/"))
-    for entry in root if isinstance(root, MappingNode) else ():
-        if entry.key in names:
-            held = entry.value.get(_PARAMETERS) if isinstance(entry.value, MappingNode) else None
-            if not isinstance(held, MappingNode):
-                hint = f"Write '{entry.key}: {{{_PARAMETERS}: {{name: value}}}}'"
-                diagnostics.error(f"missing key '{_PARAMETERS}'", entry.key_span, hint, id="MG-9814")
-            else:
-                _collect(held, "", found, diagnostics)
+    sections = root.entries if isinstance(root, MappingNode) else {}
+    for entry in (sections[name] for name in names if name in sections):
+        held = entry.value.get(_PARAMETERS) if isinstance(entry.value, MappingNode) else None
+        if not isinstance(held, MappingNode):
+            hint = f"Write '{entry.key}: {{{_PARAMETERS}: {{name: value}}}}'"
+            diagnostics.error(f"missing key '{_PARAMETERS}'", entry.key_span, hint, id="MG-9814")
+        else:
+            _collect(held, "", found, diagnostics)
     if not found and not diagnostics.has_errors():
         span = Span(source, 1, 1)
         hint = f"Write '{node}: {{{_PARAMETERS}: {{name: value}}}}'"
@@ -128,12 +128,13 @@ def dumped(node: str, values: Iterable[Named]) -> dict[str, Any]:
     """Return parameters as data of a parameter file; dots in names separate levels."""
     top: dict[str, Any] = {}
     for name, value in values:
-        *path, last = name.split(".")
-        level = top
-        for part in path:
-            below = level.setdefault(part, {})
-            level = below if isinstance(below, dict) else level
-        level[last] = value.to_json()
+        level, rest = top, name
+        while "." in rest:
+            part, _, below = rest.partition(".")
+            if not isinstance(level.setdefault(part, {}), dict):
+                break  # the group has the name of a parameter: the rest keeps its dots
+            level, rest = level[part], below
+        level[rest] = value.to_json()
     return {node: {_PARAMETERS: top}}
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from microros_gen.cli.ros_tools import TURN_S, graph_options, on_graph, show, until_interrupted
-from microros_gen.cli.topic.subscribing import topic_qos, topic_type
+from microros_gen.cli.topic.subscribing import awaited_topic_type, topic_qos
 from microros_gen.diagnostics import Diagnostic, UserError
 
 if TYPE_CHECKING:
@@ -111,7 +111,9 @@ def _measure(
 
     name = absolute(topic)
     with on_graph(**graph) as (peer, discovery), until_interrupted() as interrupted:
-        type_name = topic_type(discovery, name, endless=True)
+        type_name = awaited_topic_type(discovery, name, lambda: bool(interrupted))
+        if type_name is None:
+            return
         qos = topic_qos(discovery, name, PRESETS["sensor_data"])
         known = peer.types.message(type_name) if known_type else None
         arrived = [0, 0]

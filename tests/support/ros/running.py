@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import queue
+import re
 import subprocess
 import sys
 import threading
@@ -30,7 +31,8 @@ class Running:
         )
         self.lines: list[str] = []
         self._new: queue.SimpleQueue[str] = queue.SimpleQueue()
-        threading.Thread(target=self._read, daemon=True).start()
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
 
     def _read(self) -> None:
         assert self.process.stdout is not None
@@ -42,6 +44,16 @@ class Running:
         while not self._new.empty():
             self.lines.append(self._new.get())
         return sum(text in line for line in self.lines)
+
+    def says_match(self, pattern: str) -> bool:
+        """Return whether a regular expression matches a line."""
+        self.count("")
+        return any(re.search(pattern, line) for line in self.lines)
+
+    def read_to_end(self) -> None:
+        """Wait for the last line of a process that has ended."""
+        self._reader.join()
+        self.count("")
 
     def says(self, text: str) -> bool:
         return self.count(text) > 0
