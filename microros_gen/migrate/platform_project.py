@@ -32,13 +32,14 @@ _WRITTEN = (("NAME", "{name}"), ("DOT_", "."))
 class ProjectView:
     """What the templates below project/ of a package print, as `view`.
 
-    `library` is the folder of the package in the project. `sources` are the paths of all sources in the project,
-    `names` below the folder of the sources; `first` is the one of `names` that has the entry function, `rest_c` and
-    `rest_cpp` are the others of the two languages. `update` is the command that writes the package again, `undecided`
-    lines say what is left to the user.
+    `folder` is the name of the project's folder, `library` the folder of the package in it. `sources` are the paths of
+    all sources in the project, `names` below the folder of the sources; `first` is the one of `names` that has the
+    entry function, `rest_c` and `rest_cpp` are the others of the two languages. `update` is the command that writes the
+    package again, `undecided` lines say what is left to the user.
     """
 
     name: str
+    folder: str
     version: str
     package: str
     summary: str
@@ -79,10 +80,10 @@ def project_files(options: InitOptions, planned: Planned | None, undecided: int)
     places = source_places(options)
     files |= {place: code_bytes(path) for path, place in places.items()}
     view = _view(options, package, project, places, undecided)
-    files |= dict(_own(package, view))
     files["README.md"] = (
         shared_environment().get_template("init/platform_README.md.j2").render(view=view).encode()
     )
+    files |= dict(_own(package, view))
     return files
 
 
@@ -140,6 +141,7 @@ def _view(
     library = project.place_of_library(options.name)
     return ProjectView(
         name=options.name,
+        folder=options.folder.resolve().name,
         version=__version__,
         package=package.name,
         summary=package.summary,

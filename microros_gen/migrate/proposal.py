@@ -27,7 +27,7 @@ from microros_gen.migrate.limits import DEFAULT_LIMITS, limits_of
 from microros_gen.migrate.meta_draft import meta_draft
 from microros_gen.migrate.profiles import first_profile
 from microros_gen.migrate.rclc_draft import Adopted, rclc_draft
-from microros_gen.package.description import FILES_FOLDER, PackageDescription
+from microros_gen.package.description import PackageDescription
 from microros_gen.platform.capabilities import capabilities
 from microros_gen.records import dataclass
 from microros_gen.selection.find_components import declared_functions, load_catalogue
@@ -74,10 +74,9 @@ class InitOptions:
     @property
     def code(self) -> Path | None:
         """The sources to read: those of the user, else the example of the package."""
-        project = self.package.project if self.package is not None else None
-        if self.sources is not None or project is None or self.package is None:
+        if self.sources is not None or self.package is None:
             return self.sources
-        return self.package.folder / project.example
+        return self.package.example
 
     def compiler_options(self) -> compiler.Options:
         """Return the options of the other commands for this."""
@@ -111,7 +110,7 @@ def _of_code(options: InitOptions, diagnostics: Diagnostics) -> Adopted:
 
 def _provided(package: PackageDescription) -> frozenset[str]:
     """Return the names in the headers of a package, which its functions are among."""
-    headers = sorted((package.folder / FILES_FOLDER).rglob("*.h"))
+    headers = [path for path in package.own_files().values() if path.suffix == ".h"]
     return frozenset(name for path in headers for name in re.findall(r"\w+", read_text(path)))
 
 

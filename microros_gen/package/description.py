@@ -64,6 +64,15 @@ class PackageDescription:
         return self.folder / PLAN_FILE
 
     @property
+    def example(self) -> Path | None:
+        """The program of a project without sources, of `files_of` if the package has none there; None: no project."""
+        if self.project is None:
+            return None
+        folders = [self.folder] if self.files_of is None else [self.folder, self.files_of.folder]
+        found = (folder / self.project.example for folder in folders)
+        return next((path for path in found if path.exists()), self.folder / self.project.example)
+
+    @property
     def target(self) -> Path | None:
         """The target file of the package; None: the application chooses a target."""
         path = self.folder / TARGET_FILE

@@ -33,9 +33,9 @@ class Project:
     """Where a project has the package and the sources; paths below its folder, `{name}` is the name of the project.
 
     The file of the sources whose suffix is a key of `renamed` gets the name there. `example` is the program of a
-    project that is made of nothing, below the package's folder. `entry` are the functions with which a program begins,
-    `transports` what it calls first, by its transport. `next` are the commands that build, `{dir}` is the project.
-    `keyed`: boards may have no number, so a project has a client key.
+    project that is made of nothing, below the package's folder or that of its `files_of`. `entry` are the functions
+    with which a program begins, `transports` what it calls first, by its transport. `next` are the commands that build,
+    `{dir}` is the project. `keyed`: boards may have no number, so a project has a client key.
     """
 
     library: str

@@ -10,7 +10,7 @@ import pytest
 
 from microros_gen.package.find import builtin_packages
 from microros_gen.package.project import Project
-from microros_gen.package.render import describe
+from microros_gen.package.render import describe, plan_package, render_package
 from tests.support.command_line import Runner
 from tests.support.paths import ROOT
 
@@ -91,6 +91,33 @@ def test_sources_are_copied_and_what_is_missing_is_named(run: Runner, sources: P
     assert re.search(rf"{project.entry.functions[0]}\(\).*\n?.*MG-9014", done.err)
     assert project.entry.hint in done.err
     assert "topic: work" in (robot / "microros.yaml").read_text()
+
+
+@pytest.mark.parametrize("name", PACKAGES)
+def test_set_up_calls_that_are_accepted_are_those_of_the_package(name: str) -> None:
+    files = render_package(plan_package(describe(name), None))
+    headers = b"".join(content for path, content in files.items() if path.endswith(".h")).decode()
+    needs = [need for _, need in project_of(name).transports]
+    calls = {function for need in needs for function in need.functions if "microros" in function}
+    assert calls <= set(re.findall(r"\b(\w+)\s*\(", headers))
+
+
+def test_an_example_can_be_that_of_files_of(run: Runner, folder: Path) -> None:
+    assert run("init", "robot", "--platform", "teensy").status == 0
+    example = describe("arduino").example
+    assert example is not None
+    assert (folder / "robot/robot/robot.ino").read_bytes() == (example / "publisher.ino").read_bytes()
+    plan = (folder / "robot" / "microros.yaml").read_text()
+    assert "UNDECIDED" not in plan
+    assert "key:" not in plan  # a Teensy has a number
+
+
+def test_a_package_has_its_own_readme(run: Runner, folder: Path) -> None:
+    assert run("init", "my-robot", "--platform", "stm32cube").status == 0
+    text = (folder / "my-robot" / "README.md").read_text()
+    for line in ("include my-robot/microros_app.mk", "add_subdirectory(my-robot)", "## Build"):
+        assert line in text
+    assert "schema application" in text
 
 
 def test_an_application_that_does_not_plan_has_no_package_yet(run: Runner, sources: Path) -> None:

@@ -8,8 +8,10 @@ the package calls. What was seen with the public HAL is in docs/verification/por
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
+import textwrap
 from pathlib import Path
 
 import pytest
@@ -34,6 +36,18 @@ PROCESSORS = {
     "cortex-m7": ("-DSTM32_HAS_CACHE",),
     "cortex-m33": ("-DMICROROS_USB_HS", "-DMICROROS_UART_CALLBACK=0"),
 }
+EXAMPLE = f"{LIBRARY}/examples/publisher/publisher.c"
+MAIN = """\
+#include "main.h"
+void hal_begin(void);
+void StartDefaultTask(void * argument);
+int main(void)
+{
+  hal_begin();
+  StartDefaultTask(NULL);
+  return 0;
+}
+"""
 TASKS = """\
 version: 1
 profiles: [pure_sender]
@@ -163,6 +177,82 @@ def test_cmake_builds_the_same_project(tmp_path: Path) -> None:
         check=False,
     )
     assert "MICROROS_TRANSPORT is 'spi'; it must be dma, it, usb_cdc, udp or none" in wrong.stderr
+
+
+def initialized(run: Runner, folder: Path, *options: str) -> Path:
+    """Write a project as STM32CubeMX makes it, with a folder `robot` of `init`; return the project's folder."""
+    place = folder / "project"
+    shutil.copytree(STAND_INS / "stm32_project", place)
+    shutil.copytree(STAND_INS / "stm32_hal", place / "hal")
+    done = run("init", str(place / "robot"), "--platform", "stm32cube", *options)
+    assert done.status == 0, done.err
+    readme = (place / "robot" / "README.md").read_text()
+    make, cmake = (
+        textwrap.dedent(lines) for lines in re.findall(r"```(?:c?make)\n(.*?)```", readme, re.DOTALL)
+    )
+    (place / "main.c").write_text(MAIN)
+    of_make = (place / "Makefile").read_text().replace(f"include {LIBRARY}/microros.mk\n", make)
+    of_make = of_make.replace(f"hal.c \\\n{EXAMPLE}", "hal.c")
+    (place / "Makefile").write_text(of_make.replace(f" -I{LIBRARY}/examples/publisher", ""))
+    of_cmake = (place / "CMakeLists.txt").read_text().split("add_subdirectory")[0]
+    (place / "CMakeLists.txt").write_text(
+        of_cmake.replace(EXAMPLE, "").replace(f"{LIBRARY}/examples/publisher", "")
+        + cmake
+        + "target_link_libraries(${CMAKE_PROJECT_NAME} pthread)\n"
+    )
+    return place
+
+
+@pytest.mark.ros
+@pytest.mark.builds
+@pytest.mark.system
+def test_a_project_of_init_reaches_ros(run: Runner, folder: Path) -> None:
+    """With the lines that its README.md has for the Makefile; the handle is that of the stand-in."""
+    place = initialized(run, folder)
+    task = place / "robot" / "src" / "microros_task.c"
+    task.write_text(task.read_text().replace("huart3", "huart1"))
+    succeed(place, "make", "-j2")
+    domain, link = own_domain(), folder / "line"
+    with (
+        running_agent(domain, "--domain", str(domain), transport=("pty", "--link", str(link))),
+        observing(domain) as observer,
+        running(place / "build" / "project.elf", STM32_LINE=str(link)),
+    ):
+        observer.subscribe("/cubemx_publisher", "std_msgs/msg/Int32")
+        assert len(observer.got(2, timeout_s=30, topic="/cubemx_publisher")) >= 2
+
+
+@pytest.mark.builds
+@pytest.mark.system
+def test_cmake_builds_a_project_of_init_with_own_sources(run: Runner, folder: Path) -> None:
+    """Two sources in C, one of them in a folder."""
+    example = describe("stm32cube").example
+    assert example is not None
+    shutil.copytree(example, folder / "old")
+    task = folder / "old" / "microros_task.c"
+    task.write_text(
+        task.read_text().replace("huart3", "huart1").replace("++message.data", "message.data = more()")
+    )
+    task.write_text(task.read_text().replace('#include "main.h"', '#include "main.h"\n#include "lib/more.h"'))
+    (folder / "old" / "lib").mkdir()
+    (folder / "old" / "lib" / "more.h").write_text("int more(void);\n")
+    (folder / "old" / "lib" / "more.c").write_text('#include "more.h"\nint more(void) { return 7; }\n')
+    place = initialized(run, folder, "--from", str(folder / "old"))
+    succeed(place, "cmake", "-S", ".", "-B", "other")
+    succeed(place, "cmake", "--build", "other", "-j2")
+    assert os.access(place / "other" / "project", os.X_OK)
+
+
+@pytest.mark.builds
+def test_the_makefile_names_sources_that_it_does_not_compile(run: Runner, folder: Path) -> None:
+    example = describe("stm32cube").example
+    assert example is not None
+    shutil.copytree(example, folder / "old")
+    (folder / "old" / "more.cpp").write_text("int more;\n")
+    place = initialized(run, folder, "--from", str(folder / "old"))
+    done = succeed(place, "make", "-n")
+    assert "compiles no C++; add src/more.cpp to it, or use CMake" in done.stderr
+    assert "robot/src/microros_task.c" in done.stdout
 
 
 def test_what_the_package_defines_is_not_asked_for(run: Runner, folder: Path) -> None:

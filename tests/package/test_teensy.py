@@ -119,3 +119,22 @@ def test_the_ethernet_example_calls_what_is_there(library: Path, tmp_path: Path)
         [*call, str(library / "examples" / name / f"{name}.ino")], capture_output=True, text=True, check=False
     )
     assert done.stderr == ""
+
+
+@pytest.mark.builds
+def test_a_sketch_of_init_calls_what_is_there(run: Runner, folder: Path) -> None:
+    """A check of syntax with stand-ins of the core; the library is that of the sketch's own plan."""
+    if shutil.which("g++") is None:
+        pytest.skip("no g++")
+    done = run("init", "my-robot", "--platform", "teensy")
+    assert (done.status, done.err) == (0, "")
+    robot = folder / "my-robot"
+    call = ["g++", "-std=gnu++17", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", f"-I{folder}", f"-I{CORE}"]
+    call += [f"-I{robot / 'libraries' / 'micro_ros_arduino' / 'src'}", "-x", "c++"]
+    call += ["-include", "Arduino.h", "-include", "board.h"]
+    (folder / "board.h").write_text(NETWORK)
+    checked = subprocess.run(
+        [*call, str(robot / "my_robot" / "my_robot.ino")], capture_output=True, text=True, check=False
+    )
+    assert checked.stderr == ""
+    assert checked.returncode == 0
