@@ -59,7 +59,8 @@ void StartDefaultTask(void * argument)
 
   (void)argument;
   (void)rmw_uros_set_custom_transport(
-    true, &huart3, cubemx_transport_open, cubemx_transport_close, cubemx_transport_write, cubemx_transport_read);
+    true, &huart3, cubemx_transport_open, cubemx_transport_close, cubemx_transport_write,
+    cubemx_transport_read);
   while (!is_ready) {
     is_ready = rmw_uros_ping_agent(PING_MS, 1) == RMW_RET_OK && entities_create();
     if (!is_ready) {
