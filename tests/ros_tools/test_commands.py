@@ -105,7 +105,7 @@ def test_a_topic_is_printed_until_an_interrupt(arm: Running) -> None:
     ("arguments", "identity", "hint"),
     [
         (("topic", "info", "/coun"), "MG-9812", "Did you mean '/count'?"),
-        (("topic", "echo", "/imu", "--field", "haeder"), "MG-9819", "Did you mean 'header'?"),
+        (("topic", "echo", "/imu", "--field", "header_"), "MG-9819", "Did you mean 'header'?"),
         (("topic", "delay", "/count"), "MG-9821", "microros-gen topic hz"),
         (("service", "type", "/enabl"), "MG-9813", "Did you mean '/enable'?"),
         (("node", "info", "/arms"), "MG-9811", "Did you mean '/arm'?"),
