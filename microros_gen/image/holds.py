@@ -54,12 +54,14 @@ class Rules:
 @dataclass
 class _Summary:
     """A function called with the lock at some depth. By the depth in which it ends: `ends`, the longest path that keeps
-    the lock from its begin; `taken`, from where it takes the lock. `released`: up to where it releases it."""
+    the lock from its begin; `taken`, from where it takes the lock. `released`: up to where it releases it. `unseen`:
+    where nobody knows what it calls without the lock, and what is called may take it."""
 
     ends: dict[int, Length] = field(default_factory=dict)
     taken: dict[int, Length] = field(default_factory=dict)
     released: Length | None = None
     depths: set[int] = field(default_factory=set)
+    unseen: frozenset[str] = frozenset()
 
 
 class Holds:
@@ -90,6 +92,10 @@ class Holds:
         holds = (Hold(name, at, length) for (name, at), length in found.items())
         return tuple(sorted(holds, key=lambda hold: (-hold.length.count, hold.function, hold.address)))
 
+    def unseen(self, address: int) -> frozenset[str]:
+        """Return why the function at `address` may have further holds: calls without the lock that nobody knows."""
+        return self._summary(address, 0, None).unseen
+
     def _summary(self, address: int, depth: int, size: int | None) -> _Summary:
         key = (address, depth, size)
         if key in self._known:
@@ -110,6 +116,8 @@ class Holds:
         self._open.discard(key)
         if name.startswith("port_") and depth in found.ends:
             found.ends[depth] = self._rules.of_port(name, found.ends[depth])
+        if name.startswith("port_"):
+            found.unseen = frozenset()  # what is below all layers calls none that takes the lock
         self._known[key] = found
         return found
 
@@ -126,7 +134,9 @@ class Holds:
             targets = self._rules.through(step.address)
             if targets is None:
                 why = f"{flow.name}: a call through a pointer at {step.address:#x}"
-                return self._closed("", depth, Length(0, frozenset({why})))
+                found = self._closed("", depth, Length(0, frozenset({why})))
+                found.unseen = frozenset() if depth else frozenset({why})
+                return found
             joined = [self._called_at(caller, flow, step, to, depth) for to in sorted(targets)]
             return _join(joined) if joined else _Summary({depth: NOTHING} if depth else {}, depths={depth})
         assert step.call is not None
@@ -170,6 +180,7 @@ def _join(parts: list[_Summary]) -> _Summary:
             joined.taken[depth] = longer(joined.taken.get(depth), length)
         if part.released is not None:
             joined.released = longer(joined.released, part.released)
+        joined.unseen |= part.unseen
         joined.depths |= part.depths
     return joined
 
@@ -211,6 +222,7 @@ class _Walk:
         if step.tested in self._holds.rules.zero:
             following = step.next[:1]
         lost = Length(1, frozenset({f"{self._flow.name}: a jump at {address:#x}"} if step.lost else ()))
+        self._found.unseen |= called.unseen if depth else called.unseen | lost.open
         if called.released is not None:
             self._releases[here] = called.released
         for after, length in called.ends.items():

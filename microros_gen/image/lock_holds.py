@@ -32,20 +32,22 @@ _LIBRARIES = ("C library", "compiler")
 @dataclass(frozen=True)
 class TaskHold:
     """How long the task `name` holds the lock: `holds`, the longest first. `automatic`: the application file wants the
-    number to follow from the image. `used`: instructions that the analysis used, 0: a time that the file has."""
+    number to follow from the image. `used`: instructions that the analysis used, 0: a time that the file has.
+    `unseen`: why it may have further holds."""
 
     name: str
     holds: tuple[Hold, ...]
     automatic: bool
     used: int
     found: bool = True
+    unseen: frozenset[str] = frozenset()
 
     @property
     def open(self) -> tuple[str, ...]:
         """What keeps its longest hold from having a bound; empty: it has one."""
         if not self.found:
             return ("its entry is not in the image",)
-        return tuple(sorted({why for hold in self.holds for why in hold.length.open}))
+        return tuple(sorted(self.unseen.union(*(hold.length.open for hold in self.holds))))
 
     @property
     def instructions(self) -> int | None:
@@ -159,23 +161,33 @@ def task_holds(report: SizeReport, image: Elf, port: int | None) -> tuple[TaskHo
     """
     tasks = _values(report.folder.manifest).get("tasks", ())
     code = _Image(report, image, port) if tasks else None
-    known: dict[str, tuple[Hold, ...] | None] = {}
+    known: dict[str, _Found | None] = {}
     for task in tasks:
         if code is not None and task["entry"] not in known:
             known[task["entry"]] = _holds_of(code, task["entry"])
     return tuple(
         TaskHold(
             task["name"],
-            known[task["entry"]] or (),
+            found.holds if found is not None else (),
             bool(task.get("lock_auto")),
             int(task.get("lock_instructions", 0)),
-            known[task["entry"]] is not None,
+            found is not None,
+            found.unseen if found is not None else frozenset(),
         )
         for task in tasks
+        for found in (known[task["entry"]],)
     )
 
 
-def _holds_of(code: _Image, entry: str) -> tuple[Hold, ...] | None:
+@dataclass(frozen=True)
+class _Found:
+    """The holds below the entry of a task, and why there may be others."""
+
+    holds: tuple[Hold, ...]
+    unseen: frozenset[str]
+
+
+def _holds_of(code: _Image, entry: str) -> _Found | None:
     start = code.address(entry)
     if start is None:
         return None
@@ -183,7 +195,8 @@ def _holds_of(code: _Image, entry: str) -> tuple[Hold, ...] | None:
     borrows = code.address(_BORROWS)
     if entry != OF_SESSION:
         found = Holds(code.flows, code.names, code.rules(asks))
-        holds = found.below(start)
+        holds = _Found(found.below(start), found.unseen(start))
         if borrows is None or borrows not in found.visited:
             return holds
-    return Holds(code.flows, code.names, code.rules()).below(start)
+    found = Holds(code.flows, code.names, code.rules())
+    return _Found(found.below(start), found.unseen(start))

@@ -4,9 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
+
+import pytest
 
 from microros_gen.image.flow import Flow, Step
 from microros_gen.image.holds import Holds, Rules
+from microros_gen.image.lock_holds import TaskHold
 from microros_gen.image.paths import Length
 
 NAMES = {
@@ -107,3 +111,52 @@ def test_what_has_no_bound_is_named() -> None:
         flows = {f.address: f for f in (flow(100, *code), flow(200, "x", "h", "r"))}
         (hold,) = Holds(flows, NAMES, rules).below(100)
         assert hold.length.open == {why}
+
+
+@pytest.mark.parametrize(
+    ("task", "through", "why"),
+    [
+        (
+            {100: Step(100, (101,), through=True), 101: Step(101, returns=True)},
+            None,
+            "a call through a pointer",
+        ),
+        ({100: Step(100, (101,), through=True), 101: Step(101, returns=True)}, {200}, ""),
+        ({100: Step(100, lost=True), 101: Step(101, returns=True)}, None, "a jump"),
+        ({100: Step(100, (101,), call=400), 101: Step(101, returns=True)}, None, ""),
+        ({100: Step(100, (101,), call=300), 101: Step(101, returns=True)}, None, "a call through a pointer"),
+        (
+            {
+                100: Step(100, (101,), call=1),
+                101: Step(101, (102,), call=2),
+                102: Step(102, (103,), through=True),
+                103: Step(103, returns=True),
+            },
+            None,
+            "a call through a pointer",
+        ),
+    ],
+    ids=["unknown", "known", "jump", "of the port", "in what is called", "after the lock"],
+)
+def test_what_is_called_without_the_lock_may_take_it(
+    task: Mapping[int, Step], through: set[int] | None, why: str
+) -> None:
+    """A task whose path is lost outside the lock has no bound, as what it calls there may hold it for long."""
+    calls = {0: Step(0, (1,), through=True), 1: Step(1, returns=True)}
+    port, other = (
+        {to + at: replace(calls[at], address=to + at, next=(to + 1,) * (at == 0)) for at in calls}
+        for to in (400, 300)
+    )
+    flows = {
+        100: Flow("run", 100, dict(task), {}),
+        200: flow(200, "L", *"x" * 100, "U", "r"),
+        300: Flow("other", 300, other, {}),
+        400: Flow("port_send", 400, port, {}),
+    }
+    targets = None if through is None else frozenset(through)
+    rules = Rules(lambda *_: Length(1), lambda _: targets, lambda *_: None, lambda _, length: length)
+    holds = Holds(flows, NAMES, rules)
+    found = TaskHold("run", holds.below(100), True, 0, unseen=holds.unseen(100))
+    assert [each.partition(": ")[2].rpartition(" at ")[0] for each in found.open] == [why] * bool(why)
+    taken = 101 if through else 0
+    assert found.instructions == (None if why else taken)
