@@ -235,3 +235,26 @@ def test_a_service_that_is_closed_takes_no_request(programs: tuple[Path, Path], 
         call(first, second, range(4, 5))
         assert second.served == asked(range(4, 5))
         assert first.replies == [(3, 5)]
+
+
+def test_a_closed_client_ends_no_wait_for_a_subscription(
+    programs: tuple[Path, Path], relay: Relay, tmp_path: Path
+) -> None:
+    """What arrives before the program has opened its subscription waits, whatever else the program closes."""
+    own = free_ports(1)[0]
+    ends = system(f"{HOST}:{relay.ports[1]}", f"{HOST}:{own}")
+    late = service_board_program(tmp_path, "b", ends, flags=("-DLATE=true",))
+    with pair((programs[0], late)) as (first, second):
+        assert not first.tell("greedy 1")
+        ask(second, first, range(1))
+        until(lambda: any(word.startswith("published") for word in first.words), first, second)
+        assert not second.tell("close_client")
+        for _ in range(30):  # some HEARTBEATs
+            for board in (first, second):
+                assert not board.tell("spin 2")
+        assert (second.received, second.counts()[0]) == ([], 0)
+        assert not second.tell("open_sure")
+        count = int(next(word for word in first.words if word.startswith("published")).split()[1])
+        until(lambda: len(second.received) == count, first, second)
+        assert second.received == [*range(count)]
+        assert second.counts()[0] == 0

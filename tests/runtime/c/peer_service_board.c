@@ -15,6 +15,8 @@
  *   numbers SENT TAKEN   sets the numbers of the link's next reliable messages, while nothing is under way, and that of the
  *                        next request
  *   counts               prints `counts DROPPED INTERRUPTED WAITING`, the last of reliable messages of the link
+ *   open_sure            (with LATE) subscribes to /OTHER/sure, which is printed as `got VALUE`
+ *   close_client         finalizes the client of /OTHER/later
  *   available            (with HAS_GRAPH) prints `available 1` if the server of /OTHER/add is, else `available 0`
  * The first argument is what port_time_ms starts with. */
 #define _POSIX_C_SOURCE 200809L
@@ -41,6 +43,10 @@
 
 enum { LINE = 80, HELD = 8, HANDLES = 5 };
 
+#ifndef LATE
+#define LATE false
+#endif
+
 typedef example_interfaces__srv__AddTwoInts_Request request_t;
 typedef example_interfaces__srv__AddTwoInts_Response response_t;
 
@@ -52,6 +58,7 @@ static rcl_service_t add;
 static rcl_service_t later;
 static rcl_client_t add_client;
 static rcl_client_t later_client;
+static rcl_subscription_t sure;
 static rmw_request_id_t held[HELD];
 static int64_t sums[HELD];
 static size_t held_count;
@@ -199,17 +206,31 @@ static rcl_ret_t print_available(void)
 }
 #endif
 
+static bool subscribe(rclc_executor_t * executor)
+{
+  static std_msgs__msg__Int32 heard;
+  const rosidl_message_type_support_t * int32 = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
+
+  return rclc_subscription_init_default(&sure, &node, int32, "/" OTHER "/sure") == RCL_RET_OK &&
+         rclc_executor_add_subscription(executor, &sure, &heard, hear, ON_NEW_DATA) == RCL_RET_OK;
+}
+
+static rcl_ret_t close_client(rclc_executor_t * executor)
+{
+  const rcl_ret_t code = rclc_executor_remove_client(executor, &later_client);
+
+  return code != RCL_RET_OK ? code : rcl_client_fini(&later_client, &node);
+}
+
 static bool start(rclc_executor_t * executor)
 {
   static request_t request;
   static response_t response;
   static response_t reply;
   static response_t later_reply;
-  static std_msgs__msg__Int32 heard;
   static std_msgs__msg__Int32 best_heard;
   static char context[] = "served";
   rcl_allocator_t allocator = rcl_get_default_allocator();
-  static rcl_subscription_t subscription;
   static rcl_subscription_t best_subscription;
   const rosidl_message_type_support_t * int32 = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
 
@@ -217,7 +238,6 @@ static bool start(rclc_executor_t * executor)
          rclc_node_init_default(&node, "board", "", &support) == RCL_RET_OK &&
          rclc_executor_init(executor, &support.context, HANDLES, &allocator) == RCL_RET_OK &&
          rclc_publisher_init_default(&publisher, &node, int32, "/" OWN "/sure") == RCL_RET_OK &&
-         rclc_subscription_init_default(&subscription, &node, int32, "/" OTHER "/sure") == RCL_RET_OK &&
          rclc_publisher_init_best_effort(&best, &node, int32, "/" OWN "/best") == RCL_RET_OK &&
          rclc_subscription_init_best_effort(&best_subscription, &node, int32, "/" OTHER "/best") ==
            RCL_RET_OK &&
@@ -227,7 +247,7 @@ static bool start(rclc_executor_t * executor)
          rclc_service_init_default(&later, &node, type(), "/" OWN "/later") == RCL_RET_OK &&
          rclc_client_init_default(&add_client, &node, type(), "/" OTHER "/add") == RCL_RET_OK &&
          rclc_client_init_default(&later_client, &node, type(), "/" OTHER "/later") == RCL_RET_OK &&
-         rclc_executor_add_subscription(executor, &subscription, &heard, hear, ON_NEW_DATA) == RCL_RET_OK &&
+         (LATE || subscribe(executor)) &&
          rclc_executor_add_service_with_context(executor, &add, &request, &response, serve, context) ==
            RCL_RET_OK &&
          rclc_executor_add_client_with_request_id(executor, &add_client, &reply, hear_reply) == RCL_RET_OK &&
@@ -291,6 +311,10 @@ int main(int argc, char ** argv)
       hasty = a != 0;
     } else if (strcmp(line, "open\n") == 0) {
       code = reopen();
+    } else if (LATE && strcmp(line, "open_sure\n") == 0) {
+      code = subscribe(&executor) ? RCL_RET_OK : RCL_RET_ERROR;
+    } else if (strcmp(line, "close_client\n") == 0) {
+      code = close_client(&executor);
     } else if (strcmp(line, "close\n") == 0) {
       code = rcl_service_fini(&add, &node);
     } else if (sscanf(line, "numbers %u %u", &first, &second) == 2) {

@@ -41,7 +41,7 @@ bool rmw_peer_has_route(const xrce_endpoint_t * writer)
   for (uint8_t link = 0; link < MICROROS_PEERS; ++link) {
     const xrce_peer_line_t * line = &xrce_peer_lines[link];
 
-    for (uint16_t i = 0; i < line->writer_count; ++i) {
+    for (uint16_t i = 0; i < line->writer_count; ++i) { /* at most MICROROS_PUBLISHERS_MAX rounds */
       if (line->writers[i].endpoint == writer->index) {
         return true;
       }
@@ -131,7 +131,7 @@ static bool peer_publish(const xrce_endpoint_t * writer, const peer_sample_t * s
   for (uint8_t link = 0; link < MICROROS_PEERS; ++link) {
     const xrce_peer_line_t * line = &xrce_peer_lines[link];
 
-    for (uint16_t i = 0; i < line->writer_count; ++i) {
+    for (uint16_t i = 0; i < line->writer_count; ++i) { /* at most MICROROS_PUBLISHERS_MAX rounds */
       if (line->writers[i].endpoint == writer->index) {
         const rmw_ret_t outcome = peer_write(writer, link, line->writers[i].topic, sample, now);
 

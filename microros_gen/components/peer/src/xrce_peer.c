@@ -192,7 +192,7 @@ bool xrce_peer_is_whole(const uint8_t * message, size_t size)
   size_t at = XRCE_MESSAGE_HEADER;
   size_t end = at;
 
-  while (at + XRCE_SUBMESSAGE_HEADER <= size) {
+  while (at + XRCE_SUBMESSAGE_HEADER <= size) { /* at most MICROROS_PEER_MTU / 4 rounds */
     end = at + XRCE_SUBMESSAGE_HEADER + xrce_get_le16(&message[at + 2u]);
     at = (end + 3u) & ~(size_t)3u;
   }
@@ -224,6 +224,7 @@ static void peer_receive(xrce_client_t * client, uint8_t index, uint32_t now)
   xrce_peer_port_t * port = &xrce_peer_ports[index];
 
   peer->more = port->is_open;
+  /* at most MESSAGES_PER_PUMP rounds */
   for (uint8_t i = 0; i < MESSAGES_PER_PUMP && port->is_open; ++i) {
     const int32_t size = xrce_transport_receive(&port->transport, message, MICROROS_PEER_MTU);
 

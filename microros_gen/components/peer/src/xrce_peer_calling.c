@@ -20,6 +20,7 @@ static uint16_t calling_request(const xrce_client_t * client, uint16_t requester
 
 static bool calling_waits_for(const xrce_client_t * client, uint16_t requester, uint16_t number)
 {
+  /* at most MICROROS_QUEUE_SLOTS rounds */
   for (uint8_t i = 0; i < calling_queue(requester)->slots; ++i) {
     if (calling_request(client, requester, i) == number) {
       return number != XRCE_REQUEST_NONE;
@@ -97,6 +98,7 @@ void xrce_peer_calling_renew(xrce_client_t * client, uint8_t index)
   for (uint16_t i = 0; i < (uint16_t)MICROROS_PEER_REQUESTERS; ++i) {
     const uint16_t requester = xrce_peer_requesters[i].endpoint;
 
+    /* at most MICROROS_QUEUE_SLOTS rounds */
     for (uint8_t slot = 0; slot < calling_queue(requester)->slots; ++slot) {
       if (
         xrce_peer_requesters[i].link == index &&

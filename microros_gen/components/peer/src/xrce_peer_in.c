@@ -25,10 +25,16 @@ void xrce_peer_in_reset(xrce_peer_t * peer, uint8_t index)
   peer->early = false;
 }
 
-void xrce_peer_in_closed(xrce_client_t * client)
+void xrce_peer_in_closed(const xrce_endpoint_t * endpoint)
 {
-  for (uint8_t i = 0; i < MICROROS_PEERS; ++i) {
-    client->peers[i].begun = true;
+  for (uint8_t link = 0; link < MICROROS_PEERS; ++link) {
+    const xrce_peer_line_t * line = &xrce_peer_lines[link];
+
+    for (uint16_t i = 0; i < line->reader_count; ++i) { /* at most MICROROS_SUBSCRIPTIONS_MAX rounds */
+      if ((uint32_t)line->readers[i].endpoint + MICROROS_PUBLISHERS_MAX == endpoint->index) {
+        endpoint->client->peers[link].begun = true;
+      }
+    }
   }
 }
 
@@ -99,7 +105,7 @@ static void in_write_data(
   sample.arrived_ms = now;
   sample.size = (uint16_t)(size - XRCE_OBJECT_PREFIX);
   sample.big_endian = (xrce_flags_of(submessage) & XRCE_FLAG_LITTLE_ENDIAN) == 0u;
-  for (uint16_t i = 0; i < line->reader_count; ++i) {
+  for (uint16_t i = 0; i < line->reader_count; ++i) { /* at most MICROROS_SUBSCRIPTIONS_MAX rounds */
     if (!in_is_topic(&line->readers[i], object)) {
       continue;
     }
@@ -121,7 +127,7 @@ static bool in_has_no_reader(const xrce_client_t * client, uint8_t index, const 
   if (submessage[0] != XRCE_WRITE_DATA || xrce_get_le16(&submessage[2]) < XRCE_OBJECT_PREFIX) {
     return false;
   }
-  for (uint16_t i = 0; i < line->reader_count; ++i) {
+  for (uint16_t i = 0; i < line->reader_count; ++i) { /* at most MICROROS_SUBSCRIPTIONS_MAX rounds */
     if (
       in_is_topic(&line->readers[i], xrce_get_be16(&xrce_payload_of(submessage)[2])) &&
       !in_is_open(client, line->readers[i].endpoint)) {
@@ -182,6 +188,7 @@ static void in_deliver(xrce_client_t * client, uint8_t index, uint8_t * input, s
   const uint8_t * message = &input[MICROROS_PEER_HEAD];
   size_t at = XRCE_MESSAGE_HEADER;
 
+  /* at most MICROROS_PEER_MTU / 4 + MICROROS_PEER_JOINED / 4 or MICROROS_PEER_MTU / 4 rounds */
   while (at < size) {
     const uint8_t * submessage = &message[at];
     const size_t length = xrce_get_le16(&submessage[2]);

@@ -51,7 +51,7 @@ static bool peer_send_unsent(xrce_client_t * client, uint8_t index)
 {
   xrce_peer_t * peer = &client->peers[index];
 
-  for (uint8_t i = 0; (uint32_t)peer->unsent >> i != 0u; ++i) {
+  for (uint8_t i = 0; (uint32_t)peer->unsent >> i != 0u; ++i) { /* at most 16 rounds */
     const uint32_t bit = (uint32_t)1u << i;
 
     if ((peer->unsent & bit) != 0u) {

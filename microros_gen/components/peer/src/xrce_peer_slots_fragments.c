@@ -65,7 +65,7 @@ uint8_t xrce_peer_slots_window(const xrce_peer_t * peer, uint8_t index)
   const uint32_t most = (uint32_t)XRCE_PEER_WINDOW + peer->done;
   uint32_t numbers = 0;
 
-  for (uint8_t i = 0; i < peer->count && numbers < most; ++i) {
+  for (uint8_t i = 0; i < peer->count && numbers < most; ++i) { /* at most MICROROS_PEER_SLOTS rounds */
     numbers += slots_numbers(peer, index, i);
   }
   return (uint8_t)((numbers < most ? numbers : most) - peer->done);
@@ -101,7 +101,8 @@ bool xrce_peer_slots_send(xrce_client_t * client, uint8_t index, uint8_t place)
   uint8_t slot;
   uint8_t i = 0;
 
-  while (fragment >= slots_numbers(peer, index, i)) { /* the window ends in one of the messages */
+  /* at most MICROROS_PEER_SLOTS rounds: the window ends in one of the messages */
+  while (fragment >= slots_numbers(peer, index, i)) {
     fragment -= slots_numbers(peer, index, i);
     ++i;
   }
@@ -119,6 +120,7 @@ void xrce_peer_slots_free(xrce_peer_t * peer, uint8_t index, uint8_t count)
 {
   uint32_t done = (uint32_t)peer->done + count;
 
+  /* at most MICROROS_PEER_SLOTS rounds */
   while (peer->count != 0u && done >= slots_numbers(peer, index, 0)) {
     done -= slots_numbers(peer, index, 0);
     peer->head = slots_at(peer, 1);

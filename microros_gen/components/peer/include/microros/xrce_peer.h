@@ -19,6 +19,7 @@
 
 #include "microros/xrce_forward.h"
 #include "microros/xrce_local.h"
+#include "microros/xrce_objects.h"
 #include "microros/xrce_transport.h"
 #include "microros/xrce_wire.h"
 #include "microros_config.h"
@@ -89,8 +90,8 @@ typedef struct xrce_peer_t {
   bool received : 1;   /* something arrived in the other board's session */
   bool lost : 1;       /* the device of the line is gone */
   bool more : 1;       /* more may have arrived than a pump takes */
-  bool
-    early : 1; /* the next reliable message is not acknowledged: the program has not opened its subscription yet */
+  /* the next reliable message is not acknowledged: the program has not opened its subscription yet */
+  bool early : 1;
   bool begun : 1; /* no message waits for a subscription any more */
 } xrce_peer_t;
 
@@ -176,11 +177,12 @@ void xrce_peer_acknowledged(
 void xrce_peer_in_reset(xrce_peer_t * peer, uint8_t index);
 
 /* How long a reliable message waits for its subscription, milliseconds: as long as a program may take to open all of
- * them. Then, and once it has closed one, what has no subscription is dropped and counted. */
+ * them. Then, and once it has closed one of the link, what has no subscription is dropped and counted. */
 #define XRCE_PEER_EARLY_MS 10000u
 
-/* Called when the program closes a subscription. */
-void xrce_peer_in_closed(xrce_client_t * client);
+/* Called when the program closes a receiver of any kind: if it is a subscription of a link, no message waits for one
+ * there any more. */
+void xrce_peer_in_closed(const xrce_endpoint_t * endpoint);
 
 /* Takes a message of the other board's session, which is complete. */
 void xrce_peer_in_take(
