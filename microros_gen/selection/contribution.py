@@ -63,6 +63,7 @@ HOOK_POINTS: Mapping[str, HookPoint] = MappingProxyType(
         "settled": HookPoint(("client",), value=True),
         # the output streams, in xrce_routes.c
         "full": HookPoint(("client", "reliable"), value=True),
+        "reserved": HookPoint(("client",), value=True),
         "committing": HookPoint(("client", "reliable")),
         # the WRITE_DATA submessage
         "dropped": HookPoint(("client", "dropped")),

@@ -3,9 +3,13 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import pytest
 
-from microros_gen.image.rounds import Sources
+import microros_gen
+from microros_gen.image.rounds import Source, Sources
 
 HEADER = """\
 #define MICROROS_TASKS 3u /* the last one runs the session */
@@ -69,3 +73,26 @@ def test_a_comment_says_how_many_bytes_a_call_handles() -> None:
 def test_a_comment_of_the_outer_loop_does_not_bound_the_inner_one() -> None:
     text = "for (;;) { /* at most 4 rounds */\n  while (*at != 0) {\n    ++at;\n  }\n}"
     assert (rounds(text, 1), rounds(text, 3)) == (4, "src/part/file.c:2")
+
+
+COMPONENTS = Path(microros_gen.__file__).parent / "components"
+WAITS = "port_time_ms() - start <"
+"""A loop that ends at a time, and rests in each round."""
+
+
+@pytest.mark.parametrize("component", ["peer", "stream_reliable", "write"])
+def test_the_loops_of_what_sends_and_receives_have_a_bound(component: str) -> None:
+    """Without one `lock: auto` would be refused for an application that has the component."""
+    declared = "".join(path.read_text() for path in COMPONENTS.glob("*/component.yaml"))
+    defines = "".join(f"#define {name} 8u\n" for name in {*re.findall(r"\bMICROROS_[A-Z0-9_]+", declared)})
+    own = sorted((COMPONENTS / component).rglob("*.[ch]"))
+    headers = [defines, *(path.read_text() for path in own if path.suffix == ".h")]
+    sources = Sources(lambda name: Path(name).read_text(), headers)
+    bounds = {
+        (path.name, loop.first): sources.rounds([(str(path), loop.first)])
+        for path in own
+        for loop in Source(path.read_text()).loops
+        if WAITS not in loop.head
+    }
+    assert bounds
+    assert [place for place, most in bounds.items() if not isinstance(most, int)] == []

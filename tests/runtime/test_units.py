@@ -10,12 +10,20 @@ from pathlib import Path
 import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
+from microros_gen.client.plan.runtime_entities import QueuePlan
 from microros_gen.selection.find_components import parts_folder
 from tests.support.patience import seconds
 from tests.support.plans import POOL, changed
 from tests.support.runtime.harness import SANITIZE, SANITIZER, Tree, build, compilers, components, render
 
 DROP_OLDEST = changed(POOL, streams__on_full="drop_oldest")
+SERVES = changed(
+    DROP_OLDEST,
+    streams__mtu=256,
+    streams__best_effort_size=256,
+    entities__services__max=1,
+    input__queues=(QueuePlan(2, 40),),
+)
 ARENA = changed(POOL, memory__arena_size=1024)
 
 
@@ -24,6 +32,7 @@ ARENA = changed(POOL, memory__arena_size=1024)
     [
         ("unit_stream.c", POOL, SANITIZE),
         ("unit_stream_replaced.c", DROP_OLDEST, SANITIZE),
+        ("unit_drop_reserved.c", SERVES, SANITIZE),
         ("unit_memory.c", changed(POOL, memory__arena_size=512), SANITIZE),
         ("unit_strings.c", ARENA, SANITIZE),
         pytest.param("unit_strings.c", POOL, ("-O2",), marks=pytest.mark.system),
@@ -32,7 +41,7 @@ ARENA = changed(POOL, memory__arena_size=1024)
             marks=pytest.mark.system,
         ),
     ],
-    ids=["stream", "stream-replaced", "memory", "strings", "strings-no-arena", "memory-m32"],
+    ids=["stream", "stream-replaced", "drop-reserved", "memory", "strings", "strings-no-arena", "memory-m32"],
 )
 def test_unit(unit: str, plan: RuntimePlan, flags: tuple[str, ...], tmp_path: Path) -> None:
     names = [name for name in components(plan) if name != "port_posix"]

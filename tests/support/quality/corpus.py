@@ -360,8 +360,9 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "tasks:\n  - {name: control, executor: fast, rate: 20 Hz, overrun: call}\n"
         + "  - {name: work, executor: slow, interval: 5 ms}\nwatchdog: {margin: 10 ms}\n",
         "tasks_custom": _BOTH
+        + "    services: [{name: rest, type: std_srvs/srv/Empty}]\n"
         + "    executors: [{name: fast}]\n"
-        + "components: [+executor]\non_full: drop_oldest\ntransport: {type: custom}\n"
+        + "components: [+executor, +services]\non_full: drop_oldest\ntransport: {type: custom}\n"
         + "tasks: [{name: control, executor: fast, rate: 20 Hz}]\n",
         "tasks_tcp": _BOTH
         + "    executors: [{name: fast}]\n"

@@ -39,7 +39,7 @@ static void stream_remove(xrce_stream_reliable_t * stream, uint8_t i)
   const uint8_t slot = stream_slot(stream, i);
 
   --stream->count;
-  for (; i < stream->count; ++i) {
+  for (; i < stream->count; ++i) { /* at most MICROROS_RELIABLE_SLOTS rounds */
     stream->order[i] = (uint8_t)(stream_slot(stream, (uint8_t)(i + 1u)) ^ i);
   }
   stream->order[i] = slot ^ i;
@@ -123,6 +123,7 @@ static stream_outcome_t stream_send_place(
     }
     --fragment;
   }
+  /* at most MICROROS_RELIABLE_BEGUN rounds */
   for (uint8_t i = 0; i < stream->count && i < MICROROS_RELIABLE_BEGUN; ++i) {
     const uint16_t fragments = stream_fragments(stream, i);
 
@@ -139,6 +140,7 @@ static stream_outcome_t stream_repeat(xrce_stream_reliable_t * stream, xrce_sess
 {
   stream_outcome_t outcome = STREAM_SENT;
 
+  /* at most FRAGMENTS_WINDOW rounds */
   for (uint8_t place = 0; outcome == STREAM_SENT && (uint32_t)stream->unsent >> place != 0u; ++place) {
     const uint32_t bit = (uint32_t)1u << place;
 
@@ -164,6 +166,7 @@ static void stream_flow(xrce_stream_reliable_t * stream, xrce_session_t * sessio
     xrce_stream_reliable_restart_timer(stream, now);
   }
   outcome = stream_repeat(stream, session);
+  /* at most FRAGMENTS_WINDOW rounds */
   while (outcome == STREAM_SENT && stream->sent < FRAGMENTS_WINDOW) {
     outcome = stream_send_place(stream, session, stream->sent);
     if (outcome == STREAM_SENT) {
@@ -199,6 +202,7 @@ static void stream_free(xrce_stream_reliable_t * stream, uint8_t count)
     --count;
   }
   stream->done = (uint16_t)(stream->done + count);
+  /* at most MICROROS_RELIABLE_SLOTS rounds */
   while (stream->count != 0u && stream->done >= stream_fragments(stream, 0)) {
     stream->done = (uint16_t)(stream->done - stream_fragments(stream, 0));
     stream_remove(stream, 0);
@@ -214,7 +218,7 @@ static uint8_t stream_first_unsent(const xrce_stream_reliable_t * stream)
   if (stream->ending && stream->sent != 0u) {
     --used;
   }
-  while (i < stream->count && used != 0u) {
+  while (i < stream->count && used != 0u) { /* at most MICROROS_RELIABLE_SLOTS rounds */
     const uint16_t fragments = stream_fragments(stream, i);
 
     used = used > fragments ? used - fragments : 0u;
@@ -296,7 +300,7 @@ bool xrce_stream_reliable_on_acknack(
   } else if (missing != 0u) {
     stream->due_ms = now; /* the agent waits for the dropped message: send a HEARTBEAT */
   }
-  for (; missing != 0u; missing >>= 1) {
+  for (; missing != 0u; missing >>= 1) { /* at most 16 rounds */
     /* Every acknowledgement after a gap names it, so each number is repeated once between two HEARTBEATs. */
     if ((missing & 1u) != 0u && place < stream->sent && ((uint32_t)stream->again >> place & 1u) == 0u) {
       stream->again = (uint16_t)(stream->again | (uint32_t)1u << place);

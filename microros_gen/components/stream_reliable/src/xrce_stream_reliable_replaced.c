@@ -25,7 +25,7 @@ static void stream_remove(xrce_stream_reliable_t * stream, uint8_t i)
   const uint8_t slot = stream_slot(stream, i);
 
   --stream->count;
-  for (; i < stream->count; ++i) {
+  for (; i < stream->count; ++i) { /* at most MICROROS_RELIABLE_SLOTS rounds */
     stream->order[i] = (uint8_t)(stream_slot(stream, (uint8_t)(i + 1u)) ^ i);
   }
   stream->order[i] = slot ^ i;
@@ -73,7 +73,7 @@ static bool stream_announce(xrce_stream_reliable_t * stream, xrce_session_t * se
  * arrived, so a HEARTBEAT asks. */
 static bool stream_repeat(xrce_stream_reliable_t * stream, xrce_session_t * session, uint32_t now)
 {
-  for (uint8_t i = 0; (uint32_t)stream->unsent >> i != 0u; ++i) {
+  for (uint8_t i = 0; (uint32_t)stream->unsent >> i != 0u; ++i) { /* at most MICROROS_RELIABLE_SLOTS rounds */
     const uint32_t bit = (uint32_t)1u << i;
 
     if ((stream->unsent & bit) != 0u) {
@@ -94,6 +94,7 @@ static void stream_flow(xrce_stream_reliable_t * stream, xrce_session_t * sessio
   if ((stream->gap && !stream_announce(stream, session, now)) || !stream_repeat(stream, session, now)) {
     return;
   }
+  /* at most MICROROS_RELIABLE_BEGUN rounds */
   while (xrce_stream_reliable_has_new(stream) && stream_send(stream, session, stream->sent)) {
     if (stream->sent == 0u) {
       xrce_stream_reliable_restart_timer(stream, now);
@@ -128,6 +129,9 @@ const uint8_t * xrce_stream_reliable_drop_oldest(
     stream->unsent = 0;
   }
   if (stream->sent == stream->count) {
+    if (stream->count < MICROROS_RELIABLE_SLOTS) {
+      return NULL; /* the others are reserved: what was sent stays */
+    }
     dropped = xrce_reliable_slots[stream_slot(stream, 0)];
     stream_pass(stream);
     stream->gap = true;
@@ -187,13 +191,13 @@ bool xrce_stream_reliable_on_acknack(
     if (place != 0u) {
       xrce_stream_reliable_restart_timer(stream, now);
     }
-    for (; place != 0u; --place) {
+    for (; place != 0u; --place) { /* at most MICROROS_RELIABLE_BEGUN rounds */
       stream_pass(stream);
     }
   } else if (missing != 0u) {
     stream->gap = true; /* the agent waits for a dropped message */
   }
-  for (; missing != 0u; missing >>= 1) {
+  for (; missing != 0u; missing >>= 1) { /* at most 16 rounds */
     /* Every acknowledgement after a gap names it, so each number is repeated once between two HEARTBEATs. */
     if ((missing & 1u) != 0u && place < stream->sent && ((uint32_t)stream->again >> place & 1u) == 0u) {
       stream->again = (uint16_t)(stream->again | (uint32_t)1u << place);

@@ -14,8 +14,8 @@ extern "C" {
 #endif
 
 /*
- * Drops the oldest message of which nothing was sent. If all were sent, drops the oldest one, over which the next step
- * sends a HEARTBEAT; a fragmented one is then kept. Returns the submessages, valid until the next reservation; NULL if
+ * Drops the oldest message of which nothing was sent. What was sent stays, except in a stream of a single slot for
+ * whole messages, over which the next step sends a HEARTBEAT. Returns the submessages, valid until the next reservation; NULL if
  * there is nothing to drop. */
 const uint8_t * xrce_stream_reliable_drop_oldest(
   xrce_stream_reliable_t * stream, const xrce_session_t * session, uint32_t now);

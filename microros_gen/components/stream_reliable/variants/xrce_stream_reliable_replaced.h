@@ -20,12 +20,12 @@ typedef struct xrce_stream_reliable_t {
   uint32_t due_ms;   /* next HEARTBEAT while something is unacknowledged; while held: the limit */
   uint32_t since_ms; /* time of the last acknowledgement, or of the first message */
   bool held;         /* until due_ms, or until the agent has the writers, nothing is numbered or sent */
-  bool gap;        /* a message that was sent is no longer available: the next thing to send is a HEARTBEAT */
-  uint8_t count;   /* unacknowledged messages */
-  uint8_t sent;    /* of them: those with a number, from `first` on */
-  uint16_t first;  /* oldest number in use; the next one to assign if none is */
-  uint16_t again;  /* bit i: the agent has requested first + i since the last HEARTBEAT */
-  uint16_t unsent; /* bit i: requested and not yet repeated */
+  bool gap;          /* a message that was sent is gone: the next thing to send is a HEARTBEAT */
+  uint8_t count;     /* unacknowledged messages */
+  uint8_t sent;      /* of them: those with a number, from `first` on */
+  uint16_t first;    /* oldest number in use; the next one to assign if none is */
+  uint16_t again;    /* bit i: the agent has requested first + i since the last HEARTBEAT */
+  uint16_t unsent;   /* bit i: requested and not yet repeated */
   uint8_t order[MICROROS_RELIABLE_SLOTS]; /* slot of the i-th message, XORed with i */
   uint16_t size[MICROROS_RELIABLE_SLOTS]; /* of the submessages of a message */
 } xrce_stream_reliable_t;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * on_full: drop_oldest. A reliable message replaces the oldest one that was not sent, also without a session: the newest
- * are sent in the next session. A best-effort message without a session is dropped; with one it replaces the oldest one that
+ * are sent in the next session. Slots that are reserved for replies are not used: if what was sent fills the others, the new
+ * message is refused. A best-effort message without a session is dropped; with one it replaces the oldest one that
  * waits.
  */
 #include "microros/xrce_drops.h"
@@ -36,7 +37,7 @@ xrce_write_t xrce_write_on_full(xrce_endpoint_t * writer, uint8_t ** room)
     return full_best_effort(writer, room);
   }
   *room = xrce_route_reserve(client, true);
-  while (*room == NULL) {
+  while (*room == NULL) { /* at most MICROROS_RELIABLE_SLOTS + 1 rounds */
     const uint8_t * dropped = xrce_route_drop_oldest(client);
 
     if (dropped == NULL) {

@@ -15,6 +15,12 @@ static inline bool xrce_services_keep_back(const xrce_client_t * client, bool re
   return reliable && (uint32_t)client->reliable.count + client->replies_due >= MICROROS_RELIABLE_SLOTS;
 }
 
+/* Returns whether all slots of the reliable stream are reserved for replies: dropping a message makes no room. */
+static inline bool xrce_services_keep_all(const xrce_client_t * client)
+{
+  return client->replies_due >= MICROROS_RELIABLE_SLOTS;
+}
+
 #ifdef __cplusplus
 }
 #endif

@@ -78,8 +78,9 @@ size_t xrce_route_capacity(bool reliable)
 
 const uint8_t * xrce_route_drop_oldest(xrce_client_t * client)
 {
-  const uint8_t * dropped = xrce_stream_reliable_drop_oldest(&client->reliable, &client->session, client->session.now_ms);
+  const uint8_t * dropped;
 
+  dropped = xrce_stream_reliable_drop_oldest(&client->reliable, &client->session, client->session.now_ms);
   return dropped;
 }
 

@@ -103,8 +103,9 @@ size_t xrce_route_capacity(bool reliable)
 
 const uint8_t * xrce_route_drop_oldest(xrce_client_t * client)
 {
-  const uint8_t * dropped = NULL;
+  const uint8_t * dropped;
 
+  dropped = NULL;
   (void)client;
   return dropped;
 }
