@@ -94,8 +94,10 @@ static void stream_flow(xrce_stream_reliable_t * stream, xrce_session_t * sessio
   if ((stream->gap && !stream_announce(stream, session, now)) || !stream_repeat(stream, session, now)) {
     return;
   }
+  /* What xrce_stream_reliable_has_new says: the bound of a loop belongs to its own line. */
   /* at most MICROROS_RELIABLE_BEGUN rounds */
-  while (xrce_stream_reliable_has_new(stream) && stream_send(stream, session, stream->sent)) {
+  while (stream->sent < stream->count && stream->sent < (uint32_t)MICROROS_RELIABLE_BEGUN &&
+         stream_send(stream, session, stream->sent)) {
     if (stream->sent == 0u) {
       xrce_stream_reliable_restart_timer(stream, now);
     }

@@ -47,7 +47,7 @@ bool xrce_route_commit(xrce_client_t * client, bool reliable, size_t size);
 size_t xrce_route_capacity(bool reliable);
 
 /* Drops the oldest unacknowledged reliable message and returns its submessage, valid until the next
- * reservation; NULL if there is none that may be dropped. */
+ * reservation; NULL without one that may be dropped. */
 const uint8_t * xrce_route_drop_oldest(xrce_client_t * client);
 
 /* Returns the number of unacknowledged reliable messages. */
