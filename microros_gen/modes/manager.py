@@ -83,9 +83,15 @@ class Manager:
         yield from self.change(node, status)
 
     def change(self, node: str, status: Status) -> Iterator[Step]:
-        """Let a node be changed to `status` by somebody else, and settle."""
+        """Let a node be changed to `status` by somebody else, and settle.
+
+        A contingency that it goes to by itself is left alone until it is back in its target, or was reset.
+        """
         self.nodes[node] = status
-        if status.state == ACTIVE and status.mode in self.model.parts[node].contingencies:
+        target = self.targets.get(node)
+        if status.state == UNCONFIGURED or (target is not None and status.is_same(target)):
+            self._reacted.discard(node)
+        elif status.state == ACTIVE and status.mode in self.model.parts[node].contingencies:
             self._reacted.add(node)
         if status != self._shown.get(node):
             self._shown = {**self._shown, node: status}
@@ -159,7 +165,7 @@ class Manager:
     def _snapshot(self) -> object:
         histories = ((name, tuple(r.name for r in h)) for name, h in self._histories.items() if h)
         targets = tuple(sorted(self.targets.items(), key=lambda i: i[0]))
-        return targets, tuple(self.nodes.items()), tuple(sorted(histories))
+        return targets, tuple(self.nodes.items()), tuple(sorted(histories)), tuple(sorted(self._reacted))
 
     def _changes(self) -> Iterator[Step]:
         """Yield the status of each part that is another one than before, parts before their systems."""

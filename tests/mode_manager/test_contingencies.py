@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -262,6 +263,25 @@ def test_the_proof_and_the_simulation_leave_it_alone() -> None:
     played = simulate(model, [*events, late], with_services=["device"])
     assert {end.part: end.status for end in played.ends}["cell"] == RUN
     assert Status("active", "SAFE") == active("SAFE")
+
+
+@pytest.mark.parametrize("first", ["active.SAFE", "active.FAST", "inactive", "unconfigured"])
+def test_the_proof_and_the_simulation_end_alike(first: str) -> None:
+    """After every sequence of three changes by others: a reaction is over in the target, and after a reset."""
+    model, found = model_of(CELL), dict[str, str]()
+    statuses = [active("SAFE"), active("FAST"), Status("inactive"), Status("unconfigured")]
+    for changes in product([s for s in statuses if str(s) == first], statuses, statuses):
+        manager = Manager(model)
+        list(manager.request("cell", RUN))
+        for status in changes:
+            list(manager.change("device", status))
+        events = [Event((i + 1) * 60_000_000, "change", "device", s) for i, s in enumerate(changes)]
+        played = simulate(model, [Event(0, "request", "cell", RUN), *events], with_services=["device"])
+        assert {end.part: end.status for end in played.ends}["device"] == manager.nodes["device"], changes
+        found[" ".join(map(str, changes[1:]))] = str(manager.nodes["device"])
+    assert found["active.FAST inactive"] == "active.FAST"
+    assert found["active.SAFE inactive"] == "inactive"
+    assert found["active.SAFE unconfigured"] == "active.FAST"
 
 
 @pytest.mark.ros
