@@ -8,13 +8,14 @@ import math
 import re
 import time
 from collections.abc import Callable, Mapping
+from contextlib import closing
 from types import MappingProxyType
 
 from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.mode_manager.messages import scalar_of
 from microros_gen.modes.model import DEFAULT, Scalar
 from microros_gen.parameter_server.values import BYTE_ARRAY
-from microros_gen.ros.endpoints import Value
+from microros_gen.ros.endpoints import Client, Value
 from microros_gen.ros.peer import Peer
 
 _KIND = "rcl_interfaces/srv"
@@ -39,7 +40,11 @@ def mine(
     `timeout_s` limits each wait, in seconds. Raises UserError if the node does not answer, is in no known mode, or does
     not return to its mode.
     """
-    read = _Node(peer, node.strip("/"), timeout_s, report)
+    with closing(_Node(peer, node.strip("/"), timeout_s, report)) as read:
+        return _mined(read, each_mode)
+
+
+def _mined(read: _Node, each_mode: bool) -> str:
     values = read.values()
     if not read.has_modes():
         if each_mode:
@@ -66,6 +71,12 @@ class _Node:
         self._peer = peer
         self._timeout_s = timeout_s
         self._report = report
+        self._clients: dict[str, Client] = {}
+
+    def close(self) -> None:
+        """Remove its clients from the peer."""
+        while self._clients:
+            self._peer.remove(self._clients.popitem()[1])
 
     def values(self) -> Values:
         """Return the values that it has now."""
@@ -129,9 +140,9 @@ class _Node:
         return True
 
     def _call(self, package: str, service: str, kind: str, **request: object) -> Value:
-        response = self._peer.client(f"/{self.name}/{service}", f"{package}/{kind}").call(
-            request, self._timeout_s
-        )
+        if service not in self._clients:
+            self._clients[service] = self._peer.client(f"/{self.name}/{service}", f"{package}/{kind}")
+        response = self._clients[service].call(request, self._timeout_s)
         if response is None:
             hint = "Start it, or name another one; the ROS domain is that of --domain"
             message = f"the node '/{self.name}' does not answer"

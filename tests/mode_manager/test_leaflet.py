@@ -85,7 +85,9 @@ def device() -> Device:
 
 
 @pytest.mark.ros
-def test_each_mode_is_read_and_the_first_one_is_restored(stack: ExitStack, domain: int) -> None:
+def test_each_mode_is_read_and_the_first_one_is_restored(
+    stack: ExitStack, domain: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Only what differs from __DEFAULT__ is printed; a mode that the node refuses is left out, and reported."""
     assert domain >= 0
     mined, reported = device(), list[str]()
@@ -98,8 +100,12 @@ def test_each_mode_is_read_and_the_first_one_is_restored(stack: ExitStack, domai
     )
     assert mined.requests == []
     mined.values["law"] = "SLOW"
+    made, create = list[str](), peer.client
+    monkeypatch.setattr(peer, "client", lambda name, kind: (made.append(name), create(name, kind))[1])
     text = mine(peer, "/device", 30.0, reported.append, each_mode=True)
     assert mined.requests == ["__DEFAULT__", "SLOW", "FAST", "SLOW"]
+    assert len(made) == len(set(made)) == 5, "a client of each service, whatever the number of calls"
+    assert peer.graph().count_clients("/device/get_mode") == 0
     assert mined.mode == "SLOW"
     default: dict[str, Scalar] = {"law": "SLOW", "limit": 3, "speed": 0.5}
     others: dict[str, dict[str, Scalar]] = {"SLOW": {"speed": 0.2}, "FAST": {"law": "QUICK", "speed": 2.0}}
