@@ -71,7 +71,7 @@ class _Image:
         self._targets = _targets(folder, image, self._functions, self.flows)
 
     def address(self, name: str) -> int | None:
-        """Return the address of a function, or None where the image has it not."""
+        """Return the address of a function, or None if the image does not contain it."""
         return min((a for a, n in self.names.items() if n == name), default=None)
 
     def rules(self, zero: frozenset[int] = frozenset()) -> Rules:

@@ -18,7 +18,7 @@ MARGIN_PERCENT = 10
 
 @dataclass(frozen=True)
 class TaskStack:
-    """The stack of the task `name`, which has `size` bytes. `bound` None: the image has not its entry.
+    """The stack of the task `name`, which has `size` bytes. `bound` None: the image does not contain its entry.
 
     `context` is what the operating system puts on it, and the frames of the port around the entry. `automatic`: the
     application file wants the size to follow from the image.

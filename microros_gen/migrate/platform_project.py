@@ -25,7 +25,7 @@ from microros_gen.selection.component_sources import template_name
 
 _LARGEST = 1 << 20
 _WRITTEN = (("NAME", "{name}"), ("DOT_", "."))
-"""What stands in paths below project/ for the name of the project, and for a dot at their beginning."""
+"""Placeholders in paths below project/: for the name of the project, and for a dot at their beginning."""
 
 
 @dataclass(frozen=True)

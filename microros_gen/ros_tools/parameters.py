@@ -66,7 +66,7 @@ class NodeParameters:
         return sorted(response["result"]["names"])
 
     def values(self, names: Sequence[str]) -> list[ParameterValue]:
-        """Return the values in the order of the names: fewer than names if the node knows one of them not."""
+        """Return the values in the order of the names: fewer than names if a name is unknown."""
         response = self._call("get_parameters", "GetParameters", {"names": list(names)})
         return [value_of(value) for value in response["values"]]
 
