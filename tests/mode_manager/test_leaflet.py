@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from microros_gen.diagnostics import UserError
 from microros_gen.mode_manager.leaflet import leaflet, mine
 from microros_gen.modes.model import Scalar
+from microros_gen.ros.endpoints import Client
 from microros_gen.ros.peer import Peer
 from tests.support.agent.process import environment, own_domain
 from tests.support.mode_manager.device import Device, alive
@@ -101,7 +102,12 @@ def test_each_mode_is_read_and_the_first_one_is_restored(
     assert mined.requests == []
     mined.values["law"] = "SLOW"
     made, create = list[str](), peer.client
-    monkeypatch.setattr(peer, "client", lambda name, kind: (made.append(name), create(name, kind))[1])
+
+    def client(name: str, kind: str) -> Client:
+        made.append(name)
+        return create(name, kind)
+
+    monkeypatch.setattr(peer, "client", client)
     text = mine(peer, "/device", 30.0, reported.append, each_mode=True)
     assert mined.requests == ["__DEFAULT__", "SLOW", "FAST", "SLOW"]
     assert len(made) == len(set(made)) == 5, "a client of each service, whatever the number of calls"
