@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable
+from dataclasses import replace
 
 from microros_gen.agent.states import ClientState, Presence
 from microros_gen.records import dataclass
@@ -35,14 +36,30 @@ class Level:
 
 @dataclass(frozen=True)
 class _Change:
-    """The last change of a client's counts: which, and when; `counts` are the known ones."""
+    """The last change of a client's counts: what is said of it, and when; `state` has the known ones."""
 
-    counts: tuple[object, ...]
+    state: ClientState
     what: str = ""
     at: float = 0.0
 
 
-_COUNTS = ("lost", "reconnects", "silences", "last_error")
+def _told(known: ClientState | None, state: ClientState) -> str:
+    """Return what has happened to a client between two looks; empty: nothing.
+
+    What a client that is new had before is not known, so that only its losses are told.
+    """
+    told = []
+    if state.lost != (known.lost if known else 0):
+        told.append(f"messages lost: {state.lost}")
+    if known is None:
+        return ", ".join(told)
+    if state.reconnects != known.reconnects:
+        told.append("reconnected")
+    if state.silences != known.silences:
+        told.append("was silent")
+    if state.last_error != known.last_error:
+        told.append(f"new warning: {state.last_error}")
+    return ", ".join(told)
 
 
 class ClientDiagnostics:
@@ -60,14 +77,9 @@ class ClientDiagnostics:
         return {state.key: self._level(state, changes[state.key], now) for state in states}
 
     def _change(self, state: ClientState, now: float) -> _Change:
-        counts = tuple(getattr(state, name) for name in _COUNTS)
         known = self._changes.get(state.key)
-        if known is None:  # a client that is new has lost nothing that it had before
-            return _Change(counts, "lost has changed" if state.lost else "", now)
-        if counts == known.counts:
-            return known
-        names = [name for name, a, b in zip(_COUNTS, known.counts, counts, strict=True) if a != b]
-        return _Change(counts, f"{', '.join(names)} {'has' if len(names) == 1 else 'have'} changed", now)
+        told = _told(known.state if known else None, state)
+        return replace(known, state=state) if known and not told else _Change(state, told, now)
 
     def _level(self, state: ClientState, change: _Change, now: float) -> Level:
         if state.presence is Presence.GONE:

@@ -47,13 +47,28 @@ def test_levels_of_silence(presence: Presence, silent_s: float, expected: int) -
     assert level(ClientDiagnostics(TIMEOUT_S), state, 0.0) == expected
 
 
-@pytest.mark.parametrize("change", [{"lost": 1}, {"reconnects": 1}, {"silences": 1}, {"last_error": "late"}])
-def test_a_change_is_a_warning_for_ten_seconds(change: dict[str, Any]) -> None:
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"lost": 3}, "messages lost: 3"),
+        ({"reconnects": 1}, "reconnected"),
+        ({"silences": 1}, "was silent"),
+        ({"last_error": "a late frame"}, "new warning: a late frame"),
+        (
+            {"lost": 1, "reconnects": 1, "silences": 1, "last_error": "bad"},
+            "messages lost: 1, reconnected, was silent, new warning: bad",
+        ),
+    ],
+)
+def test_a_change_is_a_warning_for_ten_seconds(change: dict[str, Any], message: str) -> None:
     diagnostics = ClientDiagnostics(TIMEOUT_S)
     assert level(diagnostics, STATE, 0.0) == OK
     changed = replace(STATE, **change)
     assert [level(diagnostics, changed, at) for at in (1.0, 10.9, 11.0, 50.0)] == [WARN, WARN, OK, OK]
-    assert diagnostics.levels((replace(changed, lost=2),), 60.0)["A1B2C3D4"].message == "lost has changed"
+    again = ClientDiagnostics(TIMEOUT_S)
+    assert level(again, STATE, 0.0) == OK
+    assert again.levels((changed,), 1.0)["A1B2C3D4"].message == message
+    assert again.levels((replace(changed, lost=7),), 60.0)["A1B2C3D4"].message == "messages lost: 7"
     assert diagnostics.levels((), 61.0) == {}
 
 
