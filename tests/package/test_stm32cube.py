@@ -26,6 +26,7 @@ from tests.support.paths import TESTS
 from tests.support.patience import seconds
 
 STAND_INS = TESTS / "support" / "package"
+C_FILES = TESTS / "package" / "c"
 KERNELS = TESTS / "platform" / "kernels"
 LIBRARY = "micro_ros_stm32cubemx_utils"
 HEADERS = "microros_static_library/libmicroros/microros_include"
@@ -106,6 +107,59 @@ def test_the_sources_call_what_the_kernel_declares(folder: Path) -> None:
         check=False,
     )
     assert "+multithread needs FreeRTOS" in lock.stderr
+
+
+def printed(folder: Path, transport: str, program: str) -> list[str]:
+    """Return what a program of c/ prints that calls a transport on this computer."""
+    if shutil.which("gcc") is None:
+        pytest.skip("no gcc")
+    out = written(folder)
+    sources = out / "extra_sources" / "microros_transports"
+    folders = [out / HEADERS, STAND_INS / "stm32_hal", STAND_INS / "stm32_hal" / "usb", sources]
+    binary, files = folder / "program", (sources / f"{transport}.c", C_FILES / f"{program}.c")
+    call = [
+        "gcc",
+        "-std=c99",
+        "-Wall",
+        "-Wextra",
+        "-Werror",
+        "-fsanitize=undefined,address",
+        "-o",
+        str(binary),
+    ]
+    subprocess.run([*call, *(f"-I{path}" for path in folders), *map(str, files)], check=True)
+    done = subprocess.run([str(binary)], capture_output=True, text=True, check=False, timeout=seconds(30))
+    assert done.returncode == 0, done.stderr
+    return done.stdout.splitlines()
+
+
+@pytest.mark.builds
+def test_bytes_that_arrive_while_the_uart_is_locked(tmp_path: Path) -> None:
+    """In the middle of a write none is lost; a reception that was refused or stopped begins again in a read."""
+    assert printed(tmp_path, "it_transport", "stm32_it") == [
+        "abc lost 0 err 0 at 0",
+        "d lost 0 err 0 at 0",
+        "e lost 0 err 0 at 0",
+        "hi lost 0 err 0 at 1003",
+    ]
+
+
+@pytest.mark.builds
+def test_a_transfer_over_usb_is_not_overwritten(tmp_path: Path) -> None:
+    """Whatever is written after a time-out; only the first write that finds the device busy waits."""
+    assert printed(tmp_path, "usb_cdc_transport", "stm32_usb") == [
+        "first 5 err 0 after 0",
+        "second 0 err 1 after 100",
+        "third 0 err 1 after 0",
+        "sent first",
+        "fourth 6 err 0 after 0",
+        "sent fourth",
+        "fifth 5 err 0 after 7",
+        "sent fifth",
+        "sixth 0 err 1 after 100",
+        "seventh 7 err 0 after 0",
+        "sent seventh",
+    ]
 
 
 @pytest.mark.builds

@@ -178,6 +178,22 @@ uint32_t HAL_GetUIDw2(void)
   return (uint32_t)getpid();
 }
 
+void __disable_irq(void)
+{
+  pthread_mutex_lock(&hardware);
+}
+
+uint32_t __get_PRIMASK(void)
+{
+  return 0;
+}
+
+void __set_PRIMASK(uint32_t mask)
+{
+  (void)mask;
+  pthread_mutex_unlock(&hardware);
+}
+
 void __WFI(void)
 {
   (void)usleep(1000);

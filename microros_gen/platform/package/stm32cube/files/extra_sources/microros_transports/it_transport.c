@@ -39,7 +39,7 @@ void cubemx_transport_received(UART_HandleTypeDef * uart)
     rx[end] = arriving;
     rx_end = next;
   }
-  (void)HAL_UART_Receive_IT(uart, &arriving, 1); /* refused: the next read begins again */
+  (void)HAL_UART_Receive_IT(uart, &arriving, 1); /* refused: a read begins again */
 }
 
 #if MICROROS_UART_CALLBACK
@@ -49,7 +49,7 @@ void HAL_UART_RxCpltCallback(UART_HandleTypeDef * huart)
 }
 #endif
 
-/* The HAL stops reception at an overrun: begins again then. */
+/* The HAL stops reception at an overrun, and refuses it while another call has locked the UART: begins again then. */
 static bool reception_ensure(UART_HandleTypeDef * uart)
 {
   return uart->RxState != HAL_UART_STATE_READY || HAL_UART_Receive_IT(uart, &arriving, 1) != HAL_ERROR;
@@ -73,6 +73,18 @@ bool cubemx_transport_close(struct uxrCustomTransport * transport)
   return HAL_UART_Abort(uart) == HAL_OK;
 }
 
+/* An interrupt in the middle would find the UART locked, and could not begin the reception of the next byte. */
+static HAL_StatusTypeDef transmission_begin(UART_HandleTypeDef * uart, size_t size)
+{
+  const uint32_t mask = __get_PRIMASK();
+  HAL_StatusTypeDef result;
+
+  __disable_irq();
+  result = HAL_UART_Transmit_IT(uart, tx, (uint16_t)size);
+  __set_PRIMASK(mask);
+  return result;
+}
+
 /* Waits only until the bytes of the previous write are sent. */
 size_t cubemx_transport_write(
   struct uxrCustomTransport * transport, const uint8_t * buf, size_t len, uint8_t * err)
@@ -89,7 +101,7 @@ size_t cubemx_transport_write(
     cubemx_rest();
   }
   (void)memcpy(tx, buf, size);
-  if (HAL_UART_Transmit_IT(uart, tx, (uint16_t)size) != HAL_OK) {
+  if (transmission_begin(uart, size) != HAL_OK) {
     *err = 1;
     return 0;
   }
@@ -99,17 +111,20 @@ size_t cubemx_transport_write(
 size_t cubemx_transport_read(
   struct uxrCustomTransport * transport, uint8_t * buf, size_t len, int timeout, uint8_t * err)
 {
+  UART_HandleTypeDef * uart = (UART_HandleTypeDef *)transport->args;
   const uint32_t start_ms = HAL_GetTick();
+  bool is_receiving = reception_ensure(uart);
   size_t count = 0;
 
-  if (!reception_ensure((UART_HandleTypeDef *)transport->args)) {
-    *err = 1;
-    return 0;
-  }
-  while (rx_end == rx_first) {
+  while (is_receiving && rx_end == rx_first) {
     if (!cubemx_rest_until(start_ms, timeout)) {
       return 0;
     }
+    is_receiving = reception_ensure(uart);
+  }
+  if (!is_receiving) {
+    *err = 1;
+    return 0;
   }
   while (count < len && rx_end != rx_first) {
     buf[count] = rx[rx_first];

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * USB CDC, "Virtual Port Com" of STM32CubeMX at the full-speed connector; MICROROS_USB_HS: at the high-speed one. Replaces
- * the functions Receive and TransmitCplt of the generated usbd_cdc_if.c. What has no room is not accepted from the computer,
- * which repeats it: nothing is lost.
+ * the function Receive of the generated usbd_cdc_if.c. What has no room is not accepted from the computer, which repeats
+ * it: nothing is lost.
  */
 #include "cubemx_transport.h"
 
@@ -30,11 +30,12 @@
 extern USBD_HandleTypeDef USB_DEVICE;
 
 static uint8_t rx[MICROROS_RX_SIZE];
-static uint8_t tx[MICROROS_TX_SIZE];
+static uint8_t tx[2][MICROROS_TX_SIZE]; /* one belongs to the last accepted transfer, which may be in flight */
+static uint8_t tx_free;                 /* the other one */
+static bool is_stuck;                   /* the last write waited in vain */
 static volatile size_t rx_first; /* position of the next byte to read; only the reader changes it */
 static volatile size_t rx_end;   /* position after the last one; only the interrupt changes it */
-static volatile bool is_held;    /* the next packet was not asked for, for want of room */
-static volatile bool is_sending;
+static volatile bool is_held;    /* the next packet was not asked for, because the buffer is full */
 static bool is_open;
 
 static size_t rx_room(void)
@@ -60,22 +61,12 @@ static int8_t usb_received(uint8_t * data, uint32_t * size)
   return (int8_t)USBD_CDC_ReceivePacket(&USB_DEVICE);
 }
 
-static int8_t usb_sent(uint8_t * data, uint32_t * size, uint8_t endpoint)
-{
-  (void)data;
-  (void)size;
-  (void)endpoint;
-  is_sending = false;
-  return (int8_t)USBD_OK;
-}
-
 /* Called again after each outage of the agent. */
 bool cubemx_transport_open(struct uxrCustomTransport * transport)
 {
   (void)transport;
   if (!is_open) {
     USB_FUNCTIONS.Receive = usb_received;
-    USB_FUNCTIONS.TransmitCplt = usb_sent;
     is_open = true;
   }
   return true;
@@ -88,31 +79,32 @@ bool cubemx_transport_close(struct uxrCustomTransport * transport)
   return true;
 }
 
-/* Waits until the bytes of the previous write are sent. Without a computer that reads, the time runs out. */
+/*
+ * Waits until the device has sent the bytes of the previous write. Without a computer that reads, the time runs out; later
+ * writes do not wait until the device takes bytes again. After the cable was pulled nothing completes: so the device is
+ * asked, which begins anew when it is plugged in.
+ */
 size_t cubemx_transport_write(
   struct uxrCustomTransport * transport, const uint8_t * buf, size_t len, uint8_t * err)
 {
   const uint32_t start_ms = HAL_GetTick();
-  const size_t size = len < sizeof(tx) ? len : sizeof(tx);
+  const uint32_t limit_ms = is_stuck ? 0u : (uint32_t)MICROROS_WRITE_TIMEOUT_MS;
+  const size_t size = len < sizeof(tx[0]) ? len : sizeof(tx[0]);
   uint8_t result;
 
   (void)transport;
-  while (is_sending) {
-    if ((HAL_GetTick() - start_ms) >= MICROROS_WRITE_TIMEOUT_MS) {
-      is_sending = false; /* after the cable was pulled nothing completes; the next write asks the device */
-      *err = 1;
-      return 0;
-    }
+  (void)memcpy(tx[tx_free], buf, size);
+  result = (uint8_t)USB_TRANSMIT(tx[tx_free], (uint16_t)size);
+  while (result == (uint8_t)USBD_BUSY && (HAL_GetTick() - start_ms) < limit_ms) {
     cubemx_rest();
+    result = (uint8_t)USB_TRANSMIT(tx[tx_free], (uint16_t)size);
   }
-  (void)memcpy(tx, buf, size);
-  is_sending = true;
-  result = (uint8_t)USB_TRANSMIT(tx, (uint16_t)size);
+  is_stuck = result == (uint8_t)USBD_BUSY;
   if (result != (uint8_t)USBD_OK) {
-    is_sending = false;
     *err = result;
     return 0;
   }
+  tx_free = (uint8_t)(1u - tx_free);
   return size;
 }
 
