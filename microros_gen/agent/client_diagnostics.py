@@ -36,30 +36,30 @@ class Level:
 
 @dataclass(frozen=True)
 class _Change:
-    """The last change of a client's counts: what is said of it, and when; `state` has the known ones."""
+    """The last change of a client's counts: its message, and when; `state` has the known ones."""
 
     state: ClientState
     what: str = ""
     at: float = 0.0
 
 
-def _told(known: ClientState | None, state: ClientState) -> str:
+def _events(known: ClientState | None, state: ClientState) -> str:
     """Return what has happened to a client between two looks; empty: nothing.
 
-    What a client that is new had before is not known, so that only its losses are told.
+    What a client that is new had before is not known, so that only its losses are reported.
     """
-    told = []
+    events = []
     if state.lost != (known.lost if known else 0):
-        told.append(f"messages lost: {state.lost}")
+        events.append(f"messages lost: {state.lost}")
     if known is None:
-        return ", ".join(told)
+        return ", ".join(events)
     if state.reconnects != known.reconnects:
-        told.append("reconnected")
+        events.append("reconnected")
     if state.silences != known.silences:
-        told.append("was silent")
+        events.append("was silent")
     if state.last_error != known.last_error:
-        told.append(f"new warning: {state.last_error}")
-    return ", ".join(told)
+        events.append(f"new warning: {state.last_error}")
+    return ", ".join(events)
 
 
 class ClientDiagnostics:
@@ -78,8 +78,8 @@ class ClientDiagnostics:
 
     def _change(self, state: ClientState, now: float) -> _Change:
         known = self._changes.get(state.key)
-        told = _told(known.state if known else None, state)
-        return replace(known, state=state) if known and not told else _Change(state, told, now)
+        events = _events(known.state if known else None, state)
+        return replace(known, state=state) if known and not events else _Change(state, events, now)
 
     def _level(self, state: ClientState, change: _Change, now: float) -> Level:
         if state.presence is Presence.GONE:

@@ -101,16 +101,16 @@ def test_each_mode_is_read_and_the_first_one_is_restored(
     )
     assert mined.requests == []
     mined.values["law"] = "SLOW"
-    made, create = list[str](), peer.client
+    names, create = list[str](), peer.client
 
     def client(name: str, kind: str) -> Client:
-        made.append(name)
+        names.append(name)
         return create(name, kind)
 
     monkeypatch.setattr(peer, "client", client)
     text = mine(peer, "/device", 30.0, reported.append, each_mode=True)
     assert mined.requests == ["__DEFAULT__", "SLOW", "FAST", "SLOW"]
-    assert len(made) == len(set(made)) == 5, "a client of each service, whatever the number of calls"
+    assert len(names) == len(set(names)) == 5, "a client of each service, whatever the number of calls"
     assert peer.graph().count_clients("/device/get_mode") == 0
     assert mined.mode == "SLOW"
     default: dict[str, Scalar] = {"law": "SLOW", "limit": 3, "speed": 0.5}

@@ -108,7 +108,7 @@ int main(void)
   completes_at_ms = now_ms + 7u;
   write_one(&transport, "fifth");
   complete();
-  in_flight = (const uint8_t *)"gone"; /* the cable is pulled, and the device begins anew */
+  in_flight = (const uint8_t *)"gone"; /* the cable is pulled, then the device is configured again */
   write_one(&transport, "sixth");
   in_flight = NULL;
   write_one(&transport, "seventh");

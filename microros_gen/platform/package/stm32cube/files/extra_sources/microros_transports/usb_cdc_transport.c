@@ -32,7 +32,7 @@ extern USBD_HandleTypeDef USB_DEVICE;
 static uint8_t rx[MICROROS_RX_SIZE];
 static uint8_t tx[2][MICROROS_TX_SIZE]; /* one belongs to the last accepted transfer, which may be in flight */
 static uint8_t tx_free;                 /* the other one */
-static bool is_stuck;                   /* the last write waited in vain */
+static bool is_stuck;                   /* the last write timed out */
 static volatile size_t rx_first; /* position of the next byte to read; only the reader changes it */
 static volatile size_t rx_end;   /* position after the last one; only the interrupt changes it */
 static volatile bool is_held;    /* the next packet was not asked for, because the buffer is full */
@@ -81,8 +81,8 @@ bool cubemx_transport_close(struct uxrCustomTransport * transport)
 
 /*
  * Waits until the device has sent the bytes of the previous write. Without a computer that reads, the time runs out; later
- * writes do not wait until the device takes bytes again. After the cable was pulled nothing completes: so the device is
- * asked, which begins anew when it is plugged in.
+ * writes do not wait until the device takes bytes again. After the cable was pulled no transfer completes: so the device
+ * is asked, which is configured again when it is plugged in.
  */
 size_t cubemx_transport_write(
   struct uxrCustomTransport * transport, const uint8_t * buf, size_t len, uint8_t * err)
