@@ -69,8 +69,8 @@ def info_command(node: str, include_hidden: bool, **graph: Any) -> None:
     for title, names in (
         ("Subscribers", shown.subscriptions),
         ("Publishers", shown.publishers),
-        ("Service Servers", shown.servers),
-        ("Service Clients", shown.clients),
+        ("Service Servers", shown.service_servers),
+        ("Service Clients", shown.service_clients),
         ("Action Servers", view.action_servers),
         ("Action Clients", view.action_clients),
     ):

@@ -45,7 +45,7 @@ def read_package(
     known = tuple(each for each in builtin_packages() if each != folder.name)
     if taken and taken not in known:
         hint = nearest(taken, known) or f"Available: {', '.join(known)}"
-        diagnostics.error(f"unknown package '{taken}'", span, hint, id="MG-9201")
+        diagnostics.error(f"unknown package '{taken}'", span, hint, id="MG-9208")
         return None
     base = read_package(taken, diagnostics, extensions) if taken else None
     return parse_package(source, folder, origin, diagnostics, base)

@@ -29,24 +29,27 @@ class NodeView:
     name: str
     subscriptions: Names = ()
     publishers: Names = ()
-    servers: Names = ()
-    clients: Names = ()
+    service_servers: Names = ()
+    service_clients: Names = ()
 
     @property
     def action_servers(self) -> Names:
         """The actions that it serves."""
-        return action_names(self.servers)
+        return action_names(self.service_servers)
 
     @property
     def action_clients(self) -> Names:
         """The actions that it has clients of."""
-        return action_names(self.clients)
+        return action_names(self.service_clients)
 
     def shown(self, hidden: bool) -> NodeView:
         """Return it without hidden names, unless `hidden`."""
         if hidden:
             return self
-        kept = (visible(names) for names in (self.subscriptions, self.publishers, self.servers, self.clients))
+        kept = (
+            visible(names)
+            for names in (self.subscriptions, self.publishers, self.service_servers, self.service_clients)
+        )
         return NodeView(self.name, *kept)
 
     def without_usual(self) -> NodeView:
@@ -55,8 +58,8 @@ class NodeView:
             self.name,
             _without_topics(self.subscriptions),
             _without_topics(self.publishers),
-            _without_services(self.servers),
-            _without_services(self.clients),
+            _without_services(self.service_servers),
+            _without_services(self.service_clients),
         )
 
 
@@ -105,10 +108,14 @@ def graph_view(nodes: Iterable[NodeView], usual: bool = False) -> GraphView:
         vertices.add(own)
         shown = node.shown(False)
         shown = shown if usual else shown.without_usual()
-        outgoing = (("topic", shown.publishers), ("service", shown.clients), ("action", node.action_clients))
+        outgoing = (
+            ("topic", shown.publishers),
+            ("service", shown.service_clients),
+            ("action", node.action_clients),
+        )
         incoming = (
             ("topic", shown.subscriptions),
-            ("service", shown.servers),
+            ("service", shown.service_servers),
             ("action", node.action_servers),
         )
         edges.update((own, (kind, name)) for kind, names in outgoing for name, _ in names)

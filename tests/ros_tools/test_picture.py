@@ -24,10 +24,12 @@ CHAIN = (
     NodeView("/camera", publishers=(*names("/image"), ("/rosout", LOG))),
     NodeView("/detector", subscriptions=names("/image"), publishers=names("/objects")),
     NodeView(
-        "/planner", subscriptions=names("/objects"), clients=names("/map/load", "/go/_action/send_goal")
+        "/planner",
+        subscriptions=names("/objects"),
+        service_clients=names("/map/load", "/go/_action/send_goal"),
     ),
-    NodeView("/map", servers=names("/map/load")),
-    NodeView("/base", servers=names("/go/_action/send_goal", "/base/get_parameters")),
+    NodeView("/map", service_servers=names("/map/load")),
+    NodeView("/base", service_servers=names("/go/_action/send_goal", "/base/get_parameters")),
 )
 
 

@@ -68,19 +68,23 @@ LIFECYCLE_SHARED = (
 _OTHER_FILES = {
     "application/modes.py",
     "application/parameter_clients.py",
+    "cli/main.py",
+    "cli/param.py",
+    "cli/ros_tools.py",
     "components/parameter_client/plan.py",
     "documents/schema_words.py",
     "migrate/c_program.py",
     "migrate/parameter_clients.py",
     "migrate/parameter_servers.py",
     "mode_manager/messages.py",
+    "mode_manager/served_values.py",
     "parameter_server/exchange.py",
     "parameter_server/file.py",
     "parameter_server/served.py",
     "time_server/parameters.py",
 }
 """Values in modes; files with a key `parameters` of clients or a proposal; parameters of C functions, or those in
-messages and in a file."""
+messages and in a file; commands and options of that name."""
 MENTIONS = {
     "action_client": 1,
     "action_server": 1,
@@ -161,7 +165,7 @@ def shared_files(name: str, package: Path) -> set[str]:
         if (
             path.suffix not in (".py", ".json", ".yaml", ".j2")
             or own
-            or shown.parts[0] in ("agent", "idl", "modes", "ros")
+            or shown.parts[0] in ("agent", "idl", "modes", "ros", "ros_tools")
         ):
             continue
         if word.search(path.read_text(encoding="utf-8")):
