@@ -167,13 +167,10 @@ def test_requests_wait_for_a_transition_that_does_not_spin(pair: Pair) -> None:
     pair.begin()
     pair.program.call(f"inside {CALLBACKS.index('configure')} b")
     pair.peer.ask(do="wait_inside", name="configure")
-    for node in BOTH:
-        pair.peer.ask(do="begin_change", node=node, id=1)
-    pair.program.await_line("blocked")
-    assert pair.peer.ask(do="blocked")
-    for node in BOTH:
-        pair.peer.ask(do="begin_change", node=node, id=0, label="activate")
-    time.sleep(seconds(0.2))  # for an answer that must not come
+    for identifier, label in ((1, ""), (0, "activate")):
+        for node in BOTH:
+            pair.peer.ask(do="begin_change", node=node, id=identifier, label=label)
+        time.sleep(seconds(0.5))  # each node gets both in this order
     for node in BOTH:
         assert pair.peer.ask(do="changed", node=node) == [None, None]
     pair.peer.ask(do="release")

@@ -3,7 +3,7 @@
  * A node with a life cycle: one call for each line of standard input, answered with lines and "ret CODE TEXT".
  * Meanwhile the executor spins. What a callback returns is set by a line; each call of one is counted. Once a callback
  * can also do something while the node is in the state of its transition: change the state, or wait for the next line,
- * with or without spinning; it prints a line before it blocks.
+ * with or without spinning.
  */
 #define _POSIX_C_SOURCE 200809L
 #include <stdbool.h>
@@ -74,10 +74,6 @@ static int called(int which)
     if (inside_what == 'c') {
       change_inside();
     } else {
-      if (inside_what == 'b') {
-        (void)printf("blocked\n");
-        (void)fflush(stdout);
-      }
       wait_inside(inside_what == 's');
     }
   }

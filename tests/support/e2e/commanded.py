@@ -23,11 +23,6 @@ class CommandedProgram:
         self._process.stdin.write(command + "\n")
         self._process.stdin.flush()
 
-    def await_line(self, line: str) -> None:
-        """Wait for the next line that the program prints by itself."""
-        assert self._process.stdout is not None
-        assert self._process.stdout.readline() == f"{line}\n"
-
     def result(self) -> tuple[int, str, list[str]]:
         """Return code, error text and printed lines of what it does."""
         assert self._process.stdout is not None

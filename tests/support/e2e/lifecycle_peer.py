@@ -101,7 +101,6 @@ class _Peer:
         self._calls: list[str] = []
         self._inside: dict[str, Any] = {}
         self._seen: list[Any] = []
-        self._blocked = threading.Event()
         self._released = threading.Event()
         self._responses: dict[str, Any] = {}
         self._turn = threading.Lock()
@@ -201,18 +200,8 @@ class _Peer:
     def wait_inside(self, name: str) -> bool:
         """Let the next call of a callback wait for `release`, while its executor does nothing else."""
         self._released.clear()
-        self._blocked.clear()
-
-        def wait() -> None:
-            self._blocked.set()
-            self._released.wait(seconds(60))
-
-        self._inside[name] = wait
+        self._inside[name] = lambda: self._released.wait(seconds(60))
         return True
-
-    def blocked(self) -> bool:
-        """Wait until the callback waits; return whether it does."""
-        return self._blocked.wait(seconds(30))
 
     def release(self) -> bool:
         self._released.set()
