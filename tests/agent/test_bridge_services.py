@@ -219,10 +219,15 @@ def test_a_vanished_client_delays_no_other(bridged: Bridged, monkeypatch: pytest
     for _ in range(5):
         requester.request(names_body(["a"]))
     bridged.wait(lambda: found(requester))
+    identities: list[bytes] = []
+
+    def all_received() -> bool:
+        identities.extend(identity for identity, _ in iter(replier.take, None))
+        return len(identities) == 5
+
+    bridged.wait(all_received)
     asker.destroy()
     bridged.wait_for(0.2)
-    identities = [identity for identity, _ in iter(replier.take, None)]
-    assert len(identities) == 5
     monkeypatch.setattr(services, "WAIT_FOR_CLIENT_S", 0.3)
     start = time.monotonic()
     for identity in identities:
