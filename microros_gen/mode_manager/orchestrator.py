@@ -34,6 +34,7 @@ from microros_gen.mode_manager.scope import Scope
 from microros_gen.mode_manager.settings import Settings
 from microros_gen.mode_manager.targets import spread
 from microros_gen.modes.model import (
+    ACTIVE,
     ERROR,
     INACTIVE,
     UNCONFIGURED,
@@ -241,7 +242,8 @@ class Orchestrator:
             if leaf.is_settled(after) and leaf.failure != SILENT:
                 leaf.failure, leaf.deviates, leaf.settle_until, leaf.reaction = "", False, 0.0, ""
             return
-        if was_settled and leaf.link is Link.SYSTEM:
+        lacks_values = after == Status(ACTIVE)  # its manager restarted, and does not have those of its parent
+        if was_settled and leaf.link is Link.SYSTEM and not lacks_values:
             leaf.failure = f"it left {leaf.target} for {after} by itself"
             self._log(f"{name}: {leaf.failure}")
         elif (was_settled and before.state != UNKNOWN) or self._is_foreign(leaf):
