@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Callable[..., Any])
 TURN_S = 0.1
+_QOS = "qos_"
 _PRESETS = (
     "default",
     "sensor_data",
@@ -107,13 +108,15 @@ def qos_options(preset: str) -> Callable[[F], F]:
     return add
 
 
-def chosen_qos(preset: str, options: dict[str, Any]) -> tuple[Qos, bool]:
-    """Return the QoS that the options of `qos_options` choose, and whether any of them was chosen."""
+def chosen_qos(preset: str, options: dict[str, Any]) -> tuple[Qos, bool, dict[str, Any]]:
+    """Return the QoS that the options of `qos_options` choose, whether any was chosen, and the other options."""
     from dataclasses import replace
 
     from microros_gen.ros_tools.quality import PRESETS
 
-    chosen = {name.removeprefix("qos_"): value for name, value in options.items() if value is not None}
+    others = {name: value for name, value in options.items() if not name.startswith(_QOS)}
+    qos_values = {name.removeprefix(_QOS): options[name] for name in options.keys() - others.keys()}
+    chosen = {name: value for name, value in qos_values.items() if value is not None}
     qos = PRESETS[chosen.get("profile", preset)]
     changes: dict[str, Any] = {}
     if "depth" in chosen:
@@ -128,7 +131,7 @@ def chosen_qos(preset: str, options: dict[str, Any]) -> tuple[Qos, bool]:
         changes["manual_liveliness"] = chosen["liveliness"] == "manual_by_topic"
     if "liveliness_lease_duration_seconds" in chosen:
         changes["lease_ms"] = max(1, round(chosen["liveliness_lease_duration_seconds"] * 1000))
-    return replace(qos, **changes), bool(chosen)
+    return replace(qos, **changes), bool(chosen), others
 
 
 @contextmanager

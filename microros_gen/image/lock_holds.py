@@ -91,7 +91,7 @@ class _Image:
         return Length(1, frozenset({f"{flow.name}: a loop without a bound ({rounds})"}))
 
     def _of_library(self, flow: Flow, part: frozenset[int], size: int | None) -> Length:
-        """Return the rounds of a loop of memcpy and the like: each stores bytes, and there is no more than `size`."""
+        """Return the rounds of a loop of memcpy and the like: each stores a byte or more, of `size` at most."""
         if size is None:
             return Length(1, frozenset({f"{flow.name}: called for an unknown number of bytes"}))
         forks = sum(1 for a in part if sum(to in part for to in flow.steps[a].next) > 1)

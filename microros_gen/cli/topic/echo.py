@@ -89,10 +89,7 @@ def echo_command(
     from microros_gen.ros_tools.texts import Style, Texts, dump
 
     name = absolute(topic)
-    graph = {key: value for key, value in options.items() if not key.startswith("qos_")}
-    qos, with_options = chosen_qos(
-        _PRESET, {key: value for key, value in options.items() if key not in graph}
-    )
+    qos, with_options, graph = chosen_qos(_PRESET, options)
     with on_graph(**graph, node=node_name) as (peer, discovery), until_interrupted() as interrupted:
         type_name = message_type or topic_type(discovery, name)
         known = peer.types.message(type_name)

@@ -119,8 +119,7 @@ def pub_command(
     wanted = int(count > 0) if wait_matching_subscriptions is None else wait_matching_subscriptions
     if max_wait_time_secs is not None and wanted == 0:
         raise click.UsageError("--max-wait-time-secs needs --wait-matching-subscriptions, --once or --times.")
-    graph = {key: value for key, value in options.items() if not key.startswith("qos_")}
-    qos, _ = chosen_qos(_PRESET, {key: value for key, value in options.items() if key not in graph})
+    qos, _, graph = chosen_qos(_PRESET, options)
     text = values_text(values, from_stdin)
     with on_graph(**graph, node=node_name) as (peer, _discovery), until_interrupted() as interrupted:
         known = peer.types.message(message_type)
