@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Looks into the ROS graph of a node that has just started: other nodes are discovered little by little.
 
-The ros2 command line keeps a daemon for this. Here a command waits until what it needs is discovered, or until the
-graph has not changed for a while.
+The ros2 command line keeps a daemon for this. Here a command waits until what it needs is discovered; one that lists,
+until the graph has not changed for a while.
 """
 
 from __future__ import annotations
@@ -21,8 +21,6 @@ _FIRST_S = 1.0
 """A graph is not complete before: participants announce themselves five times within half a second, then answer."""
 _QUIET_S = 0.4
 """Without a change for this time, a graph in which other nodes were discovered is likely to be complete."""
-_SURE_S = 1.5
-"""The same, before something that is looked for is reported as unknown."""
 _TURN_S = 0.05
 Found = TypeVar("Found")
 _ACTION = "/_action/"
@@ -52,24 +50,24 @@ class Discovery:
         while not self._settled():
             self._peer.spin_once(_TURN_S)
 
-    def _settled(self, quiet_s: float = _QUIET_S) -> bool:
+    def _settled(self) -> bool:
         now = time.monotonic()
         if now - self._began >= self._wait_s:
             return True
-        quiet = now - self._began >= _FIRST_S and now - self._changed >= quiet_s
+        quiet = now - self._began >= _FIRST_S and now - self._changed >= _QUIET_S
         return quiet and any(name != self.own_node for name in self.graph.nodes())
 
     def find(
         self, look: Callable[[], Found | None], given_up: Callable[[], object] | None = None
     ) -> Found | None:
-        """Spin until `look` returns something; return it, or None if the graph is complete without it.
+        """Spin until `look` returns something, for at most `wait_s` seconds; return it, or None.
 
+        That other nodes are discovered says nothing about the one that is looked for: the whole time is waited.
         With `given_up`, wait until that is true instead.
         """
         end = time.monotonic() + self._wait_s
         while (found := look()) is None:
-            over = time.monotonic() >= end or self._settled(_SURE_S) if given_up is None else given_up()
-            if over:
+            if time.monotonic() >= end if given_up is None else given_up():
                 break
             self._peer.spin_once(_TURN_S)
         return found

@@ -6,6 +6,8 @@ from __future__ import annotations
 import re
 import shutil
 import socket
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +15,7 @@ import pytest
 
 from tests.support.console import SHELL, Terminal, blocks, shows, steps
 from tests.support.paths import ROOT
+from tests.support.ros.running import running
 
 PAGES = {str(path.relative_to(ROOT / "docs")): path for path in sorted((ROOT / "docs").rglob("*.md"))}
 ELSEWHERE = {
@@ -26,8 +29,13 @@ ELSEWHERE = {
 """Pages whose commands another test runs, which reads the page."""
 
 _META = '{"names": {"rmw_microxrcedds": {"cmake-args": ["-DRMW_UXRCE_MAX_NODES=1"]}}}'
-GIVEN = {"howto/init.md": {"app-colcon.meta": _META}}
+GIVEN = {
+    "howto/init.md": {"app-colcon.meta": _META},
+    "howto/ros_tools.md": {"robot_msgs/msg/Wheels.msg": "float32[2] rad_per_s\n"},
+}
 """Files that the reader of a page has already."""
+NODES = {"howto/ros_tools.md": "tests.support.ros.arm"}
+"""The system that the reader of a page looks into: a module that runs its nodes and prints `ready`."""
 
 OTHER_PROGRAMS = {
     "arm-none-eabi-gcc": "gcc-arm-none-eabi",
@@ -77,7 +85,25 @@ def test_the_commands_of_a_page_run_and_print_what_it_shows(name: str, tmp_path:
         port = free.getsockname()[1]
     terminal = Terminal(tmp_path, port)
     for path, text in GIVEN.get(name, {}).items():
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / path).write_text(text, encoding="utf-8")
+    with system_of(name, terminal):
+        follow(name, terminal)
+
+
+@contextmanager
+def system_of(name: str, terminal: Terminal) -> Iterator[None]:
+    """Run the nodes that the commands of a page speak with."""
+    if name not in NODES:
+        yield
+        return
+    with running(terminal.domain, NODES[name]) as nodes:
+        nodes.wait_for("ready")
+        yield
+
+
+def follow(name: str, terminal: Terminal) -> None:
+    """Do what a page says, from its first line to its last."""
     try:
         for block in steps(PAGES[name].read_text(encoding="utf-8")):
             if block.title:

@@ -97,11 +97,14 @@ class Terminal:
         self._running: list[tuple[str, subprocess.Popen[str], list[str]]] = []
         tools = folder / ".tools"
         tools.mkdir()
-        domain = str(1 + port % 100)
+        self.domain = 1 + port % 100
+        """Of the terminal's programs; 1 to 100."""
+        domain = str(self.domain)
         python = shlex.quote(sys.executable)
         _script(tools / "python3", f'exec {python} "$@"')
         own_domain = f'case "$1" in agent|run) set -- "$@" --domain {domain};; esac'
-        _script(tools / "microros-gen", f'{own_domain}\nexec {python} -m microros_gen "$@"')
+        patient = 'case "$1" in topic|service|param|action) set -- "$@" --spin-time 30;; esac'
+        _script(tools / "microros-gen", f'{own_domain}\n{patient}\nexec {python} -m microros_gen "$@"')
         self._environment = {
             **os.environ,
             "PATH": f"{tools}:{os.environ['PATH']}",
