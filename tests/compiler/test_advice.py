@@ -168,14 +168,14 @@ def taken(err: str) -> list[int]:
     [
         (SMALL.replace("- {topic: scan, type: sensor_msgs/msg/LaserScan}", "") + STAR, 12_000),
         pytest.param(
-            SMALL.replace("pure_reader", "simulation_node") + STAR, 22_000, marks=pytest.mark.system
+            SMALL.replace("pure_reader", "simulation_node") + STAR, 22_000, marks=pytest.mark.variant
         ),
-        pytest.param(HEAD + "pools: {history: 8}\n" + STAR, 60_000, marks=pytest.mark.system),
-        pytest.param(HEAD + STAR, 4_000, marks=pytest.mark.system),
+        pytest.param(HEAD + "pools: {history: 8}\n" + STAR, 60_000, marks=pytest.mark.variant),
+        pytest.param(HEAD + STAR, 4_000, marks=pytest.mark.variant),
         pytest.param(
             HEAD.replace("type: std_msgs/msg/String", "type: std_msgs/msg/Int32") + f"{STAR}{JOINTS}",
             4_000,
-            marks=pytest.mark.system,
+            marks=pytest.mark.variant,
         ),
         ("version: 1\nprofiles: [pure_sender]\ninterfaces: [sensor_msgs/msg/Imu]\n" + STAR, 900),
         ("version: 1\nprofiles: [pure_reader]\ninterfaces: [sensor_msgs/msg/Imu]\n" + STAR, 1_600),

@@ -56,7 +56,7 @@ LONG = ("howto/init.md", "tutorial/nucleo_f446re.md")
 SYSTEM = (
     *("tutorial/host.md", "tutorial/qemu.md", "tutorial/esp32c3.md", "tutorial/pico.md"),
     *("tutorial/arduino_uno.md", "howto/actions.md", "howto/executor.md", "howto/peer.md", "howto/tasks.md"),
-    "howto/transforms.md",
+    *("howto/transforms.md", "howto/ros_tools.md"),
     *("howto/component.md", "howto/lifecycle.md", "howto/logging.md", "howto/migrate.md", "howto/modes.md"),
     *("howto/node_modes.md", "howto/parameter_server.md", "howto/port.md", "howto/profile.md"),
 )

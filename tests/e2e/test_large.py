@@ -49,8 +49,8 @@ def lossy() -> Fault:
     ("name", "mtu", "fault", "chunks"),
     [
         ("large", 1472, no_fault, 14),
-        pytest.param("large_small_mtu", 512, no_fault, 41, marks=pytest.mark.system),
-        pytest.param("large_lossy", 1472, lossy(), 14, marks=pytest.mark.system),
+        pytest.param("large_small_mtu", 512, no_fault, 41, marks=pytest.mark.variant),
+        pytest.param("large_lossy", 1472, lossy(), 14, marks=pytest.mark.variant),
     ],
 )
 def test_large_messages_arrive_whole(

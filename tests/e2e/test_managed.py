@@ -98,7 +98,7 @@ def both(peer: LifecyclePeer, device: str, identifier: int) -> None:
 
 
 @pytest.mark.parametrize(
-    "entities", ["binary", *(pytest.param(way, marks=pytest.mark.system) for way in WAYS[1:])]
+    "entities", ["binary", *(pytest.param(way, marks=pytest.mark.variant) for way in WAYS[1:])]
 )
 def test_every_way_to_create(
     entities: str, images: Images, image_port: Relay, relay: Relay, observer: Observer, domain: int
@@ -145,7 +145,7 @@ def test_every_way_to_create(
 
 
 @pytest.mark.parametrize(
-    "entities", ["binary", *(pytest.param(way, marks=pytest.mark.system) for way in WAYS[1:])]
+    "entities", ["binary", *(pytest.param(way, marks=pytest.mark.variant) for way in WAYS[1:])]
 )
 def test_the_profile_alone(
     entities: str, images: Images, image_port: Relay, relay: Relay, observer: Observer, domain: int

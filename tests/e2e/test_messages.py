@@ -52,7 +52,7 @@ FRAMES = {"joints": "base_link", "arm": "arm"}
 
 
 @pytest.mark.parametrize(
-    "flags", [(), pytest.param(("-m32", "-O1"), marks=pytest.mark.system)], ids=["64", "32"]
+    "flags", [(), pytest.param(("-m32", "-O1"), marks=pytest.mark.variant)], ids=["64", "32"]
 )
 def test_rclpy_gets_what_sources_write(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, flags: tuple[str, ...]
@@ -87,7 +87,7 @@ limits: {"*": {string: 17, sequence: 4}}
 
 
 @pytest.mark.parametrize(
-    "flags", [(), pytest.param(("-m32", "-O1"), marks=pytest.mark.system)], ids=["64", "32"]
+    "flags", [(), pytest.param(("-m32", "-O1"), marks=pytest.mark.variant)], ids=["64", "32"]
 )
 def test_strings_of_services_are_exchanged_with_rclpy(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, flags: tuple[str, ...]

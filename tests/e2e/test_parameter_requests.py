@@ -326,7 +326,7 @@ nodes:
 """
 
 
-@pytest.mark.parametrize("flags", [(), pytest.param(("-m32",), marks=pytest.mark.system)], ids=["64", "32"])
+@pytest.mark.parametrize("flags", [(), pytest.param(("-m32",), marks=pytest.mark.variant)], ids=["64", "32"])
 def test_the_struct_of_declared_values(
     images: Images, image_port: Relay, tmp_path: Path, flags: tuple[str, ...]
 ) -> None:

@@ -88,7 +88,7 @@ def large_requests(peer: ParameterPeer) -> None:
     assert peer.call(DEVICE, "get_parameters", NAMES[:2])["values"] == [[1, True], [2, 20]]
 
 
-@pytest.mark.parametrize("flags", [(), pytest.param(("-m32",), marks=pytest.mark.system)], ids=["64", "32"])
+@pytest.mark.parametrize("flags", [(), pytest.param(("-m32",), marks=pytest.mark.variant)], ids=["64", "32"])
 def test_as_an_rclpy_node(
     images: Images,
     image_port: Relay,

@@ -42,7 +42,7 @@ def await_match(observer: Observer, topic: str) -> None:
         time.sleep(0.05)
 
 
-@pytest.mark.parametrize("entities", ["binary", pytest.param("xml", marks=pytest.mark.system)])
+@pytest.mark.parametrize("entities", ["binary", pytest.param("xml", marks=pytest.mark.variant)])
 def test_rclpy_publishes_and_the_client_takes(
     images: Images,
     image_port: Relay,
@@ -88,7 +88,7 @@ limits: {"*": {string: 1000}}
 
 
 @pytest.mark.parametrize(
-    "flags", [(), pytest.param(("-m32", *SANITIZE), marks=pytest.mark.system)], ids=["64", "32"]
+    "flags", [(), pytest.param(("-m32", *SANITIZE), marks=pytest.mark.variant)], ids=["64", "32"]
 )
 def test_samples_of_any_size_share_the_bytes_of_a_queue(
     images: Images,

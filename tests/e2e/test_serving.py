@@ -78,7 +78,7 @@ def answer(program: Path, observer: Observer) -> None:
     assert lines[3:] == ["reply 3: 1 2 3", "reply 2: 1 2", "reply 1: 1"]
 
 
-@pytest.mark.parametrize("entities", ["binary", pytest.param("xml", marks=pytest.mark.system)])
+@pytest.mark.parametrize("entities", ["binary", pytest.param("xml", marks=pytest.mark.variant)])
 def test_rclpy_calls_a_service(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, tmp_path: Path, entities: str
 ) -> None:
@@ -87,7 +87,7 @@ def test_rclpy_calls_a_service(
     call(image.application(C_FILES / "serve.c", tmp_path / "serve", *STRICT), observer)
 
 
-@pytest.mark.parametrize("entities", ["binary", pytest.param("xml", marks=pytest.mark.system)])
+@pytest.mark.parametrize("entities", ["binary", pytest.param("xml", marks=pytest.mark.variant)])
 def test_a_client_calls_rclpy(
     images: Images, image_port: Relay, agent: AgentProcess, observer: Observer, tmp_path: Path, entities: str
 ) -> None:

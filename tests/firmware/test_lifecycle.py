@@ -12,7 +12,7 @@ from tests.support.firmware.footprint import bounded_stack, image_sections
 from tests.support.firmware.lifecycle import APPLICATION, work
 from tests.support.firmware.running import started
 from tests.support.profile_with_diagnostics import ENTITIES
-from tests.support.slices import beyond
+from tests.support.slices import beyond, only
 
 NAME = "qemu-mps2-an386"
 DEVICE = "/arm/device"
@@ -27,7 +27,7 @@ SIZES_OF_ENTITIES = {"xml": (20_432, 4_268), "reference": (19_476, 3_140), "prec
 
 @pytest.mark.system
 @pytest.mark.ros
-@pytest.mark.parametrize("entities", ["binary", *SIZES_OF_ENTITIES])
+@pytest.mark.parametrize("entities", only({"binary", "preconfigured"}, ["binary", *SIZES_OF_ENTITIES]))
 def test_rclpy_drives_it(builds: Builds, domain: int, entities: str) -> None:
     """The states, callbacks and lists are those of rclpy's node; the whole graph comes in fragments over the line."""
     need(NAME, emulator=True)

@@ -76,11 +76,10 @@ def ways() -> list[ParameterSet]:
     profile: the chosen one has the least memory.
     """
     rows = [(name, way) for name in ("host", *BOARDS) for way in ENTITIES]
-    chosen = {("host", way) for way in ENTITIES}
-    chosen |= {("qemu-microbit", "binary"), ("qemu-riscv32-virt", "xml")}
-    return [
-        pytest.param(*row, marks=pytest.mark.system if row in chosen else pytest.mark.long) for row in rows
-    ]
+    chosen = {("host", "binary"), ("qemu-microbit", "binary")}
+    variants = {("qemu-riscv32-virt", "xml"), *(("host", way) for way in ENTITIES)}
+    marks = {**dict.fromkeys(variants, pytest.mark.variant), **dict.fromkeys(chosen, pytest.mark.system)}
+    return [pytest.param(*row, marks=marks.get(row, pytest.mark.long)) for row in rows]
 
 
 @pytest.mark.parametrize(("name", "entities"), ways())

@@ -156,7 +156,7 @@ def of(steps: Iterable[Step], part: str, *kinds: str) -> list[str]:
 - {at: 26 s, repair: joint}
 - {at: 36 s, change: gripper, state: inactive}
 """,
-            marks=pytest.mark.system,
+            marks=pytest.mark.variant,
         ),
     ],
     ids=["refusing", "late, changed and away"],

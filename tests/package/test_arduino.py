@@ -277,9 +277,15 @@ def _answered(observer: Observer, number: int) -> None:
     [
         ("avr-gcc", "-mmcu=atmega2560"),
         ("arm-none-eabi-gcc", "-mcpu=cortex-m0plus", "-mthumb"),
-        ("arm-none-eabi-gcc", "-mcpu=cortex-m7", "-mthumb", "-mfpu=fpv5-d16", "-mfloat-abi=hard"),
-        ("riscv64-unknown-elf-gcc", "-march=rv32imac", "-mabi=ilp32", "--specs=picolibc.specs"),
-        ("gcc", "-m32"),
+        pytest.param(
+            ("arm-none-eabi-gcc", "-mcpu=cortex-m7", "-mthumb", "-mfpu=fpv5-d16", "-mfloat-abi=hard"),
+            marks=pytest.mark.variant,
+        ),
+        pytest.param(
+            ("riscv64-unknown-elf-gcc", "-march=rv32imac", "-mabi=ilp32", "--specs=picolibc.specs"),
+            marks=pytest.mark.variant,
+        ),
+        pytest.param(("gcc", "-m32"), marks=pytest.mark.variant),
         ("gcc", "-m64"),
     ],
     ids=lambda words: " ".join(words[:2]),

@@ -19,6 +19,7 @@ from tests.support.agent.process import own_domain, running_agent
 from tests.support.package.pio import Pio, running
 from tests.support.paths import ROOT
 from tests.support.patience import deadline
+from tests.support.slices import first
 
 pytestmark = [pytest.mark.system, pytest.mark.builds]
 
@@ -161,7 +162,7 @@ def test_a_changed_message_is_generated_again(pio: Pio) -> None:
 
 
 @pytest.mark.ros
-@pytest.mark.parametrize("program", ["native", "wifi"])
+@pytest.mark.parametrize("program", first(["native", "wifi"]))
 def test_the_general_plan_reaches_ros_by_udp(pio: Pio, program: str) -> None:
     sketch = program == "wifi"
     (pio.project / "src" / ("main.cpp" if sketch else "main.c")).write_text(WIFI if sketch else NATIVE)
@@ -177,7 +178,7 @@ def test_the_general_plan_reaches_ros_by_udp(pio: Pio, program: str) -> None:
         wait_for(observer, "/distance", "'range': 1.5")
 
 
-@pytest.mark.parametrize("transport", ["ethernet", "native_ethernet", "wifi_nina", "custom"])
+@pytest.mark.parametrize("transport", first(["ethernet", "native_ethernet", "wifi_nina", "custom"]))
 def test_each_transport_compiles(pio: Pio, transport: str) -> None:
     call = SET_UP.get(transport, "")
     (pio.project / "src" / "main.cpp").write_text(

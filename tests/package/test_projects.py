@@ -17,6 +17,7 @@ from tests.support.package.arduino import MEGA, SKETCHES, built
 from tests.support.package.pio import Pio, running
 from tests.support.paths import ROOT, TESTS
 from tests.support.patience import seconds
+from tests.support.slices import first
 
 pytestmark = [pytest.mark.system, pytest.mark.builds]
 
@@ -99,7 +100,7 @@ def test_a_project_of_platformio_builds(run: Runner, folder: Path, tmp_path: Pat
         assert pio.program.is_file()
 
 
-@pytest.mark.parametrize("sources", ["", "echo"])
+@pytest.mark.parametrize("sources", first(["echo", ""]))
 def test_a_sketchbook_builds_for_a_mega(run: Runner, folder: Path, sources: str) -> None:
     options = ("--from", str(SKETCHES / sources)) if sources else ()
     done = run("init", "my_sketch", "--platform", "arduino", *options)

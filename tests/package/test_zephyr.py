@@ -24,6 +24,7 @@ from tests.support.command_line import Runner
 from tests.support.package.pio import running
 from tests.support.paths import TESTS
 from tests.support.runtime.merged import merged
+from tests.support.slices import first
 
 KERNELS = TESTS / "platform" / "kernels"
 HOST = TESTS / "support" / "package" / "zephyr_host"
@@ -193,7 +194,7 @@ def test_a_project_finds_its_module(run: Runner, folder: Path) -> None:
 @pytest.mark.system
 @pytest.mark.ros
 @pytest.mark.builds
-@pytest.mark.parametrize("kind", ["serial", "udp"])
+@pytest.mark.parametrize("kind", first(["serial", "udp"]))
 def test_the_example_reaches_ros(tmp_path: Path, kind: str) -> None:
     """Over functions of Zephyr for this computer (tests/support/package/zephyr_host)."""
     module = tmp_path / "module"

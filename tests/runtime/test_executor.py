@@ -104,8 +104,8 @@ SELECTED = {
     ("compiler", "flags"),
     [
         pytest.param("", (), id="quick"),
-        pytest.param("gcc", ("-m32", "-Os"), id="gcc-m32", marks=pytest.mark.system),
-        pytest.param("gcc", SANITIZE, id="gcc-sanitized", marks=pytest.mark.system),
+        pytest.param("gcc", ("-m32", "-Os"), id="gcc-m32", marks=pytest.mark.variant),
+        pytest.param("gcc", SANITIZE, id="gcc-sanitized", marks=pytest.mark.variant),
     ],
 )
 def test_unit(unit: str, compiler: str, flags: tuple[str, ...], tmp_path: Path) -> None:

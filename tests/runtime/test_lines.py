@@ -253,7 +253,7 @@ def _eventually(condition: Callable[[], bool]) -> None:
     ("device", "baud", "words"),
     [
         ("/dev/null", 115200, "no transport to /dev/null\n"),  # no terminal
-        pytest.param("/nowhere/tty", 115200, "no transport to /nowhere/tty\n", marks=pytest.mark.system),
+        pytest.param("/nowhere/tty", 115200, "no transport to /nowhere/tty\n", marks=pytest.mark.variant),
     ],
 )
 def test_no_such_line(device: str, baud: int, words: str, tmp_path: Path) -> None:
@@ -263,7 +263,7 @@ def test_no_such_line(device: str, baud: int, words: str, tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize(
-    ("baud", "code"), [pytest.param(9600, 0, marks=pytest.mark.system), (921600, 0), (123456, 2)]
+    ("baud", "code"), [pytest.param(9600, 0, marks=pytest.mark.variant), (921600, 0), (123456, 2)]
 )
 def test_speeds(baud: int, code: int, tmp_path: Path) -> None:
     agent = LineAgent()

@@ -180,8 +180,8 @@ def test_closed_and_opened_again(device: Device) -> None:
     [
         (MANY, 64, 60),
         (MANY, MOST, 60),
-        pytest.param(FEW, MOST, 60, marks=pytest.mark.system),
-        pytest.param(FEW, MOST, 7, marks=pytest.mark.system),
+        pytest.param(FEW, MOST, 60, marks=pytest.mark.variant),
+        pytest.param(FEW, MOST, 7, marks=pytest.mark.variant),
     ],
     ids=["small fragments", "fragments", "only large ones in fragments", "whole"],
 )

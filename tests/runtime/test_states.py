@@ -58,7 +58,7 @@ def program(tmp_path_factory: pytest.TempPathFactory):  # type: ignore[no-untype
 
 @pytest.fixture(
     params=[
-        pytest.param((name, lock), marks=[pytest.mark.system] if lock and name != "udp" else [])
+        pytest.param((name, lock), marks=[pytest.mark.variant] if lock and name != "udp" else [])
         for name in PLANS
         for lock in (False, True)
     ],

@@ -118,9 +118,9 @@ FORBIDDEN = re.compile(
 
 
 COMPILATIONS = [
-    pytest.param("pool-ping", "gcc", ("-O2",), marks=pytest.mark.system),
+    pytest.param("pool-ping", "gcc", ("-O2",), marks=pytest.mark.variant),
     pytest.param("pool-ping", "clang", ("-m32", "-O1"), marks=pytest.mark.long),
-    pytest.param("declared-acknack", "gcc", ("-m32", "-Os"), marks=pytest.mark.system),
+    pytest.param("declared-acknack", "gcc", ("-m32", "-Os"), marks=pytest.mark.variant),
     pytest.param("declared-acknack", "clang", ("-Os",), marks=pytest.mark.lint),
     pytest.param("best-effort-none", "gcc", ("-O2",), marks=pytest.mark.long),
     pytest.param("best-effort-none", "clang", ("-Os",), marks=pytest.mark.long),

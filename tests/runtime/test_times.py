@@ -217,9 +217,9 @@ BATTERY = SessionTimes(retry_max=600_000, liveliness_period=300_000)
 @pytest.mark.parametrize(
     ("liveliness", "times", "most"),
     [
-        pytest.param("none", SessionTimes(), 1, marks=pytest.mark.system),
+        pytest.param("none", SessionTimes(), 1, marks=pytest.mark.variant),
         ("acknack", SessionTimes(), 1),
-        pytest.param("ping", SessionTimes(), 2 * 3600, marks=pytest.mark.system),
+        pytest.param("ping", SessionTimes(), 2 * 3600, marks=pytest.mark.variant),
         ("ping", BATTERY, 2 * 12),
     ],
     ids=["none", "acknack", "ping", "ping of a battery device"],

@@ -35,10 +35,10 @@ ARENA = changed(POOL, memory__arena_size=1024)
         ("unit_drop_reserved.c", SERVES, SANITIZE),
         ("unit_memory.c", changed(POOL, memory__arena_size=512), SANITIZE),
         ("unit_strings.c", ARENA, SANITIZE),
-        pytest.param("unit_strings.c", POOL, ("-O2",), marks=pytest.mark.system),
+        pytest.param("unit_strings.c", POOL, ("-O2",), marks=pytest.mark.variant),
         pytest.param(
             *("unit_memory.c", changed(POOL, memory__arena_size=512), ("-m32", "-Os")),
-            marks=pytest.mark.system,
+            marks=pytest.mark.variant,
         ),
     ],
     ids=["stream", "stream-replaced", "drop-reserved", "memory", "strings", "strings-no-arena", "memory-m32"],
@@ -116,9 +116,9 @@ def test_messages_that_the_line_does_not_copy(tmp_path: Path) -> None:
     [
         (1, "gcc", SANITIZE),
         (2, "clang", SANITIZE),
-        pytest.param(4, "gcc", SANITIZE, marks=pytest.mark.system),
+        pytest.param(4, "gcc", SANITIZE, marks=pytest.mark.variant),
         (16, "gcc", ("-m32", "-Os")),
-        pytest.param(1, "clang", ("-m32", "-O1"), marks=pytest.mark.system),
+        pytest.param(1, "clang", ("-m32", "-O1"), marks=pytest.mark.variant),
     ],
 )
 def test_reliable_input(slots: int, compiler: str, flags: tuple[str, ...], tmp_path: Path) -> None:

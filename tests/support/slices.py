@@ -26,11 +26,11 @@ def spread_rows(rows: Iterable[tuple[object, ...]], every: int = 4) -> list[obje
 
 def only(chosen: Collection[str], names: Iterable[str]) -> list[str | ParameterSet]:
     """Return parameters of a test: the `chosen` names as they are, the others for `make system`."""
-    return [name if name in chosen else pytest.param(name, marks=pytest.mark.system) for name in names]
+    return [name if name in chosen else pytest.param(name, marks=pytest.mark.variant) for name in names]
 
 
 def _later(*values: object) -> ParameterSet:
-    return pytest.param(*values, marks=pytest.mark.system)
+    return pytest.param(*values, marks=pytest.mark.variant)
 
 
 def beyond(values: Mapping[str, object] | Collection[str], long: Collection[str]) -> list[ParameterSet]:

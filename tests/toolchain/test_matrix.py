@@ -25,7 +25,7 @@ _ALSO_CLANG = (
 )
 # Every variant is compiled by test_symbols.py with gcc, 64 bit, -Os; `pool` and `demo` share all other cases.
 CASES = [
-    pytest.param("pool", "gcc", 32, "-Os", marks=pytest.mark.system),
+    pytest.param("pool", "gcc", 32, "-Os", marks=pytest.mark.variant),
     *(
         pytest.param(*case, marks=pytest.mark.lint)
         for case in (
@@ -101,7 +101,7 @@ def _including(tree: Tree, folder: Path, ending: str) -> list[str]:
 
 @pytest.mark.parametrize(
     ("name", "compiler"),
-    [pytest.param("demo", "clang", marks=pytest.mark.system), ("pool-none-drop-code-arena-device", "gcc")],
+    [pytest.param("demo", "clang", marks=pytest.mark.variant), ("pool-none-drop-code-arena-device", "gcc")],
 )
 def test_each_header_compiles_alone_in_c(tree_of: TreeOf, tmp_path: Path, name: str, compiler: str) -> None:
     if not has(compiler):
@@ -114,7 +114,7 @@ def test_each_header_compiles_alone_in_c(tree_of: TreeOf, tmp_path: Path, name: 
 
 @pytest.mark.parametrize(
     ("name", "compiler"),
-    [("demo", "g++"), pytest.param("pool-none-drop-code-arena-device", "clang++", marks=pytest.mark.system)],
+    [("demo", "g++"), pytest.param("pool-none-drop-code-arena-device", "clang++", marks=pytest.mark.variant)],
 )
 def test_each_header_compiles_alone_in_cpp(tree_of: TreeOf, tmp_path: Path, name: str, compiler: str) -> None:
     if not has(compiler):

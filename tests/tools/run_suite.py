@@ -55,7 +55,7 @@ class Run:
     """Up to so many failed tests run once more, alone; what fails alone has failed."""
 
 
-DEFAULT = "not long and not lint and not system"
+DEFAULT = "not long and not lint and not system and not variant"
 SANITIZED = ("runtime", "components", "e2e")
 """Folders whose programs `make test` compiles without sanitizers."""
 PYTEST = (sys.executable, "-m", "pytest", "-q")
@@ -67,16 +67,17 @@ RUNS: Mapping[str, tuple[Run, ...]] = {
     "quick": (Run(f"{DEFAULT} and not ros and not builds", UNITS, 0, True, {EXAMPLES: "few"}),),
     "system": (
         Run(
-            "(system or hypothesis or examples) and not long and not lint",
+            "(system or variant or hypothesis or examples) and not long and not lint",
             without=SANITIZED,
             environment=EVERYTHING,
         ),
         Run("not long and not lint", SANITIZED, environment=EVERYTHING),
     ),
-    # Each test of `test` and `system` once, compiled as in `test`. All sanitizers and examples take too long for CI.
+    # Each test of `test` and `system` once, compiled as in `test`. All sanitizers, examples and variants take too long
+    # for CI.
     # Beside emulators, DDS and agents of other tests, on a slow machine, a test can fail that is right.
     # Half of their time is waiting, for agents and DDS: more of them at once.
-    "check": (Run("not long and not lint", more_processes=4, again=5),),
+    "check": (Run("not long and not lint and not variant", more_processes=4, again=5),),
     "lint": (Run("lint and not long", more_processes=1),),
 }
 

@@ -43,7 +43,7 @@ def differing(packages: list[str], tmp_path_factory: pytest.TempPathFactory) -> 
     return generate(packages, rules, tmp_path_factory.mktemp("differing"))
 
 
-@pytest.fixture(scope="session", params=["same", pytest.param("differing", marks=pytest.mark.system)])
+@pytest.fixture(scope="session", params=["same", pytest.param("differing", marks=pytest.mark.variant)])
 def limits_case(request: pytest.FixtureRequest) -> Generated:
     """Both ways to have limits."""
     name = "everything" if request.param == "same" else "differing"

@@ -79,7 +79,7 @@ def test_32_bit_reads_the_same(everything: Generated, replayed: tuple[Path, int]
     ("target", "emulator"),
     [
         ("powerpc-linux-gnu", "qemu-ppc"),
-        pytest.param("arm-linux-gnueabihf", "qemu-arm", marks=pytest.mark.system),
+        pytest.param("arm-linux-gnueabihf", "qemu-arm", marks=pytest.mark.variant),
     ],
 )
 def test_other_targets_read_the_same(
