@@ -14,7 +14,7 @@ import json
 import sys
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib import import_module
 from typing import Any
 
@@ -50,7 +50,9 @@ class _Peer:
             found = import_module("rclpy.action").get_action_names_and_types(self._node)
         elif what in actions:
             name = f"get_action_{actions[what]}_names_and_types_by_node"
-            found = getattr(import_module("rclpy.action"), name)(self._node, node, namespace)
+            found = []
+            with suppress(RuntimeError):  # rclpy's error: the node has not been discovered
+                found = getattr(import_module("rclpy.action"), name)(self._node, node, namespace)
         elif what in ("topics", "mangled"):
             found = self._node.get_topic_names_and_types(no_demangle=what == "mangled")
         elif what == "services":
