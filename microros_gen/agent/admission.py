@@ -167,8 +167,7 @@ class Admission:
     def leave(self, client: Client, data: bytes, at: int) -> None:
         """Remove `client` on its own DELETE, whose payload begins at `data[at]`, and answer it."""
         request = data[at] << 8 | data[at + 1]
-        status = StatusReply(request, data[at + 2] << 8 | data[at + 3], Status.OK)
-        answer = client.session.unnumbered(status)
+        answer = client.session.unnumbered(StatusReply(request, data[at + 2] << 8 | data[at + 3], Status.OK))
         self.dismiss(client, "left")
         client.send(answer)
 
@@ -194,6 +193,7 @@ class Admission:
         """Remove the entities of a silent client from the ROS graph; its session stays."""
         client.asleep = client.kept = True
         self.keeping.before_sleep(client)
+        client.calls.report_unanswered(client.objects)
         self._turns.begin(client, Job(client.objects.suspending(), adds=False))
         for _ in range(client.session.rest()):
             text = "client {client} stopped within a fragmented message, which is lost"

@@ -7,6 +7,8 @@ SampleIdentity, which the reply repeats. The number of open requests is bounded:
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from microros_gen.agent.budgets import CALL_BYTES
 from microros_gen.agent.entities import Entity
 from microros_gen.agent.input_pool import Holder
@@ -51,6 +53,19 @@ class Calls:
     def add_request(self, replier: Entity, identity: bytes) -> None:
         """Record a request that was sent to the client."""
         self._note(replier, identity, b"")
+
+    def report_unanswered(self, objects: Iterable[Entity]) -> None:
+        """Report requests that get no reply since their client is silent.
+
+        ROS 2 drops a reply through a service that did not receive the request itself, so the one that is created when
+        the client returns cannot send it.
+        """
+        waiting = sum(len(entity.outstanding) for entity in objects if entity.kind == ObjectKind.REPLIER)
+        if waiting:
+            text = (
+                "client {client} was silent for too long: {requests} requests that it received get no reply"
+            )
+            self._log.count("unanswered", text, client=self._name, requests=waiting)
 
     def answered(self, requester: Entity, number: int) -> bytes:
         """Return the ids of the request that a reply is for; empty if it is not open any more."""

@@ -196,6 +196,20 @@ def test_a_service_sleeps_and_wakes_with_its_client() -> None:
     assert len(listener.take()) == 1
 
 
+def test_a_client_that_is_silent_for_too_long_cannot_answer_what_it_was_asked_before() -> None:
+    """A callback blocked it for longer than its time-out: its service is another one in ROS 2, and the log says so."""
+    bench, listener = serving(REPLIER, Limits(client_timeout_s=1.0))
+    for number in (1, 2):
+        replier(bench).put((IDENTITY[:-1] + bytes([number]), LITTLE + b"\1"))
+        assert len(listener.take()) == 1
+    bench.wait(1.2)
+    assert bench.bridge.graph == []
+    assert "was silent for too long: 2 requests that it received get no reply" in bench.text.getvalue()
+    listener.say(WriteData(0x0D, REPLIER, IDENTITY + b"\2"))
+    assert replier(bench).replies == []
+    assert bench.log.counters["unanswered"] == bench.log.counters["unknown_request"] == 1
+
+
 def test_a_service_that_ros_does_not_have() -> None:
     bench, listener = serving(REPLIER)
     blob = service_blob("/x", "std_srvs/srv/SetBool").replace(b"srv::dds_", b"msg::dds_")

@@ -15,11 +15,13 @@ from typing import Any
 
 import pytest
 
+from microros_gen.agent.wire.constants import SubmessageId
+from tests.support.agent.process import running_agent
 from tests.support.e2e.images import Images
 from tests.support.e2e.lifecycle_pair import BOTH, CALLBACKS, DEVICE, RETURNED, Pair, program_of, running_pair
 from tests.support.e2e.lifecycle_peer import WHATS
 from tests.support.e2e.relay import Relay
-from tests.support.patience import deadline, seconds
+from tests.support.patience import deadline
 from tests.support.slices import first
 
 pytestmark = pytest.mark.ros
@@ -41,6 +43,7 @@ WAYS: dict[str, tuple[tuple[int, ...], int]] = {
 ENDS = {"configure": 10, "cleanup": 20, "activate": 30, "deactivate": 40, "shutdown": 50, "error": 60}
 """The transition with which a callback's success leaves the state of its transition; the next two: failure, error."""
 
+DATA, WRITE_DATA = int(SubmessageId.DATA), int(SubmessageId.WRITE_DATA)
 FIRST_OF_TRANSITIONS = 10
 """The smallest id of a state in which a transition is."""
 
@@ -162,20 +165,32 @@ def test_services_asked_during_a_transition(pair: Pair, way: str) -> None:
         assert pair.peer.state(DEVICE) == end
 
 
-@pytest.mark.long
-def test_requests_wait_for_a_transition_that_does_not_spin(pair: Pair) -> None:
-    """They are answered after it, in their order, by the state which it has reached.
+@pytest.fixture
+def patient_pair(program: Path, relay: Relay, domain: int) -> Iterator[Pair]:
+    """The same with an agent that waits for silent clients: the callback blocks as long as a busy machine needs."""
+    with running_agent(domain, "--domain", str(domain), "--client-timeout", "600") as agent:
+        relay.connect(agent.port)
+        with running_pair(program, domain) as pair:
+            yield pair
 
-    In one of four runs the device answers neither; the reason is not known, so the default suite leaves it out.
-    """
+
+@pytest.mark.system
+def test_requests_wait_for_a_transition_that_does_not_spin(patient_pair: Pair, relay: Relay) -> None:
+    """They are answered after it, in their order, by the state which it has reached."""
+    pair = patient_pair
     pair.begin()
     assert pair.peer.change(DEVICE, 99) is False  # its client is connected: the next request arrives at once
     pair.program.call(f"inside {CALLBACKS.index('configure')} b")
     pair.peer.ask(do="wait_inside", name="configure")
+    requested, answered = relay.received[DATA], relay.sent[WRITE_DATA]
     for identifier, label in ((1, ""), (0, "activate")):
         for node in BOTH:
             pair.peer.ask(do="begin_change", node=node, id=identifier, label=label)
-        time.sleep(seconds(0.5))  # each node gets both in this order
+    limit = deadline(30)
+    while relay.received[DATA] < requested + 2:
+        assert time.monotonic() < limit
+        time.sleep(0.01)
+    assert relay.sent[WRITE_DATA] <= answered + 1  # the event of the transition's begin
     for node in BOTH:
         assert pair.peer.ask(do="changed", node=node) == [None, None]
     pair.peer.ask(do="release")

@@ -91,6 +91,8 @@ class Relay:
         self.shortened = 0
         self.sent: Counter[int] = Counter()
         """Messages of clients by the id of their first submessage."""
+        self.received: Counter[int] = Counter()
+        """The same of the agent's messages."""
         self._front = _socket(host)
         self.port: int = self._front.getsockname()[1]
         self._target = 0
@@ -142,6 +144,7 @@ class Relay:
             return  # the news that nobody listens there
         self.largest = max(self.largest, len(data))
         if client is not None:
+            self.received.update(data[4:5])
             self._pass_on(data, lambda part: self._front.sendto(part, client))
         elif self._target:
             self.sent.update(data[4:5])
