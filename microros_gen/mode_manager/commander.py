@@ -32,8 +32,10 @@ class Commander:
         if leaf.link is Link.ABSENT or leaf.call is not None or now < leaf.wait_until:
             return None
         status = self._knowledge.status(leaf)
-        is_done = bool(leaf.failure) or (leaf.is_settled(status) and not self._knowledge.lacks_values(leaf))
-        is_waiting = is_done or bool(leaf.settle_until or self._progress.blocker(leaf.name))
+        lacks_values = self._knowledge.lacks_values(leaf)
+        is_settling = bool(leaf.settle_until) and not lacks_values
+        is_done = bool(leaf.failure) or (leaf.is_settled(status) and not lacks_values)
+        is_waiting = is_done or is_settling or bool(self._progress.blocker(leaf.name))
         self._doubt(leaf, now, is_waiting)
         for kind in Kind:
             if kind in leaf.stale:

@@ -177,6 +177,8 @@ class Orchestrator:
         leaf.call, leaf.unanswered, now = None, 0, self._clock()
         if call.kind in (Kind.GET_STATE, Kind.GET_MODE, Kind.GET_PARAMETERS):
             self._hear(call.part, lambda known, at: self._query(known, call, at, success, facts))
+            if call.kind is Kind.GET_MODE and leaf.settle_until and self.status(leaf) == Status(ACTIVE):
+                self._begin_again(leaf)
             return
         leaf.commanded = now
         if success:
@@ -242,14 +244,25 @@ class Orchestrator:
             if leaf.is_settled(after) and leaf.failure != SILENT:
                 leaf.failure, leaf.deviates, leaf.settle_until, leaf.reaction = "", False, 0.0, ""
             return
-        lacks_values = after == Status(ACTIVE)  # its manager restarted, and does not have those of its parent
-        if was_settled and leaf.link is Link.SYSTEM and not lacks_values:
+        if leaf.link is Link.SYSTEM and _has_no_target(after) and (was_settled or leaf.settle_until):
+            if was_settled or after.state != ACTIVE:  # its events arrive one by one: state, then mode
+                self._begin_again(leaf)
+        elif was_settled and leaf.link is Link.SYSTEM:
             leaf.failure = f"it left {leaf.target} for {after} by itself"
             self._log(f"{name}: {leaf.failure}")
         elif (was_settled and before.state != UNKNOWN) or self._is_foreign(leaf):
             self._log(f"{name}: others changed it from {before} to {after}")
             self._deviate(leaf)
             await_reaction(leaf, after, self._clock(), self.settings)
+
+    def _begin_again(self, leaf: Leaf) -> None:
+        """Command a system whose manager was started again, and knows neither its target nor values of its parent."""
+        self._log(f"{leaf.name}: its manager was started again")
+        leaf.settle_until = 0.0
+        leaf.values.clear()
+        leaf.stale |= leaf.queries
+        self._deviate(leaf)
+        leaf.deviates = False  # it gets its target first; rules decide if it cannot
 
     def _is_foreign(self, leaf: Leaf) -> bool:
         """Return whether a failed leaf changed although nothing was commanded.
@@ -363,3 +376,8 @@ class Orchestrator:
                 leaf.is_mode_late = False
                 if leaf.link is not Link.ABSENT and leaf.failure != SILENT:
                     leaf.failure = ""
+
+
+def _has_no_target(system: Status) -> bool:
+    """Return whether the manager of a system has no target for it; with one, it is never in any of these."""
+    return system.state in (UNKNOWN, UNCONFIGURED) or system == Status(ACTIVE)

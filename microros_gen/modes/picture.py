@@ -96,6 +96,11 @@ def _lines(part: Part) -> Iterator[tuple[str, str]]:
     for rule in part.rules:
         yield "rule", f"{rule.if_target} → {rule.new_target}"
         yield "rule", f"  if {rule.if_part} is {rule.if_status}"
+        if rule.recover_part:
+            yield (
+                "rule",
+                f"  recover if {rule.recover_part} is {' or '.join(map(str, rule.recover_statuses))}",
+            )
 
 
 def _shown(value: Value) -> str:

@@ -12,6 +12,7 @@ from microros_gen.mode_manager.calls import Kind, Link
 from microros_gen.modes.model import active
 from microros_gen.ros.peer import Peer
 from tests.support.mode_manager.processes import Asking, manager, node
+from tests.support.mode_manager.two_managers import LowerManager, TwoManagers
 from tests.support.mode_manager.world import Node, World
 from tests.support.modes.models import model_of
 
@@ -123,6 +124,78 @@ def test_a_restarted_lower_manager_takes_over_the_mode_when_it_has_the_values() 
     assert str(world.manager.targets["base"]) == "active.GO"
 
 
+def two_managers(text: str = ROBOT) -> TwoManagers:
+    """Return both, with the robot in the mode FAST."""
+    below = World(model_of(text), {"wheel": Node(values={"speed": 0.0})}, roots=("base",))
+    base = LowerManager(Link.SYSTEM, serves_parameters=True, world=below, system="base")
+    both = TwoManagers(World(model_of(text), {"base": base}, without=("base",)), below, base)
+    both.let(2)
+    both.upper.manager.request("robot", active("FAST"))
+    both.let(3)
+    assert (both.upper.status("robot"), both.lower.status("base")) == ("active.FAST", "active.GO")
+    return both
+
+
+@pytest.mark.parametrize("late_s", [0.0, 1.0])
+def test_a_lower_manager_that_was_away_for_long_gets_the_values_before_the_mode(late_s: float) -> None:
+    """The upper manager has noticed that it does not answer."""
+    both = two_managers()
+    wheel = both.lower.nodes["wheel"]
+    both.kill()
+    both.let(30)
+    assert both.upper.status("base") == "unknown"
+    both.restart("wheel")
+    both.let(late_s)
+    both.discover("wheel")
+    for _ in range(150):
+        both.let(0.1)
+        assert wheel.values["speed"] == 0.9
+    assert (both.upper.status("robot"), both.lower.status("base")) == ("active.FAST", "active.GO")
+
+
+WITH_RULE = ROBOT.replace(
+    "base:\n  ros",
+    "    rules:\n      slow: {if_target: active.FAST, if_part: [base, unknown], new_target: active}\nbase:\n  ros",
+)
+
+
+@pytest.mark.parametrize("text", [ROBOT, WITH_RULE], ids=["plain", "rule"])
+@pytest.mark.parametrize("late_s", [0.0, 0.2, 1.0, 7.0])
+@pytest.mark.parametrize("dead_s", [0.0, 0.3, 2.0, 8.0])
+def test_a_restarted_lower_manager_soon_has_mode_and_values(text: str, late_s: float, dead_s: float) -> None:
+    """Also when it discovers its node late, and is unknown until then: its parts never have other values."""
+    both = two_managers(text)
+    wheel = both.lower.nodes["wheel"]
+    both.kill()
+    both.let(dead_s)
+    both.restart("wheel")
+    both.let(late_s)
+    both.discover("wheel")
+    for _ in range(120):
+        both.let(0.1)
+        assert wheel.values["speed"] == 0.9
+    assert (both.upper.status("robot"), both.lower.status("base")) == ("active.FAST", "active.GO")
+    assert both.lower.manager.parent_values("base") == {"limit": 0.9, "slow": 0.1}
+    assert both.upper.manager.rules == {}, "a restart is no error"
+
+
+@pytest.mark.parametrize("after_s", [0.1, 0.2, 0.4, 0.7])
+def test_a_lower_manager_that_is_restarted_on_its_way_is_commanded_again(after_s: float) -> None:
+    """It accepted a mode, and was killed before it was in it: nobody waits until the mode is late."""
+    both = two_managers()
+    both.lower.nodes["wheel"].delay_s = 0.5
+    both.upper.manager.request("robot", active())
+    both.let(after_s)
+    both.kill()
+    both.restart()
+    both.let(15)
+    assert (both.upper.status("robot"), both.lower.status("base")) == (
+        "active.__DEFAULT__",
+        "active.GO",
+    )
+    assert both.lower.nodes["wheel"].values["speed"] == 0.3
+
+
 @pytest.mark.ros
 @pytest.mark.system
 def test_two_managers_and_a_restart_of_the_lower_one(stack: ExitStack, domain: int, tmp_path: Path) -> None:
@@ -143,13 +216,14 @@ def test_two_managers_and_a_restart_of_the_lower_one(stack: ExitStack, domain: i
     for mode, value in (("FAST", 0.9), ("__DEFAULT__", 0.3), ("FAST", 0.9)):
         assert asking.change_mode("robot", mode)
         asking.until(lambda value=value: speed() == value)  # type: ignore[misc]
-        asking.until_row("robot", f"active.{mode}", 60)
+        asking.until_row("robot", f"active.{mode}", 15)
     first.process.kill()
     first.process.wait()
     second = stack.enter_context(manager(domain, str(path), "--scope", "base"))
-    second.wait_for("mode manager ready: base", 60)
+    second.wait_for("mode manager ready: base", 15)
     asking.rows.clear()
-    asking.until(lambda: asking.rows.get("wheel") is not None and asking.rows["wheel"].target != "", 60)
-    asking.until(lambda: asking.rows["base"].actual == "active.GO", 60)
+    asking.until(lambda: asking.rows.get("wheel") is not None and asking.rows["wheel"].target != "", 15)
+    asking.until(lambda: asking.rows["base"].actual == "active.GO", 15)
     assert speed() == 0.9
     assert not above.says("serves no parameters")
+    assert not above.says("by itself")

@@ -36,6 +36,13 @@ def test_every_part_mode_and_value_is_in_it(name: str) -> None:
     assert len(list(ET.fromstring(draw(model)).iter(f"{SVG}path"))) == len(model.parents)
 
 
+def test_a_rule_with_a_return_shows_when_it_is_over() -> None:
+    rule = "        new_target: inactive\n"
+    text = changed(model_text("arm"), rule, f"{rule}        recover_if: [joint, inactive, active.CRAWL]\n")
+    assert "recover if joint is inactive or active.CRAWL" in texts(draw(model_of(text)))
+    assert not any(line.startswith("recover") for line in texts(draw(model_of(model_text("arm")))))
+
+
 def test_values_are_written_as_in_the_file() -> None:
     shown = texts(draw(model_of(changed(model_text("robot"), "rate: 10", "rate: true"))))
     assert {
