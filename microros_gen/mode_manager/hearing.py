@@ -176,5 +176,4 @@ def _count(leaf: Leaf, failure: str, now: float, settings: Settings) -> None:
 
 def _is_own(leaf: Leaf, now: float, settings: Settings) -> bool:
     """Return whether an event may be one of an own command."""
-    is_command = leaf.call is not None and leaf.call.kind in COMMANDS
-    return leaf.link is not Link.SYSTEM and (is_command or now - leaf.commanded < settings.grace_s)
+    return leaf.link is not Link.SYSTEM and (leaf.is_commanded or now - leaf.commanded < settings.grace_s)

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from microros_gen.mode_manager.calls import (
     ACTIVATE,
     CLEANUP,
+    COMMANDS,
     CONFIGURE,
     DEACTIVATE,
     Call,
@@ -130,6 +131,11 @@ class Leaf:
         """Return the names of the parameters that have values of a parent in some mode."""
         modes = self.part.modes.values()
         return tuple(dict.fromkeys(n for mode in modes for n, v in mode.parameters.items() if v.parent))
+
+    @property
+    def is_commanded(self) -> bool:
+        """Return whether a command is not answered yet: its events may arrive before the response."""
+        return self.call is not None and self.call.kind in COMMANDS
 
     def is_settled(self, status: Status) -> bool:
         """Return whether it has its target, or none."""

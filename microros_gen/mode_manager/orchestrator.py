@@ -185,6 +185,10 @@ class Orchestrator:
             hear_success(leaf, call, now, self.settings)
             if leaf.is_settled(self.status(leaf)):
                 leaf.attempts = 0
+                if leaf.link is Link.SYSTEM and call.kind is Kind.SET_PARAMETERS:
+                    leaf.settle_until = (
+                        now + self.settings.system_s
+                    )  # its parts get other values in the same mode
         else:
             hear_refusal(leaf, call, reason, now, self.settings)
             self._log(f"{call.part}: {leaf.failure or f'refused {call} {reason}'.rstrip()}")
@@ -247,6 +251,8 @@ class Orchestrator:
         if leaf.link is Link.SYSTEM and _has_no_target(after) and (was_settled or leaf.settle_until):
             if was_settled or after.state != ACTIVE:  # its events arrive one by one: state, then mode
                 self._begin_again(leaf)
+        elif was_settled and leaf.link is Link.SYSTEM and (leaf.settle_until or leaf.is_commanded):
+            return
         elif was_settled and leaf.link is Link.SYSTEM:
             leaf.failure = f"it left {leaf.target} for {after} by itself"
             self._log(f"{name}: {leaf.failure}")

@@ -124,6 +124,12 @@ def test_a_restarted_lower_manager_takes_over_the_mode_when_it_has_the_values() 
     assert str(world.manager.targets["base"]) == "active.GO"
 
 
+WITH_RULE = ROBOT.replace(
+    "base:\n  ros",
+    "    rules:\n      slow: {if_target: active.FAST, if_part: [base, unknown], new_target: active}\nbase:\n  ros",
+)
+
+
 def two_managers(text: str = ROBOT) -> TwoManagers:
     """Return both, with the robot in the mode FAST."""
     below = World(model_of(text), {"wheel": Node(values={"speed": 0.0})}, roots=("base",))
@@ -134,6 +140,33 @@ def two_managers(text: str = ROBOT) -> TwoManagers:
     both.let(3)
     assert (both.upper.status("robot"), both.lower.status("base")) == ("active.FAST", "active.GO")
     return both
+
+
+def test_a_system_that_gets_other_values_in_its_mode_does_not_leave_it() -> None:
+    """Its manager reports that it is on its way meanwhile, for some seconds."""
+    both = two_managers(WITH_RULE.replace("[base, unknown]", "[base, activating]"))
+    both.lower.nodes["wheel"].delay_s = 0.4
+    for mode, speed in (("__DEFAULT__", 0.3), ("FAST", 0.9)):
+        both.upper.manager.request("robot", active(mode))
+        both.let(6)
+        assert both.lower.nodes["wheel"].values["speed"] == speed
+        assert (both.upper.status("robot"), both.upper.manager.rules) == (f"active.{mode}", {})
+    assert not any("by itself" in line or "others" in line for line in both.upper.log)
+
+
+def test_events_that_arrive_before_the_response() -> None:
+    base = Node(Link.SYSTEM, serves_parameters=True)
+    world = upper(base)
+    world.request("robot", active("FAST"))
+    base.delay_s = 1.0
+    world.request("robot", active(), 0.5)
+    call = world.manager.leaves["base"].call
+    assert call is not None
+    assert call.kind is Kind.SET_PARAMETERS
+    world.manager.hear_state("base", "activating")
+    assert (world.manager.leaves["base"].failure, world.log) == ("", [])
+    world.let(15)
+    assert world.status("robot") == "active.__DEFAULT__"
 
 
 @pytest.mark.parametrize("late_s", [0.0, 1.0])
@@ -151,12 +184,6 @@ def test_a_lower_manager_that_was_away_for_long_gets_the_values_before_the_mode(
         both.let(0.1)
         assert wheel.values["speed"] == 0.9
     assert (both.upper.status("robot"), both.lower.status("base")) == ("active.FAST", "active.GO")
-
-
-WITH_RULE = ROBOT.replace(
-    "base:\n  ros",
-    "    rules:\n      slow: {if_target: active.FAST, if_part: [base, unknown], new_target: active}\nbase:\n  ros",
-)
 
 
 @pytest.mark.parametrize("text", [ROBOT, WITH_RULE], ids=["plain", "rule"])
@@ -226,4 +253,4 @@ def test_two_managers_and_a_restart_of_the_lower_one(stack: ExitStack, domain: i
     asking.until(lambda: asking.rows["base"].actual == "active.GO", 15)
     assert speed() == 0.9
     assert not above.says("serves no parameters")
-    assert not above.says("by itself")
+    assert not above.says("by itself"), above.lines
