@@ -54,9 +54,12 @@ class Commander:
         return self._call(leaf, now, kind, transition, mode, values)
 
     def _doubt(self, leaf: Leaf, now: float, is_waiting: bool) -> None:
-        """Let a leaf that is not commanded be asked what it is, now and then and after doubtful events."""
+        """Let a leaf that is not commanded be asked what it is, now and then and after doubtful events.
+
+        All queries of a round come before the next round, however long the responses take.
+        """
         interval_s = self._settings.pause_s if leaf.settle_until else self._settings.poll_s
-        if is_waiting and now - leaf.polled >= interval_s:
+        if is_waiting and not leaf.stale and now - leaf.polled >= interval_s:
             leaf.polled = now
             leaf.stale |= leaf.queries
         if (is_waiting or leaf.deviates) and leaf.doubts:

@@ -169,6 +169,14 @@ def test_events_that_arrive_before_the_response() -> None:
     assert world.status("robot") == "active.__DEFAULT__"
 
 
+@pytest.mark.parametrize("delay_s", [0.4, 0.6, 1.2, 3.0])
+def test_a_system_whose_manager_responds_slowly_is_asked_everything(delay_s: float) -> None:
+    """A response takes longer than the pause between two rounds of queries."""
+    world = upper(Node(Link.SYSTEM, serves_parameters=True, delay_s=delay_s))
+    world.request("robot", active("FAST"), 12 * delay_s)
+    assert world.status("robot") == "active.FAST"
+
+
 @pytest.mark.parametrize("late_s", [0.0, 1.0])
 def test_a_lower_manager_that_was_away_for_long_gets_the_values_before_the_mode(late_s: float) -> None:
     """The upper manager has noticed that it does not answer."""
