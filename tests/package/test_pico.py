@@ -22,10 +22,16 @@ from tests.support.paths import TESTS
 from tests.support.patience import seconds
 
 STAND_INS = TESTS / "support" / "package" / "pico_host"
+DIAGNOSIS = """\
+version: 1
+profiles: [pure_sender]
+components: [+multithread, +diagnosis]
+nodes: [{name: n}]
+"""
 PROJECT = """\
 cmake_minimum_required(VERSION 3.13)
 project(publisher C)
-foreach(name pico_stdlib pico_sync pico_unique_id)
+foreach(name pico_stdlib pico_sync pico_unique_id hardware_watchdog)
   add_library(${name} INTERFACE)
 endforeach()
 add_subdirectory(library microros)
@@ -60,10 +66,51 @@ def test_the_example_reaches_ros(tmp_path: Path) -> None:
     assert numbers == list(range(numbers[0], numbers[0] + len(numbers)))
 
 
-def test_what_the_package_defines_is_not_asked_for(run: Runner, folder: Path) -> None:
-    (folder / "more.yaml").write_text(
-        "version: 1\nprofiles: [pure_sender]\ncomponents: [+multithread, +diagnosis]\nnodes: [{name: n}]\n"
+POWER, PIN, SOFTWARE, WATCHDOG, BROWN_OUT = "11", "22", "33", "44", "55"
+RESETS = {
+    "rp2040": (("0x100", POWER), ("0x10000", PIN), ("0x100000", "00")),
+    "rp2350": (("0x10000", POWER), ("0x20000", BROWN_OUT), ("0x40000", PIN), ("0x80000", "00")),
+}
+
+
+@pytest.mark.builds
+@pytest.mark.parametrize("chip", RESETS)
+def test_the_cause_of_a_reset(chip: str, tmp_path: Path) -> None:
+    """The registers of the data sheets in, the cause out; what the program does to the watchdog changes nothing."""
+    (tmp_path / "own.yaml").write_text(DIAGNOSIS)
+    out = tmp_path / "library"
+    compiler.write(render_package(plan_package(describe("pico"), tmp_path / "own.yaml")), out)
+    headers = (f"-I{out / 'include'}", f"-I{STAND_INS / 'sdk'}", f"-DPICO_RP2040={int(chip == 'rp2040')}")
+    source = str(out / "transport" / "pico_reset.c")
+    subprocess.run(
+        [
+            *("gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-D_POSIX_C_SOURCE=200809L", *headers),
+            *(source, str(TESTS / "package" / "c" / "pico_reset.c"), "-o", str(tmp_path / "reset")),
+        ],
+        check=True,
     )
+
+    def cause(**registers: str) -> str:
+        done = subprocess.run([tmp_path / "reset"], capture_output=True, text=True, env=registers, check=True)
+        return done.stdout
+
+    for value, expected in RESETS[chip]:
+        assert cause(CHIP_RESET=value) == expected
+        assert cause(CHIP_RESET=value, REASON="1", MAGIC="1") == WATCHDOG
+        assert cause(CHIP_RESET=value, REASON="1") == SOFTWARE
+    if shutil.which("arm-none-eabi-gcc"):
+        processor = "-mcpu=cortex-m0plus" if chip == "rp2040" else "-mcpu=cortex-m33"
+        flags = ("-mthumb", "-std=c99", "-fsyntax-only", "-Wall", "-Wextra", "-Wconversion", "-Werror")
+        subprocess.run(["arm-none-eabi-gcc", processor, *flags, *headers, source], check=True)
+
+
+def test_the_reset_is_left_out_without_a_diagnosis(tmp_path: Path) -> None:
+    compiler.write(render_package(plan_package(describe("pico"), None)), tmp_path / "library")
+    assert not (tmp_path / "library" / "transport" / "pico_reset.c").exists()
+
+
+def test_what_the_package_defines_is_not_asked_for(run: Runner, folder: Path) -> None:
+    (folder / "more.yaml").write_text(DIAGNOSIS)
     for options in ((), ("-c", "more.yaml")):
         done = run("package", "pico", *options, "-o", "out")
         assert (done.status, "you define" in done.out) == (0, False), done.err

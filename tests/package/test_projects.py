@@ -25,7 +25,7 @@ PICO_HOST = TESTS / "support" / "package" / "pico_host"
 # What pico_sdk_import.cmake brings, for this computer
 PICO_SDK = """\
 function(pico_sdk_init)
-  foreach(name pico_stdlib pico_sync pico_unique_id)
+  foreach(name pico_stdlib pico_sync pico_unique_id hardware_watchdog)
     add_library(${name} INTERFACE)
     target_include_directories(${name} INTERFACE "$ENV{PICO_SDK_PATH}/sdk")
     target_compile_options(${name} INTERFACE -Wall -Wextra -Werror)

@@ -110,6 +110,39 @@ def test_the_sources_call_what_the_kernel_declares(folder: Path) -> None:
     assert "+multithread needs FreeRTOS" in lock.stderr
 
 
+PIN, SOFTWARE, IWDG, WWDG, POWER, BROWN_OUT = 1, 2, 4, 8, 16, 32
+"""Flags of the stand-in."""
+RESETS: dict[str, tuple[tuple[int, str], ...]] = {
+    "F4": ((POWER | BROWN_OUT | PIN, "110"), (BROWN_OUT | PIN, "550")),
+    "H7": ((POWER | BROWN_OUT | PIN, "110"), (BROWN_OUT | PIN, "550")),
+    "F1": ((POWER | PIN, "110"),),
+    "G0": ((POWER | PIN, "110"),),
+    "L4": ((BROWN_OUT | PIN, "110"),),
+}
+ALWAYS = ((0, "000"), (PIN, "220"), (SOFTWARE | PIN, "330"), (IWDG | PIN, "440"), (WWDG | PIN, "440"))
+
+
+@pytest.mark.builds
+@pytest.mark.parametrize("family", RESETS)
+def test_the_cause_of_a_reset(family: str, tmp_path: Path) -> None:
+    """The flags that the HAL of a family has in, the cause out; they are cleared once."""
+    (tmp_path / "own.yaml").write_text(TASKS)
+    out = written(tmp_path, tmp_path / "own.yaml")
+    assert complaints(out, "cortex-m4", f"-DSTM32_{family}", kernel=True) == ""
+    files = (str(out / "extra_sources" / "microros_reset.c"), str(C_FILES / "stm32_reset.c"))
+    folders = (f"-I{out / HEADERS}", f"-I{STAND_INS / 'stm32_hal'}", f"-I{out / 'extra_sources'}")
+    flags = ("-std=c99", *WARNINGS, f"-DSTM32_{family}")
+    program = tmp_path / "reset"
+    subprocess.run(["gcc", *flags, *folders, *files, "-o", str(program)], check=True)
+    for value, expected in (*ALWAYS, *RESETS[family]):
+        done = subprocess.run([program, str(value)], capture_output=True, text=True, check=True)
+        assert done.stdout == expected, value
+
+
+def test_the_reset_is_left_out_without_a_diagnosis(tmp_path: Path) -> None:
+    assert not (written(tmp_path) / "extra_sources" / "microros_reset.c").exists()
+
+
 def printed(folder: Path, transport: str, program: str) -> list[str]:
     """Return what a program of c/ prints that calls a transport on this computer."""
     if shutil.which("gcc") is None:

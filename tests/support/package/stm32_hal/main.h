@@ -32,6 +32,28 @@ HAL_StatusTypeDef HAL_UART_Transmit_IT(UART_HandleTypeDef * uart, const uint8_t 
 HAL_StatusTypeDef HAL_UART_Abort(UART_HandleTypeDef * uart);
 void HAL_UART_RxCpltCallback(UART_HandleTypeDef * uart);
 
+/* Reset flags by family; their numbers are those of this stand-in. */
+extern volatile uint32_t stm32_reset_flags;
+#define __HAL_RCC_GET_FLAG(flag) ((stm32_reset_flags & (flag)) != 0u ? 1u : 0u)
+#define __HAL_RCC_CLEAR_RESET_FLAGS() (stm32_reset_flags = 0u)
+#define RCC_FLAG_PINRST 0x01u
+#define RCC_FLAG_SFTRST 0x02u
+#if defined(STM32_H7)
+#define RCC_FLAG_IWDG1RST 0x04u
+#define RCC_FLAG_WWDG1RST 0x08u
+#else
+#define RCC_FLAG_IWDGRST 0x04u
+#define RCC_FLAG_WWDGRST 0x08u
+#endif
+#if defined(STM32_G0)
+#define RCC_FLAG_PWRRST 0x10u
+#elif !defined(STM32_L4)
+#define RCC_FLAG_PORRST 0x10u
+#endif
+#if !defined(STM32_F1) && !defined(STM32_G0)
+#define RCC_FLAG_BORRST 0x20u
+#endif
+
 void __WFI(void);
 void __disable_irq(void);
 uint32_t __get_PRIMASK(void);
