@@ -57,6 +57,8 @@ class Entity:
     shares: tuple[Share, ...]
 
 
+_CONSTANTS = ".rodata"
+"""How sections of constants begin."""
 _INDEXED = (
     (re.compile(r"(?:^|\.)(?:participants|nodes)\[(\d+)\]"), "node"),
     (re.compile(r"(?:^|\.)(?:publishers|topics)\[(\d+)\]"), "publisher"),
@@ -175,15 +177,20 @@ def _pattern(variable: str) -> str:
     return rf"{name}\[(\d+)\](?!\w)" if variable.endswith("[]") else rf"{name}(?!\w)"
 
 
-def constant_uses(folder: Folder, chunks: Iterable[Chunk]) -> dict[tuple[str, str], int]:
-    """Return the bytes of constants in flash by component and by what it says that they are for."""
-    found: dict[tuple[str, str], int] = {}
+def constant_uses(folder: Folder, chunks: Iterable[Chunk]) -> dict[tuple[str, str], tuple[int, int]]:
+    """Return the bytes of constants in flash and in RAM by component and by what it says that they are for.
+
+    They take RAM as well where the processor cannot read data in its flash (AVR).
+    """
+    found: dict[tuple[str, str], tuple[int, int]] = {}
     for chunk in chunks:
-        if chunk.owner.group == "component" and chunk.flash and not chunk.ram and chunk.symbol:
+        is_constant = not chunk.ram or chunk.input.startswith(_CONSTANTS)
+        if chunk.owner.group == "component" and chunk.flash and is_constant and chunk.symbol:
             owner, symbol = chunk.owner.name, chunk.symbol.split(".")[0]
             use = "" if chunk.function else _own_use(folder.manifest, owner, symbol, "", "")
             if use:
-                found[owner, use] = found.get((owner, use), 0) + chunk.flash
+                flash, ram = found.get((owner, use), (0, 0))
+                found[owner, use] = flash + chunk.flash, ram + chunk.ram
     return found
 
 

@@ -108,7 +108,10 @@ def size_data(report: SizeReport) -> dict[str, Any]:
             {"symbol": shown_name(p.symbol), "path": p.path, "bytes": p.size, "group": p.group, "use": p.use}
             for p in report.ram
         ],
-        "constants": [{"owner": owner, "use": use, "bytes": size} for owner, use, size in constants(report)],
+        "constants": [
+            {"owner": owner, "use": use, "bytes": flash, "ram": ram}
+            for owner, use, flash, ram in constants(report)
+        ],
         "entities": [_entity_data(e) for e in report.entities],
         "stack": _stack_data(report.stack),
         "budgets": [budget_data(line) for line in report.budgets],
@@ -147,16 +150,15 @@ def _owner_rows(report: SizeReport) -> list[tuple[str, str, str, str]]:
     return [*rows, ("total", "", str(flash), str(ram))]
 
 
-def constants(report: SizeReport) -> list[tuple[str, str, int]]:
-    """Return what components say that their constants are for: component, use, bytes of flash."""
-    return sorted(
-        (owner, use, size) for (owner, use), size in constant_uses(report.folder, report.chunks).items()
-    )
+def constants(report: SizeReport) -> list[tuple[str, str, int, int]]:
+    """Return what components say that their constants are for: component, use, bytes of flash and of RAM."""
+    found = constant_uses(report.folder, report.chunks)
+    return sorted((owner, use, *sizes) for (owner, use), sizes in found.items())
 
 
 def _constant_table(report: SizeReport) -> str:
-    rows = [(owner, use, str(size)) for owner, use, size in constants(report)]
-    return format_table(("FLASH OF", "USE", "BYTES"), rows) if rows else ""
+    rows = [(owner, use, str(flash), str(ram)) for owner, use, flash, ram in constants(report)]
+    return format_table(("CONSTANTS OF", "USE", "FLASH", "RAM"), rows) if rows else ""
 
 
 def _entity_table(entities: Iterable[Entity]) -> str:
