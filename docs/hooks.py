@@ -19,6 +19,7 @@ from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
 
 from microros_gen.agent.configuration import parser as agent_parser
+from microros_gen.agent.policy import parser as policy_parser
 from microros_gen.application import parser as application_parser
 from microros_gen.application import system_file
 from microros_gen.platform import target_file
@@ -41,6 +42,7 @@ _SCHEMAS = {
         "Configuration of the agent",
         "What `microros-gen agent --config FILE` takes ([more](../howto/agent.md)).",
     ),
+    "policy": ("Policy file", "What clients of the agent may do ([how](../howto/access_control.md))."),
 }
 
 SCHEMA_FILES = {
@@ -49,6 +51,7 @@ SCHEMA_FILES = {
     "profile": profile_file.SCHEMA,
     "target": target_file.SCHEMA,
     "agent": agent_parser.SCHEMA,
+    "policy": policy_parser.SCHEMA,
 }
 
 

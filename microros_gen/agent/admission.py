@@ -4,28 +4,26 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
-from functools import partial
 
 from microros_gen.agent.budgets import Budgets
+from microros_gen.agent.client_factory import ClientFactory
 from microros_gen.agent.clients import Client, ClientTable, Job
 from microros_gen.agent.deliveries import Deliveries
-from microros_gen.agent.entities import Home
-from microros_gen.agent.fairness import Accounts
-from microros_gen.agent.input_pool import Holder, InputPool
+from microros_gen.agent.input_pool import InputPool
 from microros_gen.agent.keeping import Keeping
 from microros_gen.agent.key_conflicts import KeyConflicts
 from microros_gen.agent.limits import Limits
+from microros_gen.agent.liveliness import say_farewell
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.manifests import Manifests
-from microros_gen.agent.newcomers import Newcomer, Newcomers, Strangers, check, timeout_of, who_gives_way
-from microros_gen.agent.objects import ObjectTree
+from microros_gen.agent.newcomers import Newcomer, Newcomers, Strangers, check, timeout_of
 from microros_gen.agent.operations import agent_info, report_outcome
+from microros_gen.agent.places import Places
+from microros_gen.agent.policy.access import Access
+from microros_gen.agent.policy.gatekeeper import Gatekeeper
 from microros_gen.agent.preconfigured import Preconfigured
-from microros_gen.agent.rates import Rates
 from microros_gen.agent.representation import References
 from microros_gen.agent.ros.bridge import Bridge
-from microros_gen.agent.services import Calls
-from microros_gen.agent.session import Session
 from microros_gen.agent.steps import Steps
 from microros_gen.agent.streams_out import Link
 from microros_gen.agent.transport.base import Transport
@@ -47,8 +45,6 @@ from microros_gen.agent.wire.submessages import Submessage, decode, encode
 from microros_gen.records import dataclass
 
 OUT_OF_SESSION = (SESSION_NONE_WITH_KEY, SESSION_NONE_WITHOUT_KEY)
-SILENT_PART = 0.75
-"""Fraction of the time-out: a client that was silent for so long, despite a probe, may lose its place."""
 LOOK_AGAIN_S = 0.1
 """Seconds until the agent again looks for a client to remove, after it found no candidate."""
 
@@ -76,26 +72,25 @@ class Admission:
         pool: InputPool,
         turns: Turns,
         budgets: Budgets,
+        gatekeeper: Gatekeeper,
     ) -> None:
+        self.gatekeeper = gatekeeper
         self._clients = clients
         self._turns = turns
-        self._accounts = Accounts(limits.clients, turns.clock)
-        self._bridge = bridge
         self._log = log
         self._limits = limits
         self._held = held
+        self._factory = ClientFactory(
+            bridge, log, limits, held.references, held.manifests, pool, budgets, turns
+        )
         self._deliveries = deliveries
-        self._pool = pool
         self.keeping = Keeping(limits.keep_s, deliveries, log)
-        self._budgets = budgets
-        self._rates = Rates(limits.operations_per_second, limits.clients)
         self._conflicts = KeyConflicts(log, limits.clients)
         self._newcomers = Newcomers(limits.newcomers)
         self._full_until = 0.0
-        self._answered = 0
-        self._second = 0.0
         self._never_adopted: set[bytes] = set()
-        self._strangers = Strangers(limits.adopt_after_s, limits.clients)
+        self._strangers = Strangers(limits.adopt_after_s, limits.clients, limits.strangers_per_second)
+        self._places = Places(clients, limits, budgets, self.dismiss)
 
     def handle_outside_session(
         self,
@@ -117,7 +112,7 @@ class Admission:
         if newcomer is not None:
             return self._let_in(newcomer, now)
         if client is None:
-            self._count_stranger(now)
+            self._strangers.count(now)
         elif not client.rate.take(now):
             raise MalformedError("too_many_operations", "a client says too much outside of its session")
         # A message without a session may be from another client: systems reuse UDP ports.
@@ -163,6 +158,12 @@ class Admission:
             before=before,
             peer=client.place,
         )
+
+    def check_move(self, client: Client, transport: Transport, address: Hashable) -> None:
+        """Raise MalformedError if the policy does not let `client` continue its session at another address."""
+        if not self.gatekeeper.may_move(client.session.link.key, client.access, transport, address):
+            text = f"client {client.name} may not continue its session there"
+            raise MalformedError("move_denied", text)
 
     def leave(self, client: Client, data: bytes, at: int) -> None:
         """Remove `client` on its own DELETE, whose payload begins at `data[at]`, and answer it."""
@@ -219,14 +220,16 @@ class Admission:
         self, header: Header, wanted: CreateClient, address: Hashable, transport: Transport, now: float
     ) -> None:
         status = check(wanted, self._limits.minimum_mtu)
-        if status is Status.OK:
+        if status is Status.OK and self.gatekeeper.decide(wanted.key, transport, address) is None:
+            status = Status.DENIED
+        elif status is Status.OK:
             link = Link(wanted.session, wanted.key, wanted.mtu)
             newcomer = Newcomer(link, timeout_of(wanted, self._limits.client_timeout_s), address, transport)
             status = self._admit(newcomer, now) if self._is_known(newcomer) else self._note(newcomer, now)
         key = wanted.key if wanted.session < SESSION_NONE_WITHOUT_KEY else b""
         answer: Submessage = StatusAgent(status)
         transport.send(Header(wanted.session, STREAM_NONE, 0, key).encode() + encode(answer), address)
-        if status is not Status.OK:
+        if status not in (Status.OK, Status.DENIED):
             self._log.count(
                 f"client_{status.name.lower()}",
                 "a client at {peer} was refused: {status}",
@@ -241,7 +244,7 @@ class Admission:
     def _note(self, newcomer: Newcomer, now: float) -> Status:
         """Record a sender whose address may be forged, if a place for its session is available."""
         known = self._clients.with_key(newcomer.link.key) is not None
-        if not known and now >= self._full_until and not self._has_room(now):
+        if not known and now >= self._full_until and not self._places.has_room(now):
             self._full_until = now + LOOK_AGAIN_S
         if not known and now < self._full_until:
             return Status.RESOURCES
@@ -250,8 +253,10 @@ class Admission:
 
     def _let_in(self, newcomer: Newcomer, now: float) -> Client:
         """Open the session of a newcomer, which sent its first message in it; return the client."""
-        if self._admit(newcomer, now) is not Status.OK:
-            raise MalformedError("client_resources", "its place is taken by now")
+        status = self._admit(newcomer, now)
+        if status is not Status.OK:
+            why = "refused by now" if status is Status.DENIED else "its place is taken by now"
+            raise MalformedError(f"client_{status.name.lower()}", why)
         client = self._clients.at(newcomer.address)
         assert client is not None
         return client
@@ -259,19 +264,24 @@ class Admission:
     def _admit(self, newcomer: Newcomer, now: float) -> Status:
         link, address, transport = newcomer.link, newcomer.address, newcomer.transport
         self._newcomers.forget(address)
+        access = self.gatekeeper.decide(link.key, transport, address)
+        if access is None:  # the policy has changed since it came
+            return Status.DENIED
         neighbor = self._clients.at(address)
         if neighbor is not None and neighbor.session.link.key != link.key:
             self.dismiss(neighbor, "replaced by another at its address")
         client, heritage = self._clients.with_key(link.key), {}
-        if client is not None and client.session.link.session == link.session:
+        same = client is not None and client.session.link.session == link.session
+        if client is not None and same and client.access.rule == access.rule:
             self._welcome_back(client, link, address, transport, now)
             return Status.OK
         if client is not None:
             if client.address != address:
                 self._conflicts.moved(client, transport, address, now)
             heritage = self.keeping.heritage(client, now)
-            self.dismiss(client, "replaced: it came with another session id")
-        new = self._add(link, address, transport, newcomer.timeout_s, now)
+            why = "another rule of the policy is for it now" if same else "it came with another session id"
+            self.dismiss(client, f"replaced: {why}")
+        new = self._add(link, address, transport, newcomer.timeout_s, now, access)
         if new is None:
             return Status.RESOURCES
         new.objects.inherit(heritage)
@@ -285,33 +295,29 @@ class Admission:
         return Status.OK
 
     def _add(
-        self, link: Link, address: Hashable, transport: Transport, timeout_s: float, now: float
+        self,
+        link: Link,
+        address: Hashable,
+        transport: Transport,
+        timeout_s: float,
+        now: float,
+        access: Access,
     ) -> Client | None:
-        if not self._make_room(now):
+        if not self._places.make_room(now):
             return None
-        name = f"xrce_client_{link.key.hex().upper()}"
-        shares = self._budgets.of_client()
-        home = Home(self._bridge, name, partial(self._held.manifests.hash_of, link.key), shares)
-        objects = ObjectTree(home, self._held.references, self._limits.objects)
-        calls = Calls(self._log, self._limits.requests, link.key.hex().upper(), shares.calls)
-        session = Session(link, self._limits, Holder(self._pool), shares.output)
-        rate = self._rates.of(link.key)
-        account = self._accounts.of(link.key)
-        new = Client(
-            session,
-            objects,
-            transport,
-            address,
-            timeout_s,
-            now,
-            calls,
-            rate,
-            account,
-            opened=now,
-            shares=shares,
-        )
+        new = self._factory.make(link, address, transport, timeout_s, now, access)
         self._clients.add(new)
         return new
+
+    def review(self, client: Client) -> None:
+        """Apply a new policy to a client in session: it stays, or is told that its session ends."""
+        access, reason = self.gatekeeper.review(client)
+        if reason:
+            say_farewell(client, Status.DENIED)
+            self.dismiss(client, f"disconnected by the new policy: {reason}")
+            return
+        client.access.rule = access.rule
+        self._factory.limit(client)
 
     def _give(self, client: Client) -> None:
         """Create the preconfigured objects of a client; existing ones stay."""
@@ -341,10 +347,13 @@ class Admission:
         key = self._held.preconfigured.to_adopt(header.key, writer, known)
         if key is None or not fits or self._clients.at(address) or header.session in OUT_OF_SESSION:
             raise MalformedError("no_session", f"{submessage.ID.name} without a session")
+        access = self.gatekeeper.decide(key, transport, address)
+        if access is None:
+            raise MalformedError("no_session", "a client that the policy refuses")
         if not header.key and not self._strangers.listened_to(transport, address, now):
             return None
         link = Link(header.session, key, self._limits.minimum_mtu)
-        client = self._add(link, address, transport, self._limits.client_timeout_s, now)
+        client = self._add(link, address, transport, self._limits.client_timeout_s, now, access)
         if client is None:
             raise MalformedError("no_session", "no room for the client")
         client.adopted = True
@@ -370,30 +379,6 @@ class Admission:
             self.wake(client)
         self._report(client, "client_again", "client {client} connected again, its entities are kept")
         self._give(client)
-
-    def _count_stranger(self, now: float) -> None:
-        """Count a message outside of any session. Raises MalformedError if there are too many."""
-        if now >= self._second:
-            self._second, self._answered = now + 1.0, 0
-        self._answered += 1
-        if self._answered > self._limits.strangers_per_second:
-            raise MalformedError(
-                "too_many_strangers", f"more than {self._limits.strangers_per_second} without a session"
-            )
-
-    def _has_room(self, now: float) -> bool:
-        full = len(self._clients) >= self._limits.clients
-        return not (self._budgets.gate.closed or (full and self._who_gives_way(now) is None))
-
-    def _make_room(self, now: float) -> bool:
-        if not self._has_room(now):
-            return False
-        if len(self._clients) >= self._limits.clients and (found := self._who_gives_way(now)):
-            self.dismiss(found, "forgotten: its place is needed")
-        return True
-
-    def _who_gives_way(self, now: float) -> Client | None:
-        return who_gives_way(self._clients, now, self._limits.client_timeout_s * SILENT_PART)
 
     def _report(self, client: Client, event: str, text: str, **fields: str | int | float) -> None:
         self._clients.watch(client, event)

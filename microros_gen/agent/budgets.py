@@ -86,9 +86,9 @@ class Budgets:
         """Number of stored bytes of all clients, including those that left and whose entities are not destroyed yet."""
         return self._history.held + self._objects.held + self.output.held + self._calls.held
 
-    def of_client(self) -> Shares:
-        """Return the shares of a new client."""
-        limits = self._limits
+    def of_client(self, limits: Limits | None = None) -> Shares:
+        """Return the shares of a new client, by its own `limits` or those of the agent."""
+        limits = limits or self._limits
         return Shares(
             Holder(self._history, limits.client_history_bytes),
             Holder(self._objects),

@@ -57,6 +57,8 @@ def _events(known: ClientState | None, state: ClientState) -> str:
         events.append("reconnected")
     if state.silences != known.silences:
         events.append("was silent")
+    if state.denied != known.denied:
+        events.append(f"denied by the policy: {state.denied}")
     if state.last_error != known.last_error:
         events.append(f"new warning: {state.last_error}")
     return ", ".join(events)
@@ -84,6 +86,8 @@ class ClientDiagnostics:
     def _level(self, state: ClientState, change: _Change, now: float) -> Level:
         if state.presence is Presence.GONE:
             return Level(STALE, "it has closed its session")
+        if state.presence is Presence.REFUSED:
+            return Level(ERROR, f"refused by the policy: {state.last_error}")
         if state.presence is Presence.SILENT:
             if state.silent_s >= ERROR_TIMEOUTS * self._timeout_s:
                 return Level(ERROR, "lost: no message for a long time")
@@ -147,4 +151,5 @@ def _values(state: ClientState) -> tuple[tuple[str, str], ...]:
         ("lost", str(state.lost)),
         ("resent", str(state.resent)),
         ("last_error", state.last_error),
+        ("denied", str(state.denied)),
     )

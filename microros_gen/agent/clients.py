@@ -12,6 +12,7 @@ from microros_gen.agent.budgets import Shares
 from microros_gen.agent.cutting import Cutting
 from microros_gen.agent.fairness import Account
 from microros_gen.agent.objects import ObjectTree
+from microros_gen.agent.policy.access import Access
 from microros_gen.agent.rates import Rate
 from microros_gen.agent.services import Calls
 from microros_gen.agent.session import Ready, Session
@@ -45,6 +46,12 @@ class Client:
     rate: Rate
     account: Account
     """The account that its work is charged to."""
+    messages_per_second: int = 1 << 62
+    """Accepted messages."""
+    access: Access = field(default_factory=Access)
+    """What it may use."""
+    denials: int = 0
+    """Number of its objects that were refused as not permitted."""
     claimed: bool = False
     """Whether its transport has registered the session at its address."""
     opened: float = 0.0

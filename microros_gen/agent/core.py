@@ -25,6 +25,8 @@ from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.memory import MemoryGuard, Relief
 from microros_gen.agent.operations import Operations
+from microros_gen.agent.policy.gatekeeper import Gatekeeper
+from microros_gen.agent.policy.model import Policy
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.processing import Processor
 from microros_gen.agent.representation import References
@@ -65,10 +67,11 @@ class Agent:
         memory: MemoryGuard | None = None,
         budgets: Budgets | None = None,
         watched: bool = False,
+        policy: Policy | None = None,
     ) -> None:
         """Use parts that may be shared with the transports; by default the agent has its own.
 
-        `watched`: keep what `client_states` returns.
+        `watched`: keep what `client_states` returns. `policy`: who may do what; None: everybody everything.
 
         `pool` is the budget of input, `fair` the order of clients, and `strangers` the account of senders without a
         session. `processor` returns the processor time of this thread in seconds.
@@ -89,8 +92,9 @@ class Agent:
         self._deliveries = Deliveries(log, self._inner_fault, fair, clock)
         pool = pool or InputPool(limits.input_bytes, limits.clients)
         budgets = budgets or Budgets(limits)
+        gatekeeper = Gatekeeper(log, policy)
         self._admission = Admission(
-            self.clients, bridge, log, limits, held, self._deliveries, pool, self._turns, budgets
+            self.clients, bridge, log, limits, held, self._deliveries, pool, self._turns, budgets, gatekeeper
         )
         self._relief = Relief(memory, self.clients, budgets, self._admission.dismiss, log)
         self._operations = Operations(log, self._deliveries, self._turns)
@@ -103,6 +107,13 @@ class Agent:
             self._states = ClientStates(self.clients, clock, limits.clients)
             self.clients.watch = self._states.note
             log.on_warning = self._states.fault
+            gatekeeper.refused = self._states.refused
+
+    def apply_policy(self, policy: Policy | None) -> None:
+        """Replace the policy; clients that it does not allow are told so and removed. Never raises."""
+        self._admission.gatekeeper.policy = policy
+        for client in self.clients:
+            self._guarded(partial(self._admission.review, client))
 
     def client_states(self) -> tuple[ClientState, ...]:
         """Return the view of all clients, also of those that have left; empty unless the agent is `watched`."""
@@ -247,14 +258,17 @@ class Agent:
             client = self._admission.handle_outside_session(data, start, client, address, transport, now)
             if client is None:
                 return
+        elif start == 8 and client.address != address:
+            self._admission.check_move(client, transport, address)
         self._payer = client.account
+        work = client.account.work
+        if work is not None and not work.allows(now):
+            raise MalformedError("too_much_work", "the policy allows no more time for it in this second")
         if now >= client.second:
             client.second, client.messages = now + 1.0, 0
         client.messages += 1
-        if client.messages > self._limits.messages_per_second:
-            raise MalformedError(
-                "too_many_messages", f"more than {self._limits.messages_per_second} in a second"
-            )
+        if client.messages > client.messages_per_second:
+            raise MalformedError("too_many_messages", f"more than {client.messages_per_second} in a second")
         client.last_received = now
         if start == 8 and client.address != address:
             self._admission.move(client, transport, address, now)

@@ -8,6 +8,7 @@ from dataclasses import field
 
 from microros_gen.agent.budgets import Shares
 from microros_gen.agent.history import ReaderHistory, WriterHistory
+from microros_gen.agent.policy.access import Access
 from microros_gen.agent.representation import Description, Endpoint, Participant, Service, Topic
 from microros_gen.agent.ros.bridge import (
     Bridge,
@@ -39,6 +40,8 @@ class Home:
     hash_of: Callable[[str], HashOf | None] = lambda node: None
     shares: Shares = field(default_factory=Shares.unlimited)
     """The memory budget of the client."""
+    access: Access = field(default_factory=Access)
+    """What the client may use."""
 
     def node(self, participant: Participant) -> Node:
         """Create the node of a participant. Raises BridgeError if ROS 2 refuses it."""
@@ -92,6 +95,14 @@ class Entity:
     def inside(self, container: Entity) -> bool:
         """Return whether it is a part of `container`, at any depth."""
         return bool(self.sources) and (self.sources[0] is container or self.sources[0].inside(container))
+
+    def check(self, access: Access, fallback: str) -> None:
+        """Check whether a client may have it; `fallback` names its node if it has no name.
+
+        Raises RefusedError, or BridgeError for a name that is invalid in ROS 2.
+        """
+        topic = self.sources[1].description if len(self.sources) > 1 else None
+        access.check(self.kind, self.description, topic, fallback)
 
     @property
     def label(self) -> str:

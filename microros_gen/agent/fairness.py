@@ -18,6 +18,8 @@ from dataclasses import dataclass
 from math import exp
 from typing import Protocol, TypeVar
 
+from microros_gen.agent.rates import WorkRate
+
 MEMORY_S = 0.25
 """Seconds after which about a third of a client's cost is left."""
 START_S = 0.02
@@ -43,9 +45,13 @@ class Account:
     """Recent cost of changes of the ROS graph, in seconds (see `graph_work`)."""
     graph_at: float = 0.0
     """When that cost was last updated."""
+    work: WorkRate | None = None
+    """The time that the policy allows for it."""
 
     def bill(self, seconds: float, now: float) -> None:
         """Charge `seconds` of work that ended at `now`."""
+        if self.work is not None and not self.refused:
+            self.work.charge(seconds, now)
         if self.refused:
             self.refused = False
             seconds *= REFUSED

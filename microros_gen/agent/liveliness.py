@@ -56,13 +56,15 @@ def ask(client: Client, now: float) -> None:
     client.send(client.session.probe())
 
 
-def say_farewell(client: Client) -> None:
+def say_farewell(client: Client, status: Status = Status.OK) -> None:
     """Tell an awake client that its session ends: the answer to a DELETE of it, which it has not sent.
+
+    `status` is DENIED if the agent would refuse it now.
 
     Clients with a list of agents go to the next one; others, the public ones too, ignore it.
     """
     if not client.asleep:
-        client.send(client.session.unnumbered(StatusReply(_LOGOUT, OBJECT_CLIENT, Status.OK)))
+        client.send(client.session.unnumbered(StatusReply(_LOGOUT, OBJECT_CLIENT, status)))
 
 
 def loss_of(client: Client) -> float:

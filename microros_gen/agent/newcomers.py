@@ -20,6 +20,7 @@ from microros_gen.agent.wire.constants import (
     VERSION,
     Status,
 )
+from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.message import Header
 from microros_gen.agent.wire.session_messages import CreateClient
 from microros_gen.records import dataclass
@@ -100,10 +101,22 @@ def who_gives_way(clients: Iterable[Client], now: float, silent_s: float) -> Cli
 class Strangers:
     """Senders of samples without a session, with the time of their first sample: the newest `limit` ones."""
 
-    def __init__(self, listen_s: float, limit: int) -> None:
+    def __init__(self, listen_s: float, limit: int, per_second: int) -> None:
+        """Listen to each for `listen_s` seconds; all of them may send `per_second` messages in a second."""
+        self._per_second = per_second
+        self._answered = 0
+        self._second = 0.0
         self._listen_s = listen_s
         self._limit = limit
         self._since: dict[tuple[Transport, Hashable], float] = {}
+
+    def count(self, now: float) -> None:
+        """Count a message outside of any session. Raises MalformedError if there are too many."""
+        if now >= self._second:
+            self._second, self._answered = now + 1.0, 0
+        self._answered += 1
+        if self._answered > self._per_second:
+            raise MalformedError("too_many_strangers", f"more than {self._per_second} without a session")
 
     def forget(self, transport: Transport, address: Hashable) -> None:
         """Remove a sender, which has opened a session."""

@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterator
 from microros_gen.agent.budgets import cost_of
 from microros_gen.agent.checks import RefusedError, check_application, check_object, part_ids
 from microros_gen.agent.entities import Entity, Home, Outcome
+from microros_gen.agent.policy.access import Access
 from microros_gen.agent.representation import (
     Application,
     Description,
@@ -99,6 +100,11 @@ class ObjectTree:
 
     def __iter__(self) -> Iterator[Entity]:
         return iter(self._objects.values())
+
+    def check(self, access: Access) -> None:
+        """Check all objects. Raises RefusedError for the first one that a client may not have."""
+        for entity in self:
+            entity.check(access, self._home.fallback_name)
 
     def inherit(self, heritage: Heritage) -> None:
         """Take over undelivered samples of an earlier session, as far as the budget permits."""
@@ -235,7 +241,9 @@ class ObjectTree:
                 Status.ALREADY_EXISTS, f"object {object_id:#06x} exists, although it is a part of it"
             )
         check_object(wanted.description)
-        entity = Entity(object_id, wanted.description, self._sources(wanted))
+        description = self._home.access.adapted(wanted.description)
+        entity = Entity(object_id, description, self._sources(wanted))
+        entity.check(self._home.access, self._home.fallback_name)
         if present and wanted.reuse:
             if (present.description, present.sources) == (entity.description, entity.sources):
                 return Outcome(Status.OK_MATCHED, entity=present)

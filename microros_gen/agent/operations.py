@@ -357,6 +357,9 @@ def _signed(number: int) -> int:
 def report_outcome(log: EventLog, client: Client, object_id: int, outcome: Outcome) -> None:
     """Report that an object was created, or why it was not."""
     kind = ObjectKind(object_id & 0x0F).name.lower()
+    if outcome.status is Status.DENIED:
+        client.denials += 1
+        log.counters["denied"] += 1
     if outcome.status >= Status.DDS_ERROR:
         log.emit(
             Level.WARNING,

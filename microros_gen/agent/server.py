@@ -11,6 +11,7 @@ from __future__ import annotations
 import os
 import select
 import signal
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
@@ -36,6 +37,7 @@ class Server:
         self._log = log
         self._waiting = list(transports)
         self._stop = False
+        self._calls: deque[Callable[[], object]] = deque()
         # Open as long as this object: a signal may come after the end of `run`.
         self._wake = os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC)
 
@@ -45,6 +47,11 @@ class Server:
     def stop(self) -> None:
         """End `run` at once; may be called from a signal handler or another thread."""
         self._stop = True
+        os.eventfd_write(self._wake, 1)
+
+    def soon(self, do: Callable[[], object]) -> None:
+        """Call `do` in `run`, between two messages; may be called from a signal handler or another thread."""
+        self._calls.append(do)
         os.eventfd_write(self._wake, 1)
 
     def run(self, ready: Ready, clock: Callable[[], float]) -> None:
@@ -87,7 +94,11 @@ class Server:
         return handlers
 
     def _noted(self) -> None:
-        """Do nothing: `_stop` is set."""
+        """Do what `soon` got; if it is to end, the descriptor stays readable."""
+        if not self._stop:
+            os.eventfd_read(self._wake)
+        while self._calls:
+            self._calls.popleft()()
 
     def _care(self, now: float, ready: Ready) -> None:
         self._agent.care(now)
@@ -116,6 +127,19 @@ class Server:
             faults=faults,
             **{f"fault_{kind}": count for kind, count in sorted(self._log.counters.items())},
         )
+
+
+@contextmanager
+def reloaded_by_signal(server: Server, reload: Callable[[], object] | None) -> Iterator[None]:
+    """Let SIGHUP call `reload` in the loop of `server` within the context; None: SIGHUP does what it did."""
+    if reload is None:
+        yield
+        return
+    before = signal.signal(signal.SIGHUP, lambda _number, _frame: server.soon(reload))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGHUP, before)
 
 
 class Stoppable(Protocol):

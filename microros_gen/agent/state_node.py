@@ -116,4 +116,5 @@ def message_of(state: ClientState) -> Value:
         "lost": state.lost,
         "resent": state.resent,
         "last_error": state.last_error,
+        "denied": state.denied,
     }

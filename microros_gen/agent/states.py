@@ -7,11 +7,12 @@ session, and those of the last clients that left, up to the maximum number of cl
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass as mutable
 from enum import IntEnum
 
 from microros_gen.agent.clients import Client, ClientTable
+from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.wire.constants import ObjectKind
 from microros_gen.records import dataclass
 
@@ -22,6 +23,7 @@ class Presence(IntEnum):
     CONNECTED = 0
     SILENT = 1
     GONE = 2
+    REFUSED = 3
 
 
 @dataclass(frozen=True)
@@ -52,13 +54,16 @@ class ClientState:
     """Number of reliable messages that were sent to it again."""
     last_error: str
     """The last warning about it; empty: none."""
+    denied: int = 0
+    """Number of its sessions and objects that were refused because they are not permitted."""
 
 
 @mutable
 class _Record:
     """What is known of a key beyond its current session."""
 
-    client: Client
+    client: Client | None
+    """None: it never had a session."""
     presence: Presence = Presence.CONNECTED
     sessions: int = 0
     silences: int = 0
@@ -67,6 +72,13 @@ class _Record:
     nodes: tuple[str, ...] = ()
     round_trip_s: float | None = None
     last_error: str = ""
+    transport: str = ""
+    """Where it was refused."""
+    address: str = ""
+    refused: int = 0
+    denied: int = 0
+    """Objects that were refused in earlier sessions."""
+    refused_at: float = 0.0
 
 
 LOOK_S = 0.25
@@ -104,6 +116,19 @@ class ClientStates:
             record.presence = Presence.GONE
             self._forget_oldest()
 
+    def refused(self, key: str, transport: Transport, address: Hashable, reason: str) -> None:
+        """Record that the policy refused a session."""
+        record = self._records.get(key)
+        if record is None:
+            record = self._records[key] = _Record(None)
+        if record.presence not in (Presence.CONNECTED, Presence.SILENT) or record.client is None:
+            record.presence = Presence.REFUSED
+            record.transport, record.address = transport.label, transport.name_of(address)
+            record.refused_at = self._clock()
+            self._forget_oldest()
+        record.refused += 1
+        record.last_error = reason
+
     def fault(self, key: str, reason: str) -> None:
         """Record a warning about a client."""
         record = self._records.get(key)
@@ -123,23 +148,28 @@ class ClientStates:
 
     def _begin(self, record: _Record, client: Client) -> None:
         if record.client is not client:
-            record.lost += record.client.session.lost
-            record.resent += record.client.session.resent
+            if record.client is not None:
+                record.lost += record.client.session.lost
+                record.resent += record.client.session.resent
+                record.denied += record.client.denials
             record.client = client
         record.sessions += 1
         record.presence = Presence.CONNECTED
 
     def _state(self, key: str, record: _Record, now: float) -> ClientState:
         client = record.client
+        if client is None:
+            return _never_connected(key, record, now)
         if record.presence is Presence.CONNECTED:
             record.nodes = _nodes(client) or record.nodes
+        is_refused = record.presence is Presence.REFUSED
         measured = client.session.round_trip_s
         record.round_trip_s = record.round_trip_s if measured is None else measured
         return ClientState(
             key=key,
             presence=record.presence,
-            transport=client.transport.label,
-            address=client.place,
+            transport=record.transport if is_refused else client.transport.label,
+            address=record.address if is_refused else client.place,
             nodes=record.nodes,
             silent_s=max(0.0, now - client.last_received),
             sessions=record.sessions,
@@ -149,12 +179,33 @@ class ClientStates:
             lost=record.lost + client.session.lost,
             resent=record.resent + client.session.resent,
             last_error=record.last_error,
+            denied=record.refused + record.denied + client.denials,
         )
 
     def _forget_oldest(self) -> None:
-        closed = [key for key, record in self._records.items() if record.presence is Presence.GONE]
+        absent = (Presence.GONE, Presence.REFUSED)
+        closed = [key for key, record in self._records.items() if record.presence in absent]
         for key in closed[: max(0, len(closed) - self._most)]:
             del self._records[key]
+
+
+def _never_connected(key: str, record: _Record, now: float) -> ClientState:
+    return ClientState(
+        key=key,
+        presence=record.presence,
+        transport=record.transport,
+        address=record.address,
+        nodes=(),
+        silent_s=max(0.0, now - record.refused_at),
+        sessions=0,
+        reconnects=0,
+        silences=0,
+        round_trip_s=None,
+        lost=0,
+        resent=0,
+        last_error=record.last_error,
+        denied=record.refused,
+    )
 
 
 def _nodes(client: Client) -> tuple[str, ...]:

@@ -32,6 +32,7 @@ class TracedTransport:
         self.forgeable = inner.forgeable
         self.fileno = inner.fileno
         self.name_of = inner.name_of
+        self.origin = inner.origin
         self.tick = inner.tick
         self.claim = inner.claim
         self.release = inner.release

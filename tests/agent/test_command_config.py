@@ -40,6 +40,8 @@ NOTHING = {
     "limits": (),
     "references": (),
     "entities": (),
+    "policy": None,
+    "check": False,
     "manifest": (),
     "interface_path": (),
     "verbose": 0,
@@ -60,6 +62,7 @@ domain: 7
 limits: {clients: 3, client_timeout_s: 1.5, message_bytes: 1000}
 references: [refs.xml]
 entities: [a.json, /b.json]
+policy: policy.yaml
 manifests: [m.json, 0x1=n.json]
 interface_paths: [idl]
 log: {format: json, verbose: 2}
@@ -90,6 +93,7 @@ def test_everything_that_a_file_can_say(tmp_path: Path) -> None:
         limits=Limits(clients=3, client_timeout_s=1.5, message_bytes=1000),
         references=(tmp_path / "refs.xml",),
         entities=(tmp_path / "a.json", Path("/b.json")),
+        policy=tmp_path / "policy.yaml",
         manifests=(ManifestOf(tmp_path / "m.json"), ManifestOf(tmp_path / "n.json", "0x1")),
         interface_paths=(tmp_path / "idl",),
         log_format="json",

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from microros_gen.agent.server import TICK_S, Server
-from microros_gen.agent.transport.base import Receive
+from microros_gen.agent.transport.base import Origin, Receive
 from tests.support.agent.fakes import Bench
 from tests.support.agent.served import wait_until
 
@@ -43,6 +43,9 @@ class Pipe:
         raise NotImplementedError
 
     def name_of(self, address: Hashable) -> str:
+        return str(address)
+
+    def origin(self, address: Hashable) -> Origin:
         return str(address)
 
     def close(self) -> None:

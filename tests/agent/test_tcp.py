@@ -16,8 +16,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from microros_gen.agent.framing import LengthDecoder
+from microros_gen.agent.transport.addresses import host_of
 from microros_gen.agent.transport.sockets import PROTOCOLS, TCP4, TCP6, UDP4, Protocol
-from microros_gen.agent.transport.tcp import Tcp, host_of
+from microros_gen.agent.transport.tcp import Tcp
 from microros_gen.agent.transport.udp import Udp
 from microros_gen.diagnostics import UserError
 from tests.support.agent import captured

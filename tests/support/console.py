@@ -102,7 +102,7 @@ class Terminal:
         domain = str(self.domain)
         python = shlex.quote(sys.executable)
         _script(tools / "python3", f'exec {python} "$@"')
-        own_domain = f'case "$1" in agent|run) set -- "$@" --domain {domain};; esac'
+        own_domain = f'case "$* " in *" --check "*) ;; agent*|run*) set -- "$@" --domain {domain};; esac'
         patient = 'case "$1" in topic|service|param|action) set -- "$@" --spin-time 30;; esac'
         _script(tools / "microros-gen", f'{own_domain}\n{patient}\nexec {python} -m microros_gen "$@"')
         self._environment = {

@@ -77,6 +77,7 @@ class AgentFile:
     limits: tuple[tuple[str, float], ...] = ()
     references: tuple[NamedPath, ...] = ()
     entities: tuple[NamedPath, ...] = ()
+    policy: NamedPath | None = None
     manifests: tuple[NamedPath, ...] = ()
     interface_paths: tuple[NamedPath, ...] = ()
     log_format: str | None = None

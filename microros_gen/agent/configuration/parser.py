@@ -60,6 +60,7 @@ def parse_agent_file(source: Source, diagnostics: Diagnostics) -> AgentFile:
         limits=_numbers(child(tree, "limits")),
         references=_paths(child(tree, "references")),
         entities=_paths(child(tree, "entities")),
+        policy=_path(child(tree, "policy")),
         manifests=_paths(child(tree, "manifests")),
         interface_paths=_paths(child(tree, "interface_paths")),
         log_format=text_of(child(log, "format")),
@@ -95,6 +96,11 @@ def _discovery(node: YamlNode | None) -> int | None:
 
 def _numbers(node: YamlNode | None) -> tuple[tuple[str, float], ...]:
     return tuple((e.key, value) for e in entries(node) if (value := number_of(e.value)) is not None)
+
+
+def _path(node: YamlNode | None) -> NamedPath | None:
+    text = text_of(node)
+    return None if text is None else NamedPath(text, span_of(node))
 
 
 def _paths(node: YamlNode | None) -> tuple[NamedPath, ...]:

@@ -26,6 +26,7 @@ from microros_gen.agent.ros.bridge import (
     Source,
 )
 from microros_gen.agent.ros.client_graph import ClientGraph
+from microros_gen.agent.ros.domains import DOMAIN_OF_AGENT, own_domain
 from microros_gen.agent.ros.endpoints import Ros
 from microros_gen.agent.ros.graph import Comparison, TopicTypes
 from microros_gen.agent.ros.names import ros_node
@@ -41,8 +42,6 @@ from microros_gen.ros.raw_types import MAXIMUM_HANDLES, raw_types
 
 MAXIMUM_DOMAIN = 232
 """Largest ROS domain id: larger ones would need UDP ports above 65,535 (RTPS 2.2, 9.6.1)."""
-DOMAIN_OF_AGENT = 255
-"""Clients that request this domain (a convention of the public client) get the agent's own, ROS_DOMAIN_ID."""
 OWN_NODE = "_microros_agent"
 """Start of the name of the agent's own node in a domain; `ros2 node list` leaves out names with an underscore."""
 TRIM_AFTER, TRIM_EVERY_S = 64, 30.0
@@ -114,7 +113,7 @@ class RclpyBridge:
         """See Bridge."""
         node, namespace = ros_node(name)
         if domain == DOMAIN_OF_AGENT:
-            domain = _own_domain()
+            domain = own_domain()
         context = self._context(domain if self._domain is None else self._domain)
         try:
             handle = self._handles.Node(node, namespace, context.handle, None, False, False)
@@ -141,7 +140,7 @@ class RclpyBridge:
 
     def _report_domain(self, node: str, domain: int) -> None:
         """Report each domain other than ROS_DOMAIN_ID once, unless `domain` was set for all clients."""
-        own = _own_domain()
+        own = own_domain()
         set_here = bool(os.environ.get("ROS_DOMAIN_ID", "").strip())
         if self._domain is None and set_here and domain != own and domain not in self._reported_domains:
             self._reported_domains.add(domain)
@@ -234,8 +233,3 @@ class _Context:
         self._own.destroy_when_not_in_use()
         self._context.try_shutdown()
         self._context.destroy()
-
-
-def _own_domain() -> int:
-    text = os.environ.get("ROS_DOMAIN_ID", "0").strip() or "0"
-    return int(text) if text.isascii() and text.isdigit() else 0

@@ -40,6 +40,13 @@ def parse_address(text: str) -> Address:
     return ipaddress.ip_address(text.partition("%")[0])
 
 
+def host_of(address: str) -> str:
+    """Return the key of the host at an address: for IPv6 its network of 64 bits, in which it may choose addresses."""
+    if ":" not in address:
+        return address
+    return str(ipaddress.IPv6Network((address.partition("%")[0], 64), strict=False))
+
+
 def _ipv4() -> list[OwnAddress]:
     found = []
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as queried:

@@ -4,12 +4,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
+from ipaddress import IPv4Address, IPv6Address
 from typing import Protocol
 
 from microros_gen.agent.fairness import Account
 
 Receive = Callable[[bytes, Hashable, "Transport"], None]
 """Function that gets one message, its source address, and the transport."""
+Origin = IPv4Address | IPv6Address | str
+"""Where a client is: the address of its host, or the path of its line, or the name of its CAN interface."""
 
 
 class Transport(Protocol):
@@ -53,6 +56,9 @@ class Transport(Protocol):
 
     def name_of(self, address: Hashable) -> str:
         """Return an address as in the log."""
+
+    def origin(self, address: Hashable) -> Origin:
+        """Return where the client at an address is, for the policy."""
 
     def close(self) -> None:
         """Close every descriptor."""

@@ -18,7 +18,7 @@ from collections.abc import Hashable
 
 from microros_gen.agent.fairness import Account
 from microros_gen.agent.log import EventLog, Level
-from microros_gen.agent.transport.base import Receive
+from microros_gen.agent.transport.base import Origin, Receive
 from microros_gen.agent.transport.outbox import is_sample
 from microros_gen.diagnostics import Diagnostic, UserError
 
@@ -204,6 +204,10 @@ class CanFd:
     def name_of(self, address: Hashable) -> str:
         """See Transport."""
         return f"{self._device} identifier {address[1]:#x}" if isinstance(address, tuple) else str(address)
+
+    def origin(self, address: Hashable) -> Origin:
+        """See Transport."""
+        return self._device
 
     def close(self) -> None:
         """See Transport: what waits is sent if the bus takes it at once."""

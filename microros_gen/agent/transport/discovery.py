@@ -16,7 +16,7 @@ from collections.abc import Callable, Hashable, Iterable, Sequence
 from microros_gen.agent.fairness import Account
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.transport.addresses import Address, OwnAddress, own_addresses, parse_address
-from microros_gen.agent.transport.base import Receive
+from microros_gen.agent.transport.base import Origin, Receive
 from microros_gen.agent.transport.sockets import place_name
 from microros_gen.agent.transport.tcp import Tcp
 from microros_gen.agent.transport.udp import MAXIMUM_DATAGRAM, Udp
@@ -127,6 +127,10 @@ class Discovery:
     def name_of(self, address: Hashable) -> str:
         """See Transport."""
         return place_name(address)
+
+    def origin(self, address: Hashable) -> Origin:
+        """See Transport."""
+        return parse_address(str(address[0]))  # type: ignore[index]
 
     def close(self) -> None:
         """See Transport."""

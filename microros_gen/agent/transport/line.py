@@ -14,7 +14,7 @@ from collections.abc import Callable, Hashable
 from microros_gen.agent.fairness import Account
 from microros_gen.agent.framing import LARGEST_PAYLOAD, FrameDecoder, encode_frame
 from microros_gen.agent.log import EventLog, Level
-from microros_gen.agent.transport.base import Receive
+from microros_gen.agent.transport.base import Origin, Receive
 from microros_gen.agent.transport.outbox import Outbox, is_sample
 
 READ_BYTES = 4_096
@@ -130,6 +130,10 @@ class Line:
     def name_of(self, address: Hashable) -> str:
         """See Transport."""
         return f"{self._name} client {address[1]}" if isinstance(address, tuple) else str(address)
+
+    def origin(self, address: Hashable) -> Origin:
+        """See Transport."""
+        return self._name
 
     def close(self) -> None:
         """See Transport."""

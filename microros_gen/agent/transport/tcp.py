@@ -9,7 +9,6 @@ output. A client whose connection ended keeps its session until the agent's time
 from __future__ import annotations
 
 import errno
-import ipaddress
 import select
 import socket
 import time
@@ -20,7 +19,8 @@ from microros_gen.agent.fairness import TURN_S, Account, Fairness
 from microros_gen.agent.framing import LARGEST_PAYLOAD, LengthDecoder, encode_length
 from microros_gen.agent.input_pool import Holder, InputPool
 from microros_gen.agent.log import EventLog, Level
-from microros_gen.agent.transport.base import Receive
+from microros_gen.agent.transport.addresses import host_of, parse_address
+from microros_gen.agent.transport.base import Origin, Receive
 from microros_gen.agent.transport.outbox import Outbox, is_sample
 from microros_gen.agent.transport.sockets import Protocol, open_socket, place_name
 from microros_gen.records import dataclass
@@ -233,6 +233,10 @@ class Tcp:
         """See Transport."""
         return address.peer if isinstance(address, Connection) else str(address)
 
+    def origin(self, address: Hashable) -> Origin:
+        """See Transport."""
+        return parse_address(address.peer.rpartition(":")[0].strip("[]"))  # type: ignore[attr-defined]
+
     def close(self) -> None:
         """See Transport."""
         for connection in list(self._connections.values()):
@@ -388,10 +392,3 @@ class Tcp:
     def _watch(self, connection: Connection, writing: bool) -> None:
         events = select.EPOLLIN | (select.EPOLLOUT if writing else 0)
         self._epoll.modify(connection.descriptor, events)
-
-
-def host_of(address: str) -> str:
-    """Return the key of the host at an address: for IPv6 its network of 64 bits, in which it may choose addresses."""
-    if ":" not in address:
-        return address
-    return str(ipaddress.IPv6Network((address.partition("%")[0], 64), strict=False))

@@ -16,7 +16,8 @@ from collections.abc import Hashable
 from typing import Any
 
 from microros_gen.agent.fairness import TURN_S, Account, Fairness
-from microros_gen.agent.transport.base import Receive
+from microros_gen.agent.transport.addresses import parse_address
+from microros_gen.agent.transport.base import Origin, Receive
 from microros_gen.agent.transport.sockets import Protocol, open_connected, open_socket, place_name
 
 BATCH = 64
@@ -150,6 +151,10 @@ class Udp:
     def name_of(self, address: Hashable) -> str:
         """See Transport."""
         return place_name(address[1]) if isinstance(address, tuple) else str(address)
+
+    def origin(self, address: Hashable) -> Origin:
+        """See Transport."""
+        return parse_address(str(address[1][0]))  # type: ignore[index]
 
     def close(self) -> None:
         """See Transport."""

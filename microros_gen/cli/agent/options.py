@@ -123,6 +123,18 @@ _COMMON = (
         " OUT/agent/entities.json.",
     ),
     click.option(
+        "--policy",
+        type=click.Path(path_type=Path, dir_okay=False),
+        metavar="FILE",
+        help="Policy (YAML): which clients may connect, and which topics, services and actions each may use; without"
+        " it, all may use everything. SIGHUP reloads the file.",
+    ),
+    click.option(
+        "--check",
+        is_flag=True,
+        help="Check the files and end: status 2 if one has a fault. Needs no transport.",
+    ),
+    click.option(
         "--manifest",
         multiple=True,
         metavar="[KEY=]FILE",
@@ -171,6 +183,8 @@ class AgentOptions:
     limits: Limits = DEFAULTS
     references: tuple[Path, ...] = ()
     entities: tuple[Path, ...] = ()
+    policy: Path | None = None
+    check: bool = False
     manifests: tuple[ManifestOf, ...] = ()
     interface_paths: tuple[Path, ...] = ()
     log_format: str = "text"
@@ -192,7 +206,7 @@ class AgentOptions:
         options = _one_each(sections)
         file, folder = _read_file(options["config"])
         chosen = tuple(transports) or tuple(_near(folder, choice) for choice in file.transports)
-        if not chosen:
+        if not chosen and not options["check"]:
             hint = "Name one, as `microros-gen agent udp4 --port 8888`, or a --config that does"
             raise UserError([Diagnostic("the agent has no transport", hint=hint, id="MG-9701")])
         discovery_port = options["discovery_port"] or (DISCOVERY_PORT if options["discovery"] else None)
@@ -208,6 +222,8 @@ class AgentOptions:
             limits=_limits(file, options),
             references=_paths(folder, file.references, options["references"]),
             entities=_paths(folder, file.entities, options["entities"]),
+            policy=options["policy"] or (None if file.policy is None else folder / file.policy.path),
+            check=options["check"],
             manifests=(
                 *(ManifestOf.of(named.path, folder, named.span) for named in file.manifests),
                 *(ManifestOf.of(text, Path()) for text in options["manifest"]),
@@ -250,7 +266,8 @@ def _read_file(path: Path | None) -> tuple[AgentFile, Path]:
 
 
 def _named(file: AgentFile) -> tuple[NamedPath, ...]:
-    return (*file.references, *file.entities, *file.interface_paths)
+    policy = () if file.policy is None else (file.policy,)
+    return (*file.references, *file.entities, *policy, *file.interface_paths)
 
 
 def read_sources(

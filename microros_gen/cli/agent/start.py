@@ -12,6 +12,8 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
+import click
+
 from microros_gen.agent.budgets import Budgets, most_bytes, most_descriptors
 from microros_gen.agent.configuration.entities_file import parse_preconfigured
 from microros_gen.agent.configuration.model import (
@@ -28,13 +30,14 @@ from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.memory import MemoryGuard
+from microros_gen.agent.policy.model import Policy
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.readiness import notify
 from microros_gen.agent.representation import References
 from microros_gen.agent.representation.reference_file import read_references
 from microros_gen.agent.ros.rclpy_bridge import open_bridge
 from microros_gen.agent.ros.reports import graph_reporter
-from microros_gen.agent.server import Server, stopped_by_signals
+from microros_gen.agent.server import Server, reloaded_by_signal, stopped_by_signals
 from microros_gen.agent.trace import TracedTransport
 from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.transport.sockets import PROTOCOLS
@@ -42,6 +45,7 @@ from microros_gen.cli.agent.clients import client_state_node
 from microros_gen.cli.agent.graph import graph_server
 from microros_gen.cli.agent.options import AgentOptions, read_sources
 from microros_gen.cli.agent.parameters import ParametersOnDemand
+from microros_gen.cli.agent.policy import read_policy, reloading, report_policy
 from microros_gen.cli.agent.types import ClientTypes, HashOf, TypeHashes, read_manifests
 from microros_gen.cli.terminal import echo_found
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
@@ -53,6 +57,9 @@ def serve(options: AgentOptions) -> None:
     """Serve until a signal comes; a ready line for each transport goes to stdout. UserError: it cannot start."""
     _check_system()
     files = _files(options)
+    if options.check:
+        click.echo("no faults")
+        return
     as_json = options.log_format == "json"
     log = EventLog(sys.stderr, as_json, options.verbose, bytes_per_second=options.limits.log_bytes_per_second)
     for name in files.hashes.differences(files.clients):
@@ -88,7 +95,10 @@ def serve(options: AgentOptions) -> None:
         memory=MemoryGuard(limits.memory_bytes, trim=bridge.trim),
         budgets=budgets,
         watched=options.watches_clients,
+        policy=files.policy,
     )
+    if options.policy is not None and files.policy is not None:
+        report_policy(options.policy, files.policy, log)
     _report_memory(log, limits)
     _report_descriptors(log, limits, streams)
     if options.verbose:
@@ -103,6 +113,7 @@ def serve(options: AgentOptions) -> None:
         graph_server(options.graph_server, options.domain, log),
         client_state_node(options, limits, agent, log),
         parameters.running(),
+        reloaded_by_signal(server, reloading(options, agent, log)),
         stopped_by_signals(server),
     ):
         notify("READY=1")
@@ -249,6 +260,7 @@ class _Files:
     preconfigured: Preconfigured
     clients: ClientTypes
     hashes: TypeHashes
+    policy: Policy | None
 
 
 def _files(options: AgentOptions) -> _Files:
@@ -258,6 +270,7 @@ def _files(options: AgentOptions) -> _Files:
     places = options.places
     profiles = read_sources(options.references, diagnostics, places)
     entities = read_sources(options.entities, diagnostics, places)
+    policy = read_policy(options, diagnostics)
     clients = read_manifests(options.manifests, diagnostics)
     of_files: HashOf = _no_hash
     try:
@@ -277,7 +290,7 @@ def _files(options: AgentOptions) -> _Files:
     diagnostics.check()
     for diagnostic in diagnostics:  # warnings
         echo_found(f"{diagnostic.render()}\n")
-    return _Files(references, preconfigured, clients, TypeHashes(of_files, clients.common))
+    return _Files(references, preconfigured, clients, TypeHashes(of_files, clients.common), policy)
 
 
 def _no_hash(_type_name: str) -> None:

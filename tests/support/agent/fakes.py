@@ -17,11 +17,13 @@ from microros_gen.agent.fairness import Account
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.manifests import Manifests
+from microros_gen.agent.policy.model import Policy
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.representation import Qos, References, Service, Topic
 from microros_gen.agent.ros.bridge import BridgeError, BusyError, HashOf, Source
 from microros_gen.agent.ros.names import ros_node, ros_topic, ros_type
-from microros_gen.agent.transport.base import Receive
+from microros_gen.agent.transport.addresses import parse_address
+from microros_gen.agent.transport.base import Origin, Receive
 from microros_gen.agent.wire.constants import Status
 
 SomeSource = TypeVar("SomeSource", bound="FakeSource")
@@ -235,6 +237,11 @@ class FakeTransport:
     def name_of(self, address: Hashable) -> str:
         return str(address)
 
+    def origin(self, address: Hashable) -> Origin:
+        """A text with a dot or a colon is an address, another one a path."""
+        text = str(address)
+        return parse_address(text) if "." in text or ":" in text else text
+
     def close(self) -> None:
         """Nothing is open."""
 
@@ -250,6 +257,7 @@ class Bench:
         preconfigured: Preconfigured | None = None,
         manifests: Manifests | None = None,
         watched: bool = False,
+        policy: Policy | None = None,
     ) -> None:
         self.now = 1000.0
         self.bridge = FakeBridge()
@@ -266,6 +274,7 @@ class Bench:
             processor=lambda: self.now,
             manifests=manifests,
             watched=watched,
+            policy=policy,
         )
 
     def say(self, data: bytes | str, address: Hashable = "a") -> list[str]:
