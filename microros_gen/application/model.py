@@ -348,7 +348,7 @@ class Application:
     their endpoints), `endpoints` what the file changes of those. `spans` holds the places of top-level keys and of
     the keys of `pools` (as `pools.history`), for later steps. `exact_float64`: what would
     round a float64 is an error. `links` are those of this board in its `system`, `chip` the image that has the other
-    core there.
+    core there. `bus_files`: read for boards of the same CAN bus that exchange nothing with this one.
     """
 
     distro: str = DISTRIBUTIONS[0]
@@ -381,6 +381,7 @@ class Application:
     endpoints: tuple[EndpointChange, ...] = ()
     system: SystemRef | None = None
     links: tuple[Link, ...] = ()
+    bus_files: tuple[Path, ...] = ()
     tasks: tuple[TaskDecl, ...] = ()
     chip: ChipImage | None = None
     spans: Mapping[str, Span] = field(default_factory=dict)

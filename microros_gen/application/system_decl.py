@@ -43,14 +43,41 @@ class PeerEnd:
 
 
 @dataclass(frozen=True)
+class LinkDecl:
+    """A link of a system file; `ends` are its boards, each with its address or device. Only CAN FD has more than two.
+
+    `can_id`: the least identifier of CAN FD, to which the numbers of the boards are added.
+    """
+
+    kind: str
+    ends: tuple[tuple[str, Named], ...]
+    mtu: int
+    history: int
+    span: Span
+    can_id: int = 0
+
+
+@dataclass(frozen=True)
+class CanFrames:
+    """The extended identifiers of the frames that a board sends to and receives from another one.
+
+    `bitrate` of the bus in the application of the other board; None: it says none.
+    """
+
+    sent: int
+    received: int
+    bitrate: int | None
+
+
+@dataclass(frozen=True)
 class Link:
     """A link to another board, `board`; `position`: whether this one is its first (0) or second end.
 
-    `kind` is udp or serial. `own` and `other` are the addresses of the two ends, or the names of their devices.
-    `mtu`: largest message, bytes; `history`: messages that wait until they are acknowledged. `baud` of the other
-    board's line. `files` were read for it. `limits` are those of the other application, `client_key` is what it
-    declares for the session with its agent; None: it has none, or declares none. `round_trip` and
-    `heartbeat` are what its `session:` says, milliseconds; None: nothing.
+    `kind` is udp, serial or canfd. `own` and `other` are the addresses of the two ends, or the names of their
+    devices; `can`: what CAN FD has besides. `mtu`: largest message, bytes; `history`: messages that wait until they are
+    acknowledged. `baud` of the other board's line. `files` were read for it. `limits` are those of the other
+    application, `client_key` is what it declares for the session with its agent; None: it has none, or declares none.
+    `round_trip` and `heartbeat` are what its `session:` says, milliseconds; None: nothing.
     """
 
     kind: str
@@ -69,3 +96,4 @@ class Link:
     client_key: int | None = None
     round_trip: int | None = None
     heartbeat: int | None = None
+    can: CanFrames | None = None

@@ -8,6 +8,8 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
+from microros_gen.application.system_can import CANFD_LINK_MTU, DEFAULT_ID, check_buses, check_end
+from microros_gen.application.system_decl import LinkDecl
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest, reads
 from microros_gen.documents.named import Named
 from microros_gen.documents.schema import load_schema, validate
@@ -21,17 +23,6 @@ LARGEST_MTU = 16384
 """Of a link, bytes; system.schema.json says it too."""
 UART = "uart"
 """What a serial link calls the line of a board without an operating system."""
-
-
-@dataclass(frozen=True)
-class LinkDecl:
-    """A link; `ends` are its two boards, each with its address or device."""
-
-    kind: str
-    ends: tuple[tuple[str, Named], ...]
-    mtu: int
-    history: int
-    span: Span
 
 
 @dataclass(frozen=True)
@@ -60,6 +51,8 @@ def parse_system(source: Source, diagnostics: Diagnostics) -> SystemFile | None:
         }
         links = tuple(_link(item, boards, found) for item in items(child(tree, "links")))
         _check_twins(links, found)
+        if not found.has_errors():
+            check_buses(links, found)
         chips = tuple(_chip(item, boards, found) for item in items(child(tree, "chips")))
         _check_chips(chips, found)
         system = SystemFile(boards, links, chips)
@@ -83,21 +76,39 @@ def address_of(text: str) -> tuple[str, int] | None:
 
 def _link(item: YamlNode, boards: Mapping[str, Named], diagnostics: Diagnostics) -> LinkDecl:
     kind, ends = text_of(child(item, "type")) or "", entries(child(item, "ends"))
-    if len(ends) > 2:
-        message = f"a link joins two boards; this one has {len(ends)} ends"
+    if len(ends) > 2 and kind != "canfd":
+        message = f"a {kind} link joins two boards; this one has {len(ends)} ends"
         diagnostics.error(message, ends[2].key_span, "Write a link for each pair of boards", id="MG-3192")
-    for end in ends:
+    for position, end in enumerate(ends):
         _check_board(end.key, end.key_span, boards, diagnostics)
+        named = named_of(end.value)
+        if kind == "canfd" and named is not None:
+            check_end(end.key, named, position, diagnostics)
         if kind == "udp" and address_of(text_of(end.value) or "") is None:
             message = f"'{text_of(end.value)}' is no IPv4 or IPv6 address with a port"
             diagnostics.error(message, end.value.span, "Write it as 192.168.1.20:7500", id="MG-3193")
+    _check_keys(item, kind, diagnostics)
+    can_id = int_of(child(item, "id"))
     return LinkDecl(
         kind=kind,
         ends=tuple((end.key, named) for end in ends if (named := named_of(end.value)) is not None),
-        mtu=int_of(child(item, "mtu")) or DEFAULT_MTU,
+        mtu=CANFD_LINK_MTU if kind == "canfd" else int_of(child(item, "mtu")) or DEFAULT_MTU,
         history=int_of(child(item, "history")) or DEFAULT_HISTORY,
         span=item.span,
+        can_id=DEFAULT_ID if can_id is None else can_id,
     )
+
+
+def _check_keys(item: YamlNode, kind: str, diagnostics: Diagnostics) -> None:
+    """Report a key that the links of a kind do not have."""
+    for key, is_wrong, why in (
+        ("mtu", kind == "canfd", f"a frame of CAN FD carries {CANFD_LINK_MTU} bytes"),
+        ("id", kind != "canfd", "only frames of CAN FD have identifiers"),
+    ):
+        node = child(item, key)
+        if node is not None and is_wrong:
+            message = f"a {kind} link has no `{key}`: {why}"
+            diagnostics.error(message, node.span, f"Remove `{key}`", id="MG-3250")
 
 
 def _check_board(name: str, span: Span | None, boards: Mapping[str, Named], diagnostics: Diagnostics) -> None:
@@ -133,7 +144,7 @@ def _check_twins(links: tuple[LinkDecl, ...], diagnostics: Diagnostics) -> None:
     """Report an address or line that two ends have: of a board, or an address of two boards."""
     seen: dict[tuple[str, str], Span | None] = {}
     for link in links:
-        for board, place in link.ends:
+        for board, place in link.ends if link.kind != "canfd" else ():
             key = ("" if link.kind == "udp" else board, place.name)
             if key in seen:
                 first = seen[key]

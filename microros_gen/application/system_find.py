@@ -9,12 +9,13 @@ from dataclasses import replace
 from pathlib import Path
 
 from microros_gen.application.find import APPLICATION_FILE
-from microros_gen.application.kinds import KIND, NAMES
+from microros_gen.application.kinds import KIND, NAMES, other_end
 from microros_gen.application.model import Application, ChipImage, EndpointDecl, NodeDecl
 from microros_gen.application.names import expand_topic_name
 from microros_gen.application.parser import parse_application
-from microros_gen.application.system_decl import Link, PeerEnd, SystemRef
-from microros_gen.application.system_file import LinkDecl, SystemFile, parse_system
+from microros_gen.application.system_can import bus_identifiers, can_ends, identifier
+from microros_gen.application.system_decl import CanFrames, Link, LinkDecl, PeerEnd, SystemRef
+from microros_gen.application.system_file import SystemFile, parse_system
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
 from microros_gen.documents.files import read_text, reason_of
 from microros_gen.documents.named import Named
@@ -22,6 +23,7 @@ from microros_gen.interfaces.closure import resolve_interfaces, split_type_name
 from microros_gen.interfaces.derived import SERVICE_PARTS, derived_name
 from microros_gen.interfaces.find import InterfaceFinder
 from microros_gen.interfaces.types import TypeName
+from microros_gen.records import dataclass
 
 
 def with_system(
@@ -43,18 +45,31 @@ def with_system(
     if not _is_board(system, reference, own, path, diagnostics):
         return application, {}
     files = {path.name: source}
-    links = []
+    own_place = _Place(reference.board.name, system, path)
+    _check_agent_id(own_place, application, diagnostics)
+    links: list[Link] = []
+    idle: list[Path] = []
     for link in system.links:
-        boards = [board for board, _ in link.ends]
-        if reference.board.name in boards:
-            linked = _link(link, boards.index(reference.board.name), system, path, diagnostics)
-            if linked is not None:
-                links.append(linked[0])
-                files[f"{linked[0].board}: {Path(linked[1].name).name}"] = linked[1]
+        for linked, other_source in _links(link, own_place, application, diagnostics):
+            files[f"{linked.board}: {Path(other_source.name).name}"] = other_source
+            if len(link.ends) == 2 or _exchanges(application, linked):
+                links.append(linked)
+            else:
+                idle += linked.files
     image = _image(reference.board.name, system, path, diagnostics)
     if image is not None:
         files[f"{image[0].board}: {Path(image[1].name).name}"] = image[1]
-    return replace(application, links=tuple(links), chip=image[0] if image else None), files
+    chip = image[0] if image else None
+    return replace(application, links=tuple(links), bus_files=tuple(idle), chip=chip), files
+
+
+@dataclass(frozen=True)
+class _Place:
+    """A board of a system, and the path of the system file."""
+
+    board: str
+    system: SystemFile
+    path: Path
 
 
 def read_system(path: Path, span: Span | None, diagnostics: Diagnostics) -> tuple[SystemFile, Source] | None:
@@ -79,6 +94,7 @@ def system_paths(application: Application, near: Path) -> Iterator[Path]:
         yield near / application.system.file.name
     for link in application.links:
         yield from link.files
+    yield from application.bus_files
     if application.chip is not None:
         yield from application.chip.files
 
@@ -115,7 +131,7 @@ def _end(node: NodeDecl, endpoint: EndpointDecl) -> PeerEnd:
 
 def client_key(application: Application) -> int | None:
     """Return the client key that an application declares; None where it has no agent, or the key is another one."""
-    agent = any(endpoint.exists_at_agent for node in application.nodes for endpoint in node.endpoints)
+    agent = bool(application.nodes) and has_agent(application)
     return application.session_key if agent and isinstance(application.session_key, int) else None
 
 
@@ -138,11 +154,37 @@ def _is_board(
     return True
 
 
+def _exchanges(application: Application, link: Link) -> bool:
+    """Return whether a board has an end of a topic or service of which the other board of a link has the other one."""
+    wanted = {(other_end(end.kind), end.domain_id, end.topic) for _, _, end in peer_ends(application)}
+    return any((end.kind, end.domain_id, end.topic) in wanted for end in link.ends)
+
+
+def _links(
+    link: LinkDecl, place: _Place, application: Application, diagnostics: Diagnostics
+) -> Iterator[tuple[Link, Source]]:
+    """Yield a link for each other board at the ends, and that board's application file."""
+    boards = [board for board, _ in link.ends]
+    if place.board not in boards:
+        return
+    own = boards.index(place.board)
+    for other in (i for i in range(len(boards)) if i != own):
+        linked = _link(link, (own, other), place, application, diagnostics)
+        if linked is not None:
+            yield linked
+
+
 def _link(
-    link: LinkDecl, position: int, system: SystemFile, path: Path, diagnostics: Diagnostics
+    link: LinkDecl,
+    pair: tuple[int, int],
+    place: _Place,
+    application: Application,
+    diagnostics: Diagnostics,
 ) -> tuple[Link, Source] | None:
-    board, place = link.ends[1 - position]
-    found = _other(board, system, path, diagnostics)
+    """Return the link between the ends `pair`, of which the first is that of this board."""
+    own, at = pair
+    board = link.ends[at][0]
+    found = _other(board, place.system, place.path, diagnostics)
     if found is None:
         return None
     other, source, file = found
@@ -151,9 +193,9 @@ def _link(
     linked = Link(
         kind=link.kind,
         board=board,
-        position=position,
-        own=link.ends[position][1],
-        other=place,
+        position=int(own > at),
+        own=_line(link, own),
+        other=_line(link, at),
         mtu=link.mtu,
         history=link.history,
         baud=other.transport.baud,
@@ -165,8 +207,62 @@ def _link(
         client_key=client_key(other),
         round_trip=other.times.round_trip,
         heartbeat=other.times.heartbeat,
+        can=_frames(link, pair, other),
     )
+    if linked.can is not None:
+        _check_client_ids(application, other, linked, diagnostics)
     return linked, source
+
+
+def _line(link: LinkDecl, at: int) -> Named:
+    """Return the address of an end, or the name of its device."""
+    place = link.ends[at][1]
+    return Named(can_ends(link)[at].device, place.span) if link.kind == "canfd" else place
+
+
+def _frames(link: LinkDecl, pair: tuple[int, int], other: Application) -> CanFrames | None:
+    if link.kind != "canfd":
+        return None
+    own, at = (can_ends(link)[i] for i in pair)
+    return CanFrames(identifier(link, own, at), identifier(link, at, own), other.transport.bitrate)
+
+
+def has_agent(application: Application) -> bool:
+    """Return whether anything of an application with nodes exists at an agent."""
+    return not application.nodes or any(
+        endpoint.exists_at_agent for node in application.nodes for endpoint in node.endpoints
+    )
+
+
+def _check_agent_id(place: _Place, application: Application, diagnostics: Diagnostics) -> None:
+    """Report frames of a link with the identifier of those that a board exchanges with its agent on the same bus."""
+    transport = application.transport
+    if transport.can_id is None or not has_agent(application):
+        return
+    taken = bus_identifiers(place.system.links, place.board, transport.can_device)
+    if transport.can_id in taken:
+        message = (
+            f"the identifier {transport.can_id:#x} is that of the frames from {taken[transport.can_id]}, too"
+        )
+        hint = "Write another `id` here, or at the link in the system file"
+        diagnostics.error(message, application.spans.get("transport.id"), hint, id="MG-3251")
+
+
+def _check_client_ids(
+    application: Application, other: Application, link: Link, diagnostics: Diagnostics
+) -> None:
+    """Report two boards of a bus that an agent cannot tell apart."""
+    own, its = application.transport, other.transport
+    on_bus = (own.can_device, its.can_device) == (link.own.name, link.other.name)
+    if not on_bus or own.can_id is None or own.can_id != its.can_id:
+        return
+    if has_agent(application) and has_agent(other):
+        message = (
+            f"the board '{link.board}' has the same identifier {own.can_id:#x} on the bus: both boards would read "
+            "what the agent sends to one of them"
+        )
+        hint = "Give each board its own `transport: {id: N}`"
+        diagnostics.error(message, application.spans.get("transport.id"), hint, id="MG-3252")
 
 
 def _other(

@@ -155,7 +155,7 @@ def test_interface_files_that_differ(tmp_path: Path) -> None:
         (SYSTEM.replace("udp,", "serial,"), "a serial link needs `transport: {type: serial}`"),
         (
             SYSTEM.replace("{sensor:", "{third: 10.0.0.3:1, sensor:"),
-            "a link joins two boards; this one has 3 ends",
+            "a udp link joins two boards; this one has 3 ends",
         ),
         (SYSTEM.replace("udp,", "udp, mtu: 20,"), "must be a whole number of bytes between 64 and 16384"),
         (SYSTEM[: SYSTEM.index("links")], "no link of the system ends at the board 'sensor'"),

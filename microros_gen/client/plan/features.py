@@ -14,6 +14,7 @@ from typing import Any, Protocol, cast
 
 from microros_gen.application.model import Application, EndpointDecl, LimitRule, NodeDecl
 from microros_gen.client.plan.feature_slices import NO_FEATURES, Features, FeatureSlice
+from microros_gen.client.plan.line_load import LineLoad
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.documents.files import is_file
@@ -29,13 +30,17 @@ PLAN_FILE = "plan.py"
 
 @dataclass(frozen=True)
 class PlanContext:
-    """The input of a component's plan; `runtime` is the plan without the slices of components."""
+    """The input of a component's plan; `runtime` is the plan without the slices of components.
+
+    `line`: what the publishers with a rate need of the line to the agent.
+    """
 
     application: Application
     selection: Selection
     target: Target
     types: Mapping[TypeName, TypePlan]
     runtime: RuntimePlan
+    line: LineLoad | None = None
 
 
 class Feature(Protocol):

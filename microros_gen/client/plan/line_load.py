@@ -152,7 +152,7 @@ def plan_line_load(
         sizes = message_sizes(message.max_encoded_size, mtu)
         publishers.append(RatedPublisher(topic, message.reliable, endpoint.interval_us, sizes, endpoint))
     if not publishers:
-        if application.transport.bitrate is not None:
+        if application.transport.bitrate is not None and not application.links:
             diagnostics.warning(
                 "'transport.bitrate' has no effect: no publisher has a rate that is compared with it",
                 application.spans.get("transport.bitrate"),

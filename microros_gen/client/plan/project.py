@@ -228,7 +228,7 @@ def plan_project(
     board = plan_board(application, target, runtime, diagnostics)
     own_line = runtime.transport.kind == "serial" and not target.names_lines and not board.has_serial_driver
     runtime = replace(runtime, transport=replace(runtime.transport, own_line=own_line))
-    context = PlanContext(application, selection, target, by_name, runtime)
+    context = PlanContext(application, selection, target, by_name, runtime, line)
     runtime = replace(runtime, features=plan_features(context, diagnostics))
     identities = (c.component.identity for c in selection.components)
     runtime = replace(runtime, plan_id=plan_id(runtime, identities, types))

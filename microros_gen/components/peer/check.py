@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from microros_gen.application.kinds import KIND, NAMES, other_end
 from microros_gen.application.model import EndpointDecl
-from microros_gen.application.system_decl import Link, PeerEnd
+from microros_gen.application.system_decl import CanFrames, Link, PeerEnd
 from microros_gen.application.system_file import LARGEST_MTU, UART
 from microros_gen.application.system_find import exchanged, peer_ends
 from microros_gen.application.transport_decl import Transport
@@ -144,6 +144,8 @@ def _check_links(context: PlanContext, diagnostics: Diagnostics) -> None:
             diagnostics.error(message, link.span, hint, id="MG-7193")
         elif link.kind == "serial":
             _check_line(context, link, diagnostics)
+        elif link.can is not None:
+            _check_bit_rate(application.transport, link, link.can, diagnostics)
 
 
 def _agent_lines(transport: Transport) -> tuple[str, ...]:
@@ -173,6 +175,15 @@ def _check_line(context: PlanContext, link: Link, diagnostics: Diagnostics) -> N
         )
         hint = "Write the same `transport: {baud: …}` in both applications"
         diagnostics.error(message, link.span, hint, id="MG-7197")
+
+
+def _check_bit_rate(transport: Transport, link: Link, can: CanFrames, diagnostics: Diagnostics) -> None:
+    """Report a bus with two bit rates; an application without one does not say it."""
+    if transport.bitrate is None or can.bitrate in (None, transport.bitrate):
+        return
+    message = f"the bit rate is {transport.bitrate} here and {can.bitrate} at the board '{link.board}'"
+    hint = "Write the same `transport: {bitrate: …}` in both applications"
+    diagnostics.error(message, link.span, hint, id="MG-7268")
 
 
 def _check_end(own: OwnEnd, context: PlanContext, diagnostics: Diagnostics) -> None:
@@ -247,7 +258,7 @@ def _check_output(own: OwnEnd, links: list[Link], context: PlanContext, diagnost
                 f"a message of '{own.end.topic}' takes {size} bytes on the link, which has an MTU of {link.mtu}, and "
                 "only reliable messages go in fragments"
             )
-            ways = [f"set mtu: {size} at the link"] if size <= LARGEST_MTU else []
+            ways = [f"set mtu: {size} at the link"] if size <= LARGEST_MTU and link.can is None else []
             hint = ", ".join([*ways, "make it reliable, or lower limits"])
             diagnostics.error(message, own.endpoint.span, hint[0].upper() + hint[1:], id="MG-7204")
     if reliable and context.application.on_full != "error":

@@ -47,9 +47,12 @@ class LinkLoad:
 def plan_loads(
     context: PlanContext, ends: tuple[OwnEnd, ...], diagnostics: Diagnostics
 ) -> tuple[LinkLoad, ...]:
-    """Return the loads of the links on which anything has a rate. More than a line carries is an error."""
+    """Return the loads of the links on which anything has a rate. More than a line carries is an error.
+
+    Those over CAN FD share a bus: bus_load.py.
+    """
     loads = []
-    for link in context.application.links:
+    for link in (link for link in context.application.links if link.can is None):
         load, answers = _load(link, context, ends)
         if load.publishers or load.answers:
             _check_capacity(load, answers, link, context, diagnostics)

@@ -14,6 +14,7 @@ from microros_gen.application.system_find import exchanged
 from microros_gen.client.plan.features import PlanContext
 from microros_gen.client.plan.serving import IDENTITY_SIZE
 from microros_gen.components.agentless.plan import is_alone
+from microros_gen.components.peer.bus_load import BusLoad, plan_bus_loads
 from microros_gen.components.peer.check import (
     MESSAGE_OVERHEAD,
     Key,
@@ -49,6 +50,7 @@ class PeerLinkPlan:
     """A link with `board`; `writers` and `readers`: index of a publisher or subscription, and of its topic.
 
     `repliers` and `requesters`: the same for services and clients, and how many requests a service may get at a time.
+    `sent_id` and `received_id`: the identifiers of frames on CAN FD, else 0.
     """
 
     index: int
@@ -65,6 +67,8 @@ class PeerLinkPlan:
     services: tuple[PeerTopic, ...] = ()
     repliers: tuple[tuple[int, int, int], ...] = ()
     requesters: tuple[tuple[int, int, int], ...] = ()
+    sent_id: int = 0
+    received_id: int = 0
 
     @property
     def tables(self) -> tuple[str, ...]:
@@ -93,7 +97,8 @@ class PeerLinkPlan:
 class PeerPlan:
     """`mtu`: the largest of all links, bytes; `slots` of `slot_size` bytes each hold reliable messages of a link.
 
-    `loads`: of the links on which publishers have a rate. `in_fragments`: messages that are larger than an MTU.
+    `loads`, `buses`: of the lines and CAN buses on which publishers have a rate. `in_fragments`: messages that are
+    larger than an MTU.
     """
 
     links: tuple[PeerLinkPlan, ...]
@@ -102,6 +107,7 @@ class PeerPlan:
     slot_size: int
     alone: bool
     loads: tuple[LinkLoad, ...] = ()
+    buses: tuple[BusLoad, ...] = ()
     in_fragments: FragmentsPlan = FragmentsPlan()
 
     @property
@@ -189,14 +195,21 @@ class PeerPlan:
         )
 
     @property
+    def frames_table(self) -> tuple[str, ...]:
+        """The identifiers of frames on each link as lines of C, on CAN FD."""
+        rows = [f"  {{0x{link.sent_id:08x}u, 0x{link.received_id:08x}u}}," for link in self.links]
+        head = "const xrce_peer_frames_t xrce_peer_frames[MICROROS_PEERS] = {"
+        return ("", head, *rows, "};") if any(link.sent_id for link in self.links) else ()
+
+    @property
     def rated(self) -> bool:
         """Return whether a publisher on a link has a rate."""
-        return bool(self.loads)
+        return bool(self.loads or self.buses)
 
     @property
     def loads_shown(self) -> str:
         """Return what a report says of the loads."""
-        return "; ".join(load.shown for load in self.loads)
+        return "; ".join(load.shown for load in (*self.loads, *self.buses))
 
 
 def plan(context: PlanContext, diagnostics: Diagnostics) -> PeerPlan:
@@ -215,6 +228,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> PeerPlan:
         slot_size=(max(largest, MESSAGE_OVERHEAD) + fragments.head + 3) & ~3,
         alone=is_alone(context.application),
         loads=plan_loads(context, ends, diagnostics),
+        buses=plan_bus_loads(context, ends, diagnostics),
         in_fragments=fragments,
     )
 
@@ -233,6 +247,9 @@ def record(part: PeerPlan) -> object:
             [list(map(list, link.repliers)), list(map(list, link.requesters))] for link in part.links
         ],
         "storage": [part.mtu, part.slots, part.slot_size],
+        **(
+            {"frames": [[link.sent_id, link.received_id] for link in part.links]} if part.frames_table else {}
+        ),
         **({"fragments": [*part.in_fragments.largest, part.joined]} if part.fragments or part.joins else {}),
     }
 
@@ -258,6 +275,8 @@ def _link(index: int, link: Link, ends: tuple[OwnEnd, ...], context: PlanContext
         services=services,
         repliers=_calls(shared, _REPLIER, services, link),
         requesters=_calls(shared, _REQUESTER, services, link),
+        sent_id=link.can.sent if link.can is not None else 0,
+        received_id=link.can.received if link.can is not None else 0,
     )
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from microros_gen.application.system_find import has_agent
 from microros_gen.client.plan.features import PlanContext
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass
@@ -20,14 +21,17 @@ class CanPlan:
 
     @property
     def shown(self) -> str:
-        """Return the identifier as CAN tools write it."""
-        return f"{self.device}, identifier {self.id:#x}"
+        """Return the identifier as CAN tools write it; 0: there is no agent."""
+        return f"{self.device}, identifier {self.id:#x}" if self.id else f"{self.device}, no agent"
 
 
 def plan(context: PlanContext, diagnostics: Diagnostics) -> CanPlan:
-    """Return both; a client without an identifier is an error, since no two of a bus may have the same."""
+    """Return both; a client without an identifier is an error, since no two of a bus may have the same.
+
+    An image that exchanges nothing with an agent needs none.
+    """
     transport = context.application.transport
-    if transport.can_id is None:
+    if transport.can_id is None and has_agent(context.application):
         diagnostics.error(
             "transport: canfd needs the identifier of this client's frames",
             transport.type_span or transport.span,

@@ -12,7 +12,7 @@ import struct
 import sys
 import tempfile
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
 
@@ -22,6 +22,9 @@ EXTENDED = 0x8000_0000
 Lost = Callable[[bytes], bool]
 """Whether the bus loses a frame; a real one does where a receiver has no room."""
 
+Fate = Callable[[bytes], Sequence[bytes]]
+"""What becomes of a frame that is not lost: those that arrive instead of it, in order, as a gateway might pass them."""
+
 
 def record(identifier: int, data: bytes, flags: int = EXTENDED) -> bytes:
     """Return the record of a frame with these bytes of data."""
@@ -29,11 +32,11 @@ def record(identifier: int, data: bytes, flags: int = EXTENDED) -> bytes:
 
 
 class CanBus:
-    """A bus; it runs in a thread within the context."""
+    """A bus, at `path` or at one of its own; it runs in a thread within the context."""
 
-    def __init__(self) -> None:
+    def __init__(self, path: Path | None = None) -> None:
         self._folder = tempfile.TemporaryDirectory()  # a short path: the name of a device has 63 bytes
-        path = Path(self._folder.name) / "bus"
+        path = path or Path(self._folder.name) / "bus"
         self._listener = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self._listener.bind(str(path))
         self._listener.listen()
@@ -42,6 +45,7 @@ class CanBus:
         """Every frame that was not lost, in order."""
         self.losses = 0
         self.lost: Lost = lambda frame: False
+        self.fate: Fate = lambda frame: (frame,)
         self._members: list[socket.socket] = []
         self._selector = selectors.DefaultSelector()
         self._wake, self._woken = socket.socketpair()
@@ -95,7 +99,8 @@ class CanBus:
         elif self.lost(frame):
             self.losses += 1
         else:
-            self._spread(frame, member)
+            for passed in self.fate(frame):
+                self._spread(passed, member)
 
     def _spread(self, frame: bytes, sender: socket.socket | None) -> None:
         self.frames.append(frame)

@@ -74,8 +74,7 @@ static void peer_connect(xrce_client_t * client, uint8_t index, uint32_t now)
     peer->since_ms = now;
   }
   if (!xrce_peer_ports[index].is_open) {
-    xrce_peer_ports[index].is_open =
-      xrce_peer_open(&xrce_peer_ports[index].transport, &xrce_peer_lines[index]);
+    xrce_peer_ports[index].is_open = xrce_peer_open(&xrce_peer_ports[index].transport, index);
   }
   peer_send_create(client, index);
   peer->due_ms = now + xrce_session_pause(now - peer->since_ms);

@@ -3,9 +3,9 @@
 
 #include <string.h>
 
-bool xrce_peer_open(xrce_transport_t * transport, const xrce_peer_line_t * line)
+bool xrce_peer_open(xrce_transport_t * transport, uint8_t index)
 {
   (void)memset(transport, 0, sizeof(*transport));
-  transport->device = line->remote;
+  transport->device = xrce_peer_lines[index].remote;
   return xrce_transport_open(transport);
 }

@@ -3,8 +3,10 @@
 
 #include <string.h>
 
-bool xrce_peer_open(xrce_transport_t * transport, const xrce_peer_line_t * line)
+bool xrce_peer_open(xrce_transport_t * transport, uint8_t index)
 {
+  const xrce_peer_line_t * line = &xrce_peer_lines[index];
+
   (void)memset(transport, 0, sizeof(*transport));
   transport->host = line->remote;
   transport->port = line->remote_port;

@@ -62,6 +62,15 @@ extern const xrce_peer_line_t xrce_peer_lines[MICROROS_PEERS];
 /* With messages in fragments: the largest reliable message on each link, bytes; from the plan. */
 extern const uint32_t xrce_peer_largest[MICROROS_PEERS];
 
+/* The extended identifiers of the frames that a board sends on a link over CAN FD, and that it receives. */
+typedef struct xrce_peer_frames_t {
+  uint32_t sent;
+  uint32_t received;
+} xrce_peer_frames_t;
+
+/* Over CAN FD; from the plan. */
+extern const xrce_peer_frames_t xrce_peer_frames[MICROROS_PEERS];
+
 /* The transport of a link. It stays open when a session with an agent is opened again, and does not survive a sleep. */
 typedef struct xrce_peer_port_t {
   xrce_transport_t transport;
@@ -195,7 +204,7 @@ uint8_t * xrce_peer_input(uint8_t index);
 bool xrce_peer_is_whole(const uint8_t * message, size_t size);
 
 /* Opens the transport of a link. Returns false without a network, or if the line does not exist. */
-bool xrce_peer_open(xrce_transport_t * transport, const xrce_peer_line_t * line);
+bool xrce_peer_open(xrce_transport_t * transport, uint8_t index);
 
 #ifdef __cplusplus
 }

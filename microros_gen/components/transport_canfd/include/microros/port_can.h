@@ -16,7 +16,8 @@ enum { PORT_CAN_DATA = 64 }; /* bytes of data in the longest frame of CAN FD */
 /* One controller. `handle` is that of port_wait, -1 for none; it belongs to the port, the library only copies it. */
 typedef struct port_can_t {
   intptr_t handle;
-  uint32_t id; /* extended identifier of the frames that are sent and received, 29 bits */
+  uint32_t id; /* extended identifier of the frames that are sent, and of those from an agent, 29 bits */
+  uint32_t received; /* extended identifier of the frames that are received; the library does not read it */
 } port_can_t;
 
 /*
@@ -24,6 +25,12 @@ typedef struct port_can_t {
  * frames with the extended identifier `id` are received, and no others. Returns false if there is no such
  * controller. Does not block. */
 bool port_can_open(port_can_t * can, const char * device, uint32_t id);
+
+/*
+ * Same, for a link with another board, which sends with another identifier. It is called once for each link, with the
+ * same device where several boards are on one bus: each link receives the frames with `received`, and no others. Only
+ * images with links over CAN FD need it. */
+bool port_can_open_link(port_can_t * can, const char * device, uint32_t sent, uint32_t received);
 
 void port_can_close(port_can_t * can);
 

@@ -62,18 +62,24 @@ static bool can_begin(int handle, const char * device, uint32_t id, bool played)
   return played ? can_connect(handle, &device[sizeof(PLAYED) - 1u]) : can_bind(handle, device, id);
 }
 
-bool port_can_open(port_can_t * can, const char * device, uint32_t id)
+bool port_can_open_link(port_can_t * can, const char * device, uint32_t sent, uint32_t received)
 {
   const bool played = strncmp(device, PLAYED, sizeof(PLAYED) - 1u) == 0;
   int handle = played ? socket(AF_UNIX, SOCK_SEQPACKET, 0) : socket(AF_CAN, SOCK_RAW, CAN_RAW);
 
-  if (handle >= 0 && !can_begin(handle, device, id, played)) {
+  if (handle >= 0 && !can_begin(handle, device, received, played)) {
     (void)close(handle);
     handle = -1;
   }
   can->handle = handle;
-  can->id = id;
+  can->id = sent;
+  can->received = received;
   return handle >= 0;
+}
+
+bool port_can_open(port_can_t * can, const char * device, uint32_t id)
+{
+  return port_can_open_link(can, device, id, id);
 }
 
 void port_can_close(port_can_t * can)
@@ -110,7 +116,7 @@ size_t port_can_receive(port_can_t * can, uint8_t * data)
   do {
     (void)memset(&frame, 0, sizeof(frame));
     size = recv((int)can->handle, &frame, sizeof(frame), 0);
-    if (frame.can_id == (can->id | CAN_EFF_FLAG) && frame.len != 0u && can_is_whole(&frame, size)) {
+    if (frame.can_id == (can->received | CAN_EFF_FLAG) && frame.len != 0u && can_is_whole(&frame, size)) {
       (void)memcpy(data, frame.data, frame.len);
       return frame.len;
     }
