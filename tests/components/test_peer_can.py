@@ -70,10 +70,10 @@ def test_what_one_board_sends_the_other_one_receives(tmp_path: Path) -> None:
     assert (sensor.remote, motor.remote, sensor.mtu) == ("can0", "can1", 63)
     assert sensor.key == motor.key
     assert peers(folder, "sensor").frames_table[2:] == ("  {0x00010121u, 0x00012101u},", "};")
-    given = bus(tmp_path, SYSTEM.replace("canfd,", "canfd, id: 0x1fff0000,"))
-    assert peers(given, "sensor").links[0].sent_id == 0x1FFF0121
-    none = bus(tmp_path, SYSTEM.replace("canfd,", "canfd, id: 0,"))
-    assert peers(none, "sensor").links[0].sent_id == 0x121
+    shifted = bus(tmp_path, SYSTEM.replace("canfd,", "canfd, id: 0x1fff0000,"))
+    assert peers(shifted, "sensor").links[0].sent_id == 0x1FFF0121
+    least = bus(tmp_path, SYSTEM.replace("canfd,", "canfd, id: 0,"))
+    assert peers(least, "sensor").links[0].sent_id == 0x121
 
 
 def test_a_board_without_an_agent_needs_no_identifier_for_it(tmp_path: Path) -> None:

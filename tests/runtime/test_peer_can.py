@@ -219,7 +219,7 @@ def test_the_numbers_of_both_streams_wrap(programs: tuple[Path, Path], bus: CanB
     chance = random.Random(3)
     with pair(programs) as (first, second):
         for board in (first, second):
-            board.go_on_with(0xFFF0)
+            board.continue_with(0xFFF0)
         bus.lost = lambda frame: chance.random() < loss
         both_ways(first, second, range(40))
         for board in (first, second):

@@ -11,7 +11,7 @@
  *   pass MS                lets time pass
  *   open TOPIC             with LATE: opens the subscription
  *   close TOPIC            closes it
- *   numbers N              all streams of all links go on with message N, as after as many messages
+ *   numbers N              all streams of all links continue with message N, as after as many messages
  *   serialized TOPIC SIZE  publishes so many bytes of CDR
  *   meanwhile TOPIC VALUE  publishes as another task would during the wait of an executor, and prints `wakes COUNT`:
  *                          how often that woke it (with WAITS_HERE: without port_posix_wait.c)
@@ -183,7 +183,7 @@ static rcl_ret_t publish_bytes(const rcl_publisher_t * publisher, size_t size)
   return rcl_publish_serialized_message(publisher, &message, NULL);
 }
 
-static void go_on_with(uint16_t number)
+static void continue_with(uint16_t number)
 {
   xrce_client_t * client = rmw_client_instance();
 
@@ -284,7 +284,7 @@ int main(int argc, char ** argv)
     } else if (sscanf(line, "close %u", &topic) == 1 && topic < TOPICS) {
       code = close_subscription(topic);
     } else if (sscanf(line, "numbers %d", &value) == 1) {
-      go_on_with((uint16_t)value);
+      continue_with((uint16_t)value);
     } else if (strcmp(line, "end\n") == 0) {
       break;
     } else {

@@ -32,7 +32,7 @@ def record(identifier: int, data: bytes, flags: int = EXTENDED) -> bytes:
 
 
 class CanBus:
-    """A bus, at `path` or at one of its own; it runs in a thread within the context."""
+    """A bus, at `path` or a temporary one; it runs in a thread within the context."""
 
     def __init__(self, path: Path | None = None) -> None:
         self._folder = tempfile.TemporaryDirectory()  # a short path: the name of a device has 63 bytes

@@ -145,8 +145,8 @@ class Board(CommandedProgram):
         """Let its time pass."""
         assert self._error(f"pass {milliseconds}") == ""
 
-    def go_on_with(self, number: int) -> None:
-        """Let all streams go on with this message number; nothing is under way."""
+    def continue_with(self, number: int) -> None:
+        """Let all streams continue with this message number; nothing is under way."""
         assert self._error(f"numbers {number}") == ""
 
     def reconnects(self) -> int:
