@@ -122,8 +122,11 @@ def _chip(item: YamlNode, boards: Mapping[str, Named], diagnostics: Diagnostics)
     for image in images:
         _check_board(image.name, image.span, boards, diagnostics)
     if len(images) != 2:
-        message = f"a chip has two images; this one has {len(images)}"
-        diagnostics.error(message, item.span, "Name the two boards that share a memory", id="MG-3199")
+        message = f"a chip has two images, one at each end of the shared memory; this one has {len(images)}"
+        hint = (
+            "Name the two boards that share a memory; further images exchange messages with them by `links`"
+        )
+        diagnostics.error(message, item.span, hint, id="MG-3199")
     return images
 
 
@@ -136,7 +139,10 @@ def _check_chips(chips: tuple[tuple[Named, ...], ...], diagnostics: Diagnostics)
             where = f", first in line {first.span.line}" if first.span else ""
             message = f"the board '{image.name}' is named twice in `chips`{where}"
             diagnostics.error(
-                message, image.span, "Name it once: it shares a memory with one other", id="MG-3198"
+                message,
+                image.span,
+                "Name it once: it shares a memory with one other, and is joined with further ones by `links`",
+                id="MG-3198",
             )
 
 

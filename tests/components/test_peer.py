@@ -225,13 +225,15 @@ LINE = "transport: {type: serial}\n"
             SERIAL,
             SENSOR.replace("peer: only", "peer: also"),
             "qemu-mps2-an386",
-            "has one serial line, which a link cannot share with an agent. Write `peer: only` at all endpoints",
+            "has one serial line, which a link cannot share with an agent: all of them send whenever they have "
+            "something, and frames on one pair of wires would collide. Write `peer: only` at all endpoints, with one link, or use "
+            "links and a transport of type canfd or udp",
         ),
         (
             SERIAL.replace("uart", "/dev/ttyUSB0"),
             SENSOR.replace("peer: only", "peer: also"),
             "host",
-            "'/dev/ttyUSB0' is the line to the agent, too",
+            "'/dev/ttyUSB0' is the line to the agent, too: a serial line has two ends. Give the link another device",
         ),
         (
             SERIAL.replace("uart", "tty"),

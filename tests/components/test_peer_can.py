@@ -228,13 +228,13 @@ def load(folder: Path, board: str = "sensor") -> BusLoad:
 
 def test_both_directions_and_their_answers_share_the_bus(tmp_path: Path) -> None:
     message, beat = can_frame_bits(WRITE), can_frame_bits(BEAT)
-    one = load(rated(tmp_path, "20"))
+    forth = load(rated(tmp_path, "20"))
     beats = 2 * 10 * beat  # a HEARTBEAT in 100 ms, and its answer
-    assert one.load == 20 * (message + beat) + beats
-    assert one.shown.endswith("; the application has no `bitrate`")
+    assert forth.load == 20 * (message + beat) + beats
+    assert forth.shown.endswith("; the application has no `bitrate`")
     folder = rated(tmp_path, "20", ", bitrate: 500000", "7")
     both = load(folder)
-    assert both.load == one.load + 7 * (message + beat) + beats == load(folder, "motor").load
+    assert both.load == forth.load + 7 * (message + beat) + beats == load(folder, "motor").load
     assert both.shown == (
         f"can0 {both.load} bit/s of 500000 (to motor: /a {20 * (message + beat)}, HEARTBEAT {beats}; from motor: "
         f"/b {7 * (message + beat)}, HEARTBEAT {beats})"

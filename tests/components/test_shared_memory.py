@@ -272,7 +272,12 @@ def test_ends_that_cannot_be(tmp_path: Path, ends: str, words: str) -> None:
         (
             SYSTEM.replace("[first, second]", "[first]"),
             FIRST,
-            "system.yaml:6:5: error: a chip has two images; this one has 1",
+            "system.yaml:6:5: error: a chip has two images, one at each end of the shared memory; this one has 1",
+        ),
+        (
+            SYSTEM.replace("[first, second]", "[first, second, third]"),
+            FIRST,
+            "this one has 3. Name the two boards that share a memory; further images exchange messages with them by",
         ),
         (
             SYSTEM.replace("second/microros", "third/microros"),

@@ -162,13 +162,18 @@ def _check_line(context: PlanContext, link: Link, diagnostics: Diagnostics) -> N
     elif is_uart and (not is_alone(application) or len(application.links) > 1):
         others = "a second link" if len(application.links) > 1 else "an agent"
         message = (
-            f"the target '{context.target.name}' has one serial line, which a link cannot share with {others}"
+            f"the target '{context.target.name}' has one serial line, which a link cannot share with {others}: all of "
+            "them send whenever they have something, and frames on one pair of wires would collide"
         )
-        hint = "Write `peer: only` at all endpoints, with one link"
+        hint = (
+            "Write `peer: only` at all endpoints, with one link, or use links and a transport of type canfd or udp, "
+            "which are shared"
+        )
         diagnostics.error(message, link.own.span, hint, id="MG-7195")
     elif not is_uart and not is_alone(application) and link.own.name in _agent_lines(application.transport):
-        message = f"'{link.own.name}' is the line to the agent, too"
-        diagnostics.error(message, link.own.span, "Give the link another device", id="MG-7196")
+        message = f"'{link.own.name}' is the line to the agent, too: a serial line has two ends"
+        hint = "Give the link another device, or use links and a transport of type canfd or udp"
+        diagnostics.error(message, link.own.span, hint, id="MG-7196")
     if application.transport.baud != link.baud:
         message = (
             f"the baud rate is {application.transport.baud} here and {link.baud} at the board '{link.board}'"

@@ -209,7 +209,7 @@ class PeerPlan:
     @property
     def loads_shown(self) -> str:
         """Return what a report says of the loads."""
-        return "; ".join(load.shown for load in (*self.loads, *self.buses))
+        return "; ".join([*(load.shown for load in self.loads), *(bus.shown for bus in self.buses)])
 
 
 def plan(context: PlanContext, diagnostics: Diagnostics) -> PeerPlan:
