@@ -226,8 +226,8 @@ LINE = "transport: {type: serial}\n"
             SENSOR.replace("peer: only", "peer: also"),
             "qemu-mps2-an386",
             "has one serial line, which a link cannot share with an agent: all of them send whenever they have "
-            "something, and frames on one pair of wires would collide. Write `peer: only` at all endpoints, with one link, or use "
-            "links and a transport of type canfd or udp",
+            "something, and frames on one pair of wires would collide. Write `peer: only` at all endpoints, with one "
+            "link, or use links and a transport of type canfd or udp",
         ),
         (
             SERIAL.replace("uart", "/dev/ttyUSB0"),
