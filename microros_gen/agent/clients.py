@@ -100,6 +100,11 @@ class Client:
     second: float = 0.0
     """End of the second in which `messages` are counted."""
     messages: int = 0
+    received: int = 0
+    """Messages from it since it is known, and their bytes; `sent` counts those to it."""
+    received_bytes: int = 0
+    sent: int = 0
+    sent_bytes: int = 0
 
     @property
     def name(self) -> str:
@@ -113,6 +118,8 @@ class Client:
 
     def send(self, message: bytes) -> None:
         """Send one message."""
+        self.sent += 1
+        self.sent_bytes += len(message)
         self.transport.send(message, self.address)
 
     def acknowledge(self) -> None:

@@ -102,6 +102,8 @@ class Agent:
             self.clients, limits, self._operations, self._admission, self._turns, graph, self._refuse_of
         )
 
+        self.on_care: Callable[[float], None] | None = None
+        """Called by `care` with its time."""
         self._states: ClientStates | None = None
         if watched:
             self._states = ClientStates(self.clients, clock, limits.clients)
@@ -120,8 +122,11 @@ class Agent:
         return self._states.snapshot() if self._states is not None else ()
 
     def latest_client_states(self) -> tuple[ClientState, ...]:
-        """Return what `client_states` returned at the last `care`; may be called in any thread."""
-        return self._states.latest if self._states is not None else ()
+        """Return what `client_states` returned at one of the last calls of `care`; may be called in any thread.
+
+        The next call of `care` updates it.
+        """
+        return self._states.ask() if self._states is not None else ()
 
     @property
     def samples(self) -> int:
@@ -185,6 +190,8 @@ class Agent:
         self._guarded(partial(self._relief.look, now))
         if self._states is not None:
             self._guarded(partial(self._states.look, now))
+        if self.on_care is not None:
+            self._guarded(partial(self.on_care, now))
 
     def _look_after(self, client: Client, now: float) -> None:
         waits = self._turns.waits(client)
@@ -261,6 +268,8 @@ class Agent:
         elif start == 8 and client.address != address:
             self._admission.check_move(client, transport, address)
         self._payer = client.account
+        client.received += 1
+        client.received_bytes += len(data)
         work = client.account.work
         if work is not None and not work.allows(now):
             raise MalformedError("too_much_work", "the policy allows no more time for it in this second")

@@ -143,6 +143,8 @@ class Reading:
             self._pending = None
             for message in messages:
                 send(message, client.address)
+                client.sent += 1
+                client.sent_bytes += len(message)
             self.entity.delivered += count
             self._left -= count
             if self._limited:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from microros_gen.agent.input_pool import Holder
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.streams_in import BestEffortIn, Reassembly, ReliableIn
-from microros_gen.agent.streams_out import BestEffortOut, Kept, Link, ReliableOut
+from microros_gen.agent.streams_out import BestEffortOut, Kept, Link, Queue, ReliableOut
 from microros_gen.agent.wire.constants import (
     FLAG_LITTLE,
     INFO_ACTIVITY,
@@ -42,7 +42,7 @@ class Session:
         self._limits = limits
         self._holder = holder or Holder()
         self._output = output or Holder()
-        self._lost_before = self._resent_before = 0
+        self._lost_before = self._resent_before = self._repeated_before = 0
         self._open(link)
 
     def _open(self, link: Link) -> None:
@@ -58,6 +58,7 @@ class Session:
     def reset(self, link: Link | None = None) -> None:
         """Restart all streams at 0, after a RESET or a new CREATE_CLIENT (then with its new `link`)."""
         self._lost_before, self._resent_before = self.lost, self.resent
+        self._repeated_before = self.repeated
         self._open(link or self.link)
 
     def incoming(self, stream: int, sequence: int, data: bytes) -> tuple[bytes, ...]:
@@ -92,6 +93,18 @@ class Session:
     def resent(self) -> int:
         """Messages that were sent to the client again, over all resets."""
         return self._resent_before + sum(stream.resent for stream in self._reliable_out())
+
+    @property
+    def repeated(self) -> int:
+        """Messages from the client on reliable streams that arrived again, over all resets."""
+        return self._repeated_before + sum(stream.repeated for stream in self._reliable_in.values())
+
+    @property
+    def queue(self) -> Queue:
+        """The output that waits on all reliable streams; `fill` is that of the fullest one."""
+        queues = [stream.queue for stream in self._reliable_out()]
+        fill = max((queue.fill for queue in queues), default=0.0)
+        return Queue(sum(queue.messages for queue in queues), sum(queue.bytes for queue in queues), fill)
 
     @property
     def round_trip_s(self) -> float | None:

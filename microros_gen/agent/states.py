@@ -1,18 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """The agent's view of its clients: connected, silent or gone; lost messages; reconnections.
 
-`ClientStates` records what happens to clients, at no cost per datagram. It keeps one record for each client in
-session, and those of the last clients that left, up to the maximum number of clients.
+`ClientStates` records what happens to clients, at no cost per datagram, and measures their traffic once a second. It
+keeps one record for each client in session, and those of the last clients that left, up to the maximum number of
+clients.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass as mutable
+from dataclasses import field
 from enum import IntEnum
 
 from microros_gen.agent.clients import Client, ClientTable
 from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.streams_out import Queue
+from microros_gen.agent.traffic import Counts, Direction, Meter, counts_of
 from microros_gen.agent.wire.constants import ObjectKind
 from microros_gen.records import dataclass
 
@@ -56,6 +60,15 @@ class ClientState:
     """The last warning about it; empty: none."""
     denied: int = 0
     """Number of its sessions and objects that were refused because they are not permitted."""
+    received: Direction = Direction()
+    """The messages from it, and their rates in the last second."""
+    sent: Direction = Direction()
+    repeated: int = 0
+    """Number of messages from it on reliable streams that arrived again: it sent them again, or a network did."""
+    queue: Queue = Queue()
+    """What waits for it: for an acknowledgement, or to be sent."""
+    input_bytes: int = 0
+    """Bytes from it that wait: for the rest of a message, for a missing one, or for its turn."""
 
 
 @mutable
@@ -69,6 +82,10 @@ class _Record:
     silences: int = 0
     lost: int = 0
     resent: int = 0
+    repeated: int = 0
+    traffic: Counts = (0, 0, 0, 0)
+    """That of the clients before `client`."""
+    meter: Meter = field(default_factory=Meter)
     nodes: tuple[str, ...] = ()
     round_trip_s: float | None = None
     last_error: str = ""
@@ -82,7 +99,9 @@ class _Record:
 
 
 LOOK_S = 0.25
-"""Seconds between two updates of `latest`."""
+"""Minimum seconds between two views for `ask`."""
+MEASURE_S = 1.0
+"""Seconds over which rates are measured."""
 _SESSIONS = ("client_connected", "client_again", "client_adopted")
 """Events that begin a session."""
 
@@ -97,8 +116,9 @@ class ClientStates:
         self._most = most
         self._records: dict[str, _Record] = {}
         self._look_at = clock()
-        self.latest: tuple[ClientState, ...] = ()
-        """The view of the last `look`; may be read in any thread."""
+        self._measure_at = clock()
+        self._is_wanted = False
+        self._latest: tuple[ClientState, ...] = ()
 
     def note(self, client: Client, event: str) -> None:
         """Record an event of the log about a client's session."""
@@ -135,11 +155,21 @@ class ClientStates:
         if record is not None:
             record.last_error = reason
 
+    def ask(self) -> tuple[ClientState, ...]:
+        """Return the view that a `look` took, and let the next one take another one; may be called in any thread."""
+        self._is_wanted = True
+        return self._latest
+
     def look(self, now: float) -> None:
-        """Update `latest` if due; this takes a millisecond for 100 clients, so it is done some times a second."""
-        if now >= self._look_at:
+        """Measure rates once a second; take the view if it is wanted: this takes a millisecond for 100 clients."""
+        if now >= self._measure_at:
+            self._measure_at = now + MEASURE_S
+            for record in self._records.values():
+                record.meter.measure(_traffic(record), now)
+        if self._is_wanted and now >= self._look_at:
+            self._is_wanted = False
             self._look_at = now + LOOK_S
-            self.latest = self.snapshot()
+            self._latest = self.snapshot()
 
     def snapshot(self) -> tuple[ClientState, ...]:
         """Return the state of every client, in the order of their first sessions."""
@@ -152,6 +182,8 @@ class ClientStates:
                 record.lost += record.client.session.lost
                 record.resent += record.client.session.resent
                 record.denied += record.client.denials
+                record.repeated += record.client.session.repeated
+                record.traffic = _traffic(record, record.client)
             record.client = client
         record.sessions += 1
         record.presence = Presence.CONNECTED
@@ -163,6 +195,8 @@ class ClientStates:
         if record.presence is Presence.CONNECTED:
             record.nodes = _nodes(client) or record.nodes
         is_refused = record.presence is Presence.REFUSED
+        messages_in, bytes_in, messages_out, bytes_out = _traffic(record, client)
+        rates = record.meter.rates
         measured = client.session.round_trip_s
         record.round_trip_s = record.round_trip_s if measured is None else measured
         return ClientState(
@@ -180,6 +214,11 @@ class ClientStates:
             resent=record.resent + client.session.resent,
             last_error=record.last_error,
             denied=record.refused + record.denied + client.denials,
+            received=Direction(messages_in, bytes_in, rates[0], rates[1]),
+            sent=Direction(messages_out, bytes_out, rates[2], rates[3]),
+            repeated=record.repeated + client.session.repeated,
+            queue=client.session.queue,
+            input_bytes=client.session.held + client.inbox_bytes,
         )
 
     def _forget_oldest(self) -> None:
@@ -206,6 +245,12 @@ def _never_connected(key: str, record: _Record, now: float) -> ClientState:
         last_error=record.last_error,
         denied=record.refused,
     )
+
+
+def _traffic(record: _Record, client: Client) -> Counts:
+    """Return the counts of a key over all of its clients, of which `client` is the last."""
+    before, now = record.traffic, counts_of(client)
+    return before[0] + now[0], before[1] + now[1], before[2] + now[2], before[3] + now[3]
 
 
 def _nodes(client: Client) -> tuple[str, ...]:

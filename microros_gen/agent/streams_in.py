@@ -43,6 +43,8 @@ class ReliableIn:
         self.next = 0
         self.lost = 0
         """Messages that the sender abandoned before they arrived."""
+        self.repeated = 0
+        """Messages that arrived again."""
         self._announced = 0  # messages from `next` on that are known to exist
         self._held: dict[int, bytes] = {}
         self._held_bytes = 0
@@ -81,6 +83,7 @@ class ReliableIn:
             return (data, *self._ready()) if self._held else (data,)
         ahead = (sequence - self.next) & 0xFFFF
         if ahead >= RELIABLE_WINDOW or sequence in self._held:
+            self.repeated += ahead >= HALF or sequence in self._held
             return ()
         self._announced = max(self._announced, ahead + 1)
         if self._held_bytes + len(data) <= self._hold_bytes and self._holder.take(len(data)):

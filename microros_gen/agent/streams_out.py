@@ -46,6 +46,17 @@ class Link:
         return self.mtu - (4 if self.session >= 0x80 else 8)
 
 
+@dataclass(frozen=True)
+class Queue:
+    """The output that waits on reliable streams: for an acknowledgement, or to be sent."""
+
+    messages: int = 0
+    bytes: int = 0
+    """With the samples that are kept in case that the client opens a new session."""
+    fill: float = 0.0
+    """0 to 1; 1: the window of messages without acknowledgement is full, or the space of those to be sent."""
+
+
 class BestEffortOut:
     """Best-effort stream: numbers messages and stores none."""
 
@@ -208,6 +219,15 @@ class ReliableOut:
         self._again += len(again)
         self.resent += len(again)
         return again
+
+    @property
+    def queue(self) -> Queue:
+        """What waits: for an acknowledgement, or to be sent."""
+        waiting = len(self._unacknowledged) + len(self._backlog)
+        window = len(self._unacknowledged) / RELIABLE_WINDOW
+        return Queue(
+            waiting, self._bytes, max(window, min(1.0, self._backlog_bytes / max(1, self._backlog_limit)))
+        )
 
     @property
     def round_trip_s(self) -> float | None:

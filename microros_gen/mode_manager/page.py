@@ -3,16 +3,14 @@
 
 from __future__ import annotations
 
-import ipaddress
 import json
-import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from functools import partial
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from contextlib import ExitStack, contextmanager
 from typing import Any
 
 from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.web.places import Place, is_loopback, read_place
+from microros_gen.web.server import Answer, served
 
 _PAGE = """<!doctype html>
 <html lang="en">
@@ -74,48 +72,15 @@ poll();
 </body>
 </html>
 """
-_POLICY = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; connect-src 'self'"
 
 
-class _Handler(BaseHTTPRequestHandler):
-    """Answers GET of the page and of its data."""
-
-    def __init__(self, data: Callable[[], dict[str, Any]], *arguments: Any) -> None:
-        self._data = data
-        super().__init__(*arguments)
-
-    def do_GET(self) -> None:
-        """Answer; a request with another host name comes from a page of somebody else."""
-        if not is_loopback(self.headers.get("Host", "").rpartition(":")[0]):
-            self.send_error(403)
-        elif self.path == "/":
-            self._send("text/html; charset=utf-8", _PAGE)
-        elif self.path == "/state.json":
-            self._send("application/json", json.dumps(self._data()))
-        else:
-            self.send_error(404)
-
-    def log_message(self, format: str, *arguments: Any) -> None:
-        """Log nothing: stdout and stderr belong to the monitor."""
-
-    def _send(self, kind: str, text: str) -> None:
-        content = text.encode()
-        self.send_response(200)
-        self.send_header("Content-Type", kind)
-        self.send_header("Content-Length", str(len(content)))
-        self.send_header("Content-Security-Policy", _POLICY)
-        self.send_header("Cache-Control", "no-store")
-        self.end_headers()
-        self.wfile.write(content)
-
-
-def check_place(place: str) -> tuple[str, int]:
-    """Return host and port of HOST:PORT. Raises UserError if that is no address of this machine alone."""
-    host, colon, port = place.rpartition(":")
-    if not colon or not is_loopback(host) or not port.isdecimal() or int(port) > 65535:
+def check_place(text: str) -> Place:
+    """Return the place HOST:PORT. Raises UserError if that is no address of this machine alone."""
+    place = read_place(text)
+    if place is None or ":" not in text or not is_loopback(place.host):
         hint = "Write 127.0.0.1:8080; for other machines, forward the port with ssh -L"
-        raise UserError([Diagnostic(f"'{place}' is no place for a page", hint=hint, id="MG-8875")])
-    return host, int(port)
+        raise UserError([Diagnostic(f"'{text}' is no place for a page", hint=hint, id="MG-8875")])
+    return place
 
 
 @contextmanager
@@ -124,28 +89,16 @@ def served_page(place: str, data: Callable[[], dict[str, Any]]) -> Iterator[str]
 
     `data` is called in other threads. Raises UserError as `check_place` does, and for a port that cannot be used.
     """
-    host, port = check_place(place)
-    try:
-        server = ThreadingHTTPServer((host, port), partial(_Handler, data))
-    except OSError as error:
-        hint = "Choose another port, or 0 for a free one"
-        message = f"the page cannot be served at '{place}': {error.strerror}"
-        raise UserError([Diagnostic(message, hint=hint, id="MG-8876")]) from error
-    thread = threading.Thread(target=server.serve_forever, daemon=True)
-    thread.start()
-    try:
-        yield f"http://{host}:{server.server_port}/"
-    finally:
-        server.shutdown()
-        server.server_close()
-        thread.join()
-
-
-def is_loopback(host: str) -> bool:
-    """Return whether a host name or IPv4 address is the one of this machine itself."""
-    if host == "localhost":
-        return True
-    try:
-        return ipaddress.IPv4Address(host).is_loopback
-    except ValueError:
-        return False
+    where = check_place(place)
+    routes = {
+        "/": lambda: Answer("text/html; charset=utf-8", _PAGE.encode()),
+        "/state.json": lambda: Answer("application/json", json.dumps(data()).encode()),
+    }
+    with ExitStack() as stack:
+        try:
+            address = stack.enter_context(served(where, routes))
+        except OSError as error:
+            hint = "Choose another port, or 0 for a free one"
+            message = f"the page cannot be served at '{place}': {error.strerror}"
+            raise UserError([Diagnostic(message, hint=hint, id="MG-8876")]) from error
+        yield address

@@ -3,8 +3,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import pytest
+
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.states import ClientState, Presence
+from microros_gen.agent.streams_out import Queue
+from microros_gen.agent.traffic import Direction, Meter
 from microros_gen.agent.wire.data_messages import ReadData
 from tests.support.agent.captured import CREATE_CLIENT
 from tests.support.agent.dialogue import entities, message
@@ -35,7 +41,7 @@ def test_a_client_from_its_first_message_to_its_last() -> None:
     opened(bench)
     for sequence, create in enumerate(entities()):
         bench.say(message(create, sequence=sequence))
-    assert state(bench) == ClientState(
+    assert replace(state(bench), received=Direction(), sent=Direction()) == ClientState(
         key=KEY,
         presence=Presence.CONNECTED,
         transport="fake",
@@ -136,6 +142,92 @@ def test_resent_messages_and_the_round_trip() -> None:
     bench.say("81 00 00 00 0a 01 05 00 03 00 00 00 80")
     assert state(bench).round_trip_s == 0.25
     assert state(bench).resent == 2
+
+
+def test_traffic_is_counted_in_both_directions_over_all_sessions() -> None:
+    bench = watched()
+    opened(bench)
+    first = "81 01 00 00 0b 01 04 00 00 00 00 80"
+    bench.say(first)
+    before = state(bench)
+    assert (before.received.messages, before.received.bytes) == (1, 12)
+    bench.say(heartbeat(5, 5))  # is acknowledged
+    assert state(bench).sent.messages == before.sent.messages + 1
+    assert state(bench).sent.bytes == before.sent.bytes + 13
+    opened(bench, session="82")
+    after = state(bench)
+    assert after.received.messages >= 2
+    assert after.received.bytes >= 24
+    assert after.sent.messages >= before.sent.messages + 1
+
+
+def test_rates_are_those_of_the_last_second() -> None:
+    bench = watched()
+    opened(bench)
+    bench.agent.care(bench.now)
+    for sequence in range(50):
+        bench.now += 0.02
+        bench.say(write(sequence, 1, stream=BEST_EFFORT))
+    bench.now += 0.001
+    bench.agent.care(bench.now)
+    measured = state(bench).received
+    assert 49.8 < measured.messages_per_s < 50
+    assert measured.bytes_per_s == pytest.approx(measured.messages_per_s * 16)
+    bench.now += 1
+    bench.agent.care(bench.now)
+    assert state(bench).received == replace(measured, messages_per_s=0.0, bytes_per_s=0.0)
+
+
+def test_a_meter_needs_an_interval() -> None:
+    meter = Meter()
+    meter.measure((1, 2, 3, 4), 1.0)
+    meter.measure((1, 2, 3, 5), 1.0)
+    assert meter.rates == (0.0, 0.0, 0.0, 0.0)
+    meter.measure((2, 4, 3, 7), 1.5)
+    assert meter.rates == (2.0, 4.0, 0.0, 4.0)
+
+
+def test_messages_that_a_client_sends_again() -> None:
+    bench = watched()
+    opened(bench)
+    for sequence in (0, 2, 2, 0, 40):  # 40 is beyond the window
+        bench.say(write(sequence, 1))
+    assert state(bench).repeated == 2
+    opened(bench)
+    bench.say(write(0, 1))
+    bench.say(write(0, 1))
+    assert state(bench).repeated == 3
+    assert state(bench).input_bytes == 0
+
+
+def test_the_queue_of_a_client_that_acknowledges_nothing() -> None:
+    bench = watched()
+    opened(bench)
+    for create in reader_entities():
+        bench.say(message(create, stream=0))
+    bench.say(message(ReadData(7, 0x16, 0x80, delivery=FOREVER), stream=0))
+    source = bench.bridge.source("/a [std_msgs/msg/Int32]")
+    fills = []
+    for number in range(20):
+        source.put(sample(number))
+        bench.take()
+        fills.append(state(bench).queue.fill)
+    assert fills == [min(1.0, (number + 1) / 16) for number in range(20)]
+    assert state(bench).queue.messages == 16
+    assert state(bench).queue.bytes > 16 * 12
+    bench.say("81 00 00 00 0a 01 05 00 10 00 00 00 80")
+    assert state(bench).queue.messages == 4
+    bench.say("81 00 00 00 0a 01 05 00 14 00 00 00 80")
+    assert state(bench).queue == Queue(0, 0, 0.0)
+
+
+def test_the_view_is_taken_when_it_is_asked_for() -> None:
+    bench = watched()
+    opened(bench)
+    bench.agent.care(bench.now)
+    assert bench.agent.latest_client_states() == ()
+    bench.agent.care(bench.now)
+    assert [each.key for each in bench.agent.latest_client_states()] == [KEY]
 
 
 def test_the_last_error_of_each_client() -> None:

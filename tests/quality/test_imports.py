@@ -35,6 +35,7 @@ ORDER = (
     "time_server",
     "ros_tools",
     "modes",
+    "web",
     "mode_manager",
     "agent",
     "cli",
@@ -46,8 +47,9 @@ MAY = {
     "ros_tools": {"diagnostics", "documents", "interfaces", "parameter_server", "ros", "ros_tools"},
     "time_server": {"records", "ros", "time_server"},
     "modes": {"application", "diagnostics", "documents", "modes"},
-    "mode_manager": {"diagnostics", "mode_manager", "modes", "parameter_server", "ros"},
-    "agent": {"agent", "diagnostics", "documents", "interfaces", "ros"},
+    "mode_manager": {"diagnostics", "mode_manager", "modes", "parameter_server", "ros", "web"},
+    "agent": {"agent", "diagnostics", "documents", "interfaces", "ros", "web"},
+    "web": {"web"},
     "cli": set(ORDER),
 }
 """Folders that import other ones than those above them."""

@@ -23,6 +23,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from tests.support.paths import ROOT
 from tests.support.patience import deadline, seconds
@@ -95,6 +96,7 @@ class Terminal:
         self._folder = folder
         self._port = str(port)
         self._running: list[tuple[str, subprocess.Popen[str], list[str]]] = []
+        self._session = TemporaryDirectory()  # paths of sockets are short
         tools = folder / ".tools"
         tools.mkdir()
         self.domain = 1 + port % 100
@@ -102,9 +104,14 @@ class Terminal:
         domain = str(self.domain)
         python = shlex.quote(sys.executable)
         _script(tools / "python3", f'exec {python} "$@"')
-        own_domain = f'case "$* " in *" --check "*) ;; agent*|run*) set -- "$@" --domain {domain};; esac'
+        own_domain = (
+            f'case "$* " in *" --check "*|"agent status"*) ;;'
+            f' "agent "*|"run "*) set -- "$@" --domain {domain};; esac'
+        )
         patient = 'case "$1" in topic|service|param|action) set -- "$@" --spin-time 30;; esac'
-        _script(tools / "microros-gen", f'{own_domain}\n{patient}\nexec {python} -m microros_gen "$@"')
+        _script(tools / "microros-gen", f'{own_domain}
+{patient}
+exec {python} -m microros_gen "$@"')
         self._environment = {
             **os.environ,
             "PATH": f"{tools}:{os.environ['PATH']}",
@@ -113,6 +120,7 @@ class Terminal:
             "CFLAGS": "-O0",  # of the host's compiler: it takes half of the time
             "HOME": str(folder),
             "XDG_CACHE_HOME": str(folder / ".cache"),
+            "XDG_RUNTIME_DIR": self._session.name,
             "MICROROS_GEN_OBJECTS": "",  # pages show how many objects are compiled the first time
             "microros_gen_DIR": str(ROOT / "cmake"),
             "ROS_DOMAIN_ID": domain,
@@ -194,6 +202,7 @@ class Terminal:
                 complaints.append(f"$ {command} & ended with {process.poll()}\n{''.join(output)}")
             process.kill()
             process.wait()
+        self._session.cleanup()
         assert not complaints, complaints
 
 

@@ -72,6 +72,7 @@ class AgentFile:
     graph_server: bool = False
     client_state: bool = False
     diagnostics: bool = False
+    status_socket: str | None = None
     parameter_server: bool = True
     parameter_file: str | None = None
     limits: tuple[tuple[str, float], ...] = ()

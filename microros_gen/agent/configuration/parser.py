@@ -55,6 +55,7 @@ def parse_agent_file(source: Source, diagnostics: Diagnostics) -> AgentFile:
         graph_server=bool_of(child(tree, "graph_server")) or False,
         client_state=bool_of(child(tree, "client_state")) or False,
         diagnostics=bool_of(child(tree, "diagnostics")) or False,
+        status_socket=text_of(child(tree, "status_socket")),
         parameter_server=bool_of(child(tree, "parameter_server")) is not False,
         parameter_file=text_of(child(tree, "parameter_file")),
         limits=_numbers(child(tree, "limits")),

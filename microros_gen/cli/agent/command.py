@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import click
+from click.core import ParameterSource
 
 from microros_gen.agent.configuration.model import (
     CanChoice,
@@ -18,6 +19,7 @@ from microros_gen.agent.configuration.model import (
 from microros_gen.agent.transport.sockets import PROTOCOLS, Protocol
 from microros_gen.agent.transport.tcp import TcpLimits
 from microros_gen.cli.agent.options import AgentOptions, common_options
+from microros_gen.cli.agent.status import status_command
 from microros_gen.diagnostics import nearest
 from microros_gen.records import dataclass
 
@@ -36,6 +38,7 @@ class _Transports(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
+        _check_alone(ctx, args)
         if args and not args[0].startswith("-") and args[0] not in self.commands:
             both = [
                 name for name in self.commands if name.rstrip("46") == args[0].rstrip("0123456789").lower()
@@ -44,6 +47,22 @@ class _Transports(click.Group):
             hint = found or f"Available: {', '.join(self.commands)}"
             raise click.UsageError(f"unknown transport '{args[0]}'. {hint}", ctx)
         return super().resolve_command(ctx, args)
+
+
+_STATUS = "status"
+_NAMED = "microros_gen.agent.named"
+"""Place in the context of the command for the words that were read as transports."""
+
+
+def _check_alone(ctx: click.Context, args: list[str]) -> None:
+    """Refuse transports and options of an agent besides `status`."""
+    named = ctx.meta.setdefault(_NAMED, [])
+    named.append(args[0] if args else "")
+    options = [name for name in ctx.params if ctx.get_parameter_source(name) is ParameterSource.COMMANDLINE]
+    if _STATUS in named and (len(named) > 1 or options):
+        other = next((name for name in named if name != _STATUS), None)
+        what = f"'{other}'" if other else f"--{(options or [_STATUS])[0].replace('_', '-')}"
+        raise click.UsageError(f"'status' asks a running agent and starts none: remove {what}", ctx)
 
 
 @click.group(
@@ -212,3 +231,6 @@ def pty(link: str | None, **common: Any) -> _Part:
     microros-gen agent pty --link /tmp/board
     """
     return _Part((PtyChoice(link),), common)
+
+
+command.add_command(status_command, _STATUS)

@@ -29,6 +29,9 @@ DEFAULTS = Limits()
 MAXIMUM_DOMAIN = 232
 """Largest ROS domain id: the ports of larger ones do not exist (RTPS 2.2, 9.6.1)."""
 
+NO_SOCKET = "none"
+"""Value of --status-socket for an agent without one."""
+
 _VALUE = re.compile(r"[\w.+-]+")
 
 
@@ -79,6 +82,12 @@ _COMMON = (
         is_flag=True,
         help="Publish a status of each client on /diagnostics once a second, and when its level changes; in the domain"
         " of --domain, otherwise of ROS_DOMAIN_ID.",
+    ),
+    click.option(
+        "--status-socket",
+        metavar="PATH|none",
+        help="Local socket at which `microros-gen agent status` asks this agent; none: no socket. Default:"
+        " microros-agent-PID.sock in $RUNTIME_DIRECTORY, $XDG_RUNTIME_DIR/microros-gen or /tmp/microros-gen-UID.",
     ),
     click.option(
         "--no-parameter-server",
@@ -178,6 +187,7 @@ class AgentOptions:
     graph_server: bool = False
     client_state: bool = False
     diagnostics: bool = False
+    status_socket: str | None = None
     parameter_server: bool = True
     parameter_file: Path | None = None
     limits: Limits = DEFAULTS
@@ -196,6 +206,11 @@ class AgentOptions:
     def watches_clients(self) -> bool:
         """Whether the agent keeps its view of clients."""
         return self.client_state or self.diagnostics
+
+    @property
+    def is_monitored(self) -> bool:
+        """Whether something asks for the status of the agent."""
+        return self.status_socket != NO_SOCKET
 
     @staticmethod
     def of(sections: Sequence[dict[str, Any]], transports: Iterable[TransportChoice]) -> AgentOptions:
@@ -217,6 +232,7 @@ class AgentOptions:
             graph_server=options["graph_server"] or file.graph_server,
             client_state=options["client_state"] or file.client_state,
             diagnostics=options["diagnostics"] or file.diagnostics,
+            status_socket=options["status_socket"] or _own_socket(file, folder),
             parameter_server=file.parameter_server and not options["no_parameter_server"],
             parameter_file=options["parameter_file"] or _own_file(file, folder),
             limits=_limits(file, options),
@@ -298,6 +314,11 @@ def _near(folder: Path, choice: TransportChoice) -> TransportChoice:
 
 def _own_file(file: AgentFile, folder: Path) -> Path | None:
     return None if file.parameter_file is None else folder / file.parameter_file
+
+
+def _own_socket(file: AgentFile, folder: Path) -> str | None:
+    named = file.status_socket
+    return named if named in (None, NO_SOCKET) else str(folder / named)
 
 
 def _paths(folder: Path, of_file: Sequence[NamedPath], of_options: Sequence[Path]) -> tuple[Path, ...]:

@@ -43,6 +43,7 @@ from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.transport.sockets import PROTOCOLS
 from microros_gen.cli.agent.clients import client_state_node
 from microros_gen.cli.agent.graph import graph_server
+from microros_gen.cli.agent.monitoring import monitoring
 from microros_gen.cli.agent.options import AgentOptions, read_sources
 from microros_gen.cli.agent.parameters import ParametersOnDemand
 from microros_gen.cli.agent.policy import read_policy, reloading, report_policy
@@ -94,7 +95,7 @@ def serve(options: AgentOptions) -> None:
         strangers=shared.strangers,
         memory=MemoryGuard(limits.memory_bytes, trim=bridge.trim),
         budgets=budgets,
-        watched=options.watches_clients,
+        watched=options.watches_clients or options.is_monitored,
         policy=files.policy,
     )
     if options.policy is not None and files.policy is not None:
@@ -112,6 +113,7 @@ def serve(options: AgentOptions) -> None:
     with (
         graph_server(options.graph_server, options.domain, log),
         client_state_node(options, limits, agent, log),
+        monitoring(options, agent, transports, log),
         parameters.running(),
         reloaded_by_signal(server, reloading(options, agent, log)),
         stopped_by_signals(server),
