@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft202012Validator
 
-from microros_gen.agent.configuration.model import CanChoice, PtyChoice, SerialChoice, SocketChoice
+from microros_gen.agent.configuration.model import CanChoice, NamedPath, PtyChoice, SerialChoice, SocketChoice
 from microros_gen.agent.configuration.parser import SCHEMA, parse_agent_file
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.manifests import Manifests
@@ -33,6 +33,9 @@ NOTHING = {
     "graph_server": False,
     "client_state": False,
     "diagnostics": False,
+    "status_socket": None,
+    "metrics": None,
+    "page": None,
     "no_parameter_server": False,
     "parameter_file": None,
     "client_timeout": None,
@@ -134,6 +137,25 @@ def test_the_view_of_clients_is_asked_for(tmp_path: Path) -> None:
     assert not options(head, tmp_path).watches_clients
     only = options(head, tmp_path, diagnostics=True)
     assert (only.client_state, only.diagnostics, only.watches_clients) == (False, True, True)
+
+
+def test_where_the_agent_is_monitored(tmp_path: Path) -> None:
+    head = "version: 1\ntransports: [udp4: {}]\n"
+    nothing = options(head, tmp_path)
+    assert (nothing.status_socket, nothing.metrics, nothing.page, nothing.is_monitored) == (
+        None,
+        None,
+        None,
+        True,
+    )
+    named = options(f"{head}status_socket: s\nmetrics: 9464\npage: '[::1]:80'\n", tmp_path)
+    assert named.status_socket == str(tmp_path / "s")
+    assert (named.metrics, named.page) == (NamedPath("9464"), NamedPath("[::1]:80"))
+    without = options(f"{head}status_socket: none\n", tmp_path)
+    assert (without.status_socket, without.is_monitored) == ("none", False)
+    assert options(f"{head}status_socket: none\n", tmp_path, page="1").is_monitored
+    over = options(f"{head}status_socket: s\nmetrics: 9464\n", tmp_path, status_socket="/t", metrics="1")
+    assert (over.status_socket, over.metrics) == ("/t", NamedPath("1"))
 
 
 def test_a_graph_server_inside_the_agent(tmp_path: Path) -> None:

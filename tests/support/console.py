@@ -15,6 +15,7 @@ import os
 import re
 import shlex
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -95,6 +96,9 @@ class Terminal:
     def __init__(self, folder: Path, port: int) -> None:
         self._folder = folder
         self._port = str(port)
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            self._http_port = str(free.getsockname()[1])
         self._running: list[tuple[str, subprocess.Popen[str], list[str]]] = []
         self._session = TemporaryDirectory()  # paths of sockets are short
         tools = folder / ".tools"
@@ -138,7 +142,7 @@ exec {python} -m microros_gen "$@"')
                 copy.write_text(self._moved(path.read_text(encoding="utf-8")))
 
     def _moved(self, text: str) -> str:
-        return re.sub(r"\b8888\b", self._port, text)
+        return re.sub(r"\b9464\b", self._http_port, re.sub(r"\b8888\b", self._port, text))
 
     def write(self, block: Block) -> None:
         """Write the file that a page shows."""

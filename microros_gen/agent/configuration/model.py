@@ -53,7 +53,7 @@ TransportChoice = SocketChoice | SerialChoice | PtyChoice | CanChoice
 
 @dataclass(frozen=True)
 class NamedPath:
-    """A path as written, and its position in the file."""
+    """A path or address as written, and its position in the file."""
 
     path: str
     span: Span | None = field(default=None, compare=False, repr=False)
@@ -73,6 +73,8 @@ class AgentFile:
     client_state: bool = False
     diagnostics: bool = False
     status_socket: str | None = None
+    metrics: NamedPath | None = None
+    page: NamedPath | None = None
     parameter_server: bool = True
     parameter_file: str | None = None
     limits: tuple[tuple[str, float], ...] = ()

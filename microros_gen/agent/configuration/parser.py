@@ -30,7 +30,7 @@ from microros_gen.documents.tree_values import (
     span_of,
     text_of,
 )
-from microros_gen.documents.yaml_tree import YamlNode, parse_yaml
+from microros_gen.documents.yaml_tree import ScalarNode, YamlNode, parse_yaml
 
 SCHEMA = Path(__file__).with_name("agent.schema.json")
 DISCOVERY_PORT = 7400
@@ -56,6 +56,8 @@ def parse_agent_file(source: Source, diagnostics: Diagnostics) -> AgentFile:
         client_state=bool_of(child(tree, "client_state")) or False,
         diagnostics=bool_of(child(tree, "diagnostics")) or False,
         status_socket=text_of(child(tree, "status_socket")),
+        metrics=_place(child(tree, "metrics")),
+        page=_place(child(tree, "page")),
         parameter_server=bool_of(child(tree, "parameter_server")) is not False,
         parameter_file=text_of(child(tree, "parameter_file")),
         limits=_numbers(child(tree, "limits")),
@@ -93,6 +95,14 @@ def _discovery(node: YamlNode | None) -> int | None:
         return DISCOVERY_PORT if bool_of(node) else None
     port = int_of(child(node, "port"))
     return DISCOVERY_PORT if node is not None and port is None else port
+
+
+def _place(node: YamlNode | None) -> NamedPath | None:
+    return (
+        None
+        if node is None
+        else NamedPath(str(node.text) if isinstance(node, ScalarNode) else "", span_of(node))
+    )
 
 
 def _numbers(node: YamlNode | None) -> tuple[tuple[str, float], ...]:

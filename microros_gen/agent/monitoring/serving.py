@@ -10,7 +10,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from microros_gen.agent.monitoring import metrics
 from microros_gen.agent.monitoring.document import PATH, text_of
+from microros_gen.agent.monitoring.page import PAGE
 from microros_gen.agent.monitoring.sockets import listen
 from microros_gen.agent.monitoring.status import AgentStatus, StatusBoard
 
@@ -48,6 +50,18 @@ def status_routes(board: StatusBoard) -> Routes:
     return {PATH: Rendered(board, "application/json", text_of)}
 
 
+def metrics_routes(board: StatusBoard) -> Routes:
+    """Return the metrics of Prometheus."""
+    return {metrics.PATH: Rendered(board, metrics.CONTENT_TYPE, metrics.metrics_text)}
+
+
+def page_routes(board: StatusBoard) -> Routes:
+    """Return the page and its data."""
+    from microros_gen.web.server import Answer
+
+    return {"/": lambda: Answer("text/html; charset=utf-8", PAGE.encode()), **status_routes(board)}
+
+
 class StatusSocket:
     """A local socket at which `routes` are answered; HTTP is loaded with the first question."""
 
@@ -67,7 +81,7 @@ class StatusSocket:
     def run(self) -> None:
         """Answer until `stop`; then close and remove the socket."""
         try:
-            select.select([self._listener, self._wake], [], [])
+            self._wait()
             if not self._stopped.is_set():
                 self._serve()
         finally:
@@ -86,8 +100,12 @@ class StatusSocket:
         server = HttpServer(self._listener, self._routes, anyone)
         server.timeout = 0
         while not self._stopped.is_set():
-            select.select([self._listener, self._wake], [], [])
+            self._wait()
             server.handle_request()
+
+    def _wait(self) -> None:
+        """Wait until somebody connects, or for `stop`."""
+        select.select([self._listener.fileno(), self._wake], [], [])
 
     def _is_own(self) -> bool:
         """Return whether the file was not replaced."""

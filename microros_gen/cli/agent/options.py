@@ -90,6 +90,16 @@ _COMMON = (
         " microros-agent-PID.sock in $RUNTIME_DIRECTORY, $XDG_RUNTIME_DIR/microros-gen or /tmp/microros-gen-UID.",
     ),
     click.option(
+        "--metrics",
+        metavar="[HOST:]PORT",
+        help="Serve metrics for Prometheus at http://HOST:PORT/metrics. Default HOST: 127.0.0.1.",
+    ),
+    click.option(
+        "--page",
+        metavar="[HOST:]PORT",
+        help="Serve a page that shows the clients live, for browsers. Default HOST: 127.0.0.1.",
+    ),
+    click.option(
         "--no-parameter-server",
         is_flag=True,
         help="Do not hold the parameters of clients whose application file says `parameters: {at: agent}`; another"
@@ -188,6 +198,8 @@ class AgentOptions:
     client_state: bool = False
     diagnostics: bool = False
     status_socket: str | None = None
+    metrics: NamedPath | None = None
+    page: NamedPath | None = None
     parameter_server: bool = True
     parameter_file: Path | None = None
     limits: Limits = DEFAULTS
@@ -210,7 +222,7 @@ class AgentOptions:
     @property
     def is_monitored(self) -> bool:
         """Whether something asks for the status of the agent."""
-        return self.status_socket != NO_SOCKET
+        return self.status_socket != NO_SOCKET or bool(self.metrics or self.page)
 
     @staticmethod
     def of(sections: Sequence[dict[str, Any]], transports: Iterable[TransportChoice]) -> AgentOptions:
@@ -233,6 +245,8 @@ class AgentOptions:
             client_state=options["client_state"] or file.client_state,
             diagnostics=options["diagnostics"] or file.diagnostics,
             status_socket=options["status_socket"] or _own_socket(file, folder),
+            metrics=_place(options["metrics"]) or file.metrics,
+            page=_place(options["page"]) or file.page,
             parameter_server=file.parameter_server and not options["no_parameter_server"],
             parameter_file=options["parameter_file"] or _own_file(file, folder),
             limits=_limits(file, options),
@@ -314,6 +328,10 @@ def _near(folder: Path, choice: TransportChoice) -> TransportChoice:
 
 def _own_file(file: AgentFile, folder: Path) -> Path | None:
     return None if file.parameter_file is None else folder / file.parameter_file
+
+
+def _place(text: str | None) -> NamedPath | None:
+    return None if text is None else NamedPath(text)
 
 
 def _own_socket(file: AgentFile, folder: Path) -> str | None:
