@@ -14,6 +14,7 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -313,6 +314,32 @@ def test_a_silent_asker_delays_no_other(tmp_path: Path) -> None:
         silent.connect(str(path))
         assert ask(path, "/other")[0] == 404
         assert ask_status(path, PATH)["agent"]["pid"] == 77
+
+
+def test_checks_of_health_and_readiness(folder: Path) -> None:
+    path = folder / "microros-agent-77.sock"
+    with asked_at(path):
+        assert ask(path, "/healthz") == (200, b"ok\n")
+        assert ask(path, "/readyz") == (503, b"serial /dev/ttyUSB0 is not ready\n")
+        assert checked() == (1, "serial /dev/ttyUSB0 is not ready\n")
+    with asked_at(path, replace(STATUS, transports=STATUS.transports[:1])):
+        assert ask(path, "/readyz") == (200, b"ok\n")
+        assert checked() == (0, "ok\n")
+    assert reported(status("--check"))[0][0] == "MG-9783"
+    assert "not both" in str(status("--check", "--watch").exception)
+
+
+def test_an_agent_that_does_not_respond_is_not_healthy(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("microros_gen.agent.monitoring.status.StatusBoard.ask.__defaults__", (0.05,))
+    with asked_at(folder / "s") as loop:
+        loop.runs.clear()
+        for question in ("/healthz", "/readyz", PATH):
+            assert ask(folder / "s", question) == (503, b"the agent does not respond\n")
+
+
+def checked() -> tuple[int, str]:
+    result = CliRunner().invoke(cli, ["agent", "status", "--check"])
+    return result.exit_code, result.output
 
 
 def test_options_that_exclude_each_other() -> None:

@@ -53,10 +53,8 @@ def test_bad_addresses_are_reported_together(text: str) -> None:
 
 
 def test_a_port_in_use(tmp_path: Path) -> None:
-    with (
-        running() as loop,
-        serve_pages(AgentOptions(metrics=NamedPath("0")), loop.board) as ((_, _, address),),
-    ):
+    with running() as loop, serve_pages(AgentOptions(metrics=NamedPath("0")), loop.board) as found:
+        address = found["metrics"]
         assert address.startswith("http://127.0.0.1:")
         place = address.removeprefix("http://").removesuffix("/metrics")
         options = AgentOptions(page=NamedPath(place))
@@ -72,7 +70,7 @@ def test_a_port_in_use(tmp_path: Path) -> None:
 def test_metrics_and_page_share_a_server() -> None:
     options = AgentOptions(metrics=NamedPath("127.0.0.1:0"), page=NamedPath("0"))
     with running() as loop, serve_pages(options, loop.board) as found:
-        (_, _, metrics), (_, _, page) = found
+        metrics, page = found["metrics"], found["page"]
         assert metrics == f"{page}metrics"
         assert fetched(page).decode() == PAGE
         assert json.loads(fetched(f"{page}status.json"))["agent"]["pid"] == 77
@@ -80,7 +78,7 @@ def test_metrics_and_page_share_a_server() -> None:
 
 def test_nothing_is_served_by_default() -> None:
     with running() as loop, serve_pages(AgentOptions(), loop.board) as found:
-        assert found == []
+        assert found == {}
 
 
 def test_the_page_loads_nothing_from_elsewhere() -> None:

@@ -20,6 +20,11 @@ if TYPE_CHECKING:
     from microros_gen.web.server import Answer, Routes
 
 
+_TEXT = "text/plain; charset=utf-8"
+NO_RESPONSE = b"the agent does not respond\n"
+"""The answer to all questions while the agent's thread does not run."""
+
+
 class Rendered:
     """A form of the status, which is made once for each status, however many ask for it."""
 
@@ -38,7 +43,7 @@ class Rendered:
 
         status = self._board.ask()
         if status is None:
-            return Answer("text/plain; charset=utf-8", b"the agent does not respond\n", 503)
+            return Answer(_TEXT, NO_RESPONSE, 503)
         with self._lock:
             if self._of is not status:
                 self._of, self._content = status, self._render(status).encode()
@@ -46,13 +51,30 @@ class Rendered:
 
 
 def status_routes(board: StatusBoard) -> Routes:
-    """Return the answers to questions about the status."""
-    return {PATH: Rendered(board, "application/json", text_of)}
+    """Return the answers to questions about status and health."""
+    return {**health_routes(board), PATH: Rendered(board, "application/json", text_of)}
+
+
+def health_routes(board: StatusBoard) -> Routes:
+    """Return whether the agent responds (`/healthz`), and whether all of its transports accept messages (`/readyz`)."""
+    return {"/healthz": lambda: _health(board, False), "/readyz": lambda: _health(board, True)}
+
+
+def _health(board: StatusBoard, needs_transports: bool) -> Answer:
+    from microros_gen.web.server import Answer
+
+    status = board.ask()
+    if status is None:
+        return Answer(_TEXT, NO_RESPONSE, 503)
+    late = [f"{each.kind} {each.address} is not ready" for each in status.transports if not each.ready]
+    if needs_transports and late:
+        return Answer(_TEXT, "".join(f"{line}\n" for line in late).encode(), 503)
+    return Answer(_TEXT, b"ok\n")
 
 
 def metrics_routes(board: StatusBoard) -> Routes:
-    """Return the metrics of Prometheus."""
-    return {metrics.PATH: Rendered(board, metrics.CONTENT_TYPE, metrics.metrics_text)}
+    """Return the metrics of Prometheus, and the health."""
+    return {**health_routes(board), metrics.PATH: Rendered(board, metrics.CONTENT_TYPE, metrics.metrics_text)}
 
 
 def page_routes(board: StatusBoard) -> Routes:

@@ -25,7 +25,10 @@ from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
 from microros_gen.web.places import Place, read_place
 
 if TYPE_CHECKING:
-    from microros_gen.web.server import Answer
+    from microros_gen.web.server import Answer, Routes
+
+
+_PATHS = {"metrics": metrics.PATH.lstrip("/"), "page": ""}
 
 
 @contextmanager
@@ -40,49 +43,54 @@ def monitoring(
         if status is not None:
             stack.enter_context(in_background("status", status.run, status.stop))
             log.emit(Level.INFO, "status_ready", "status: {socket}", socket=str(status.path))
-        for event, name, address in stack.enter_context(serve_pages(options, board)):
-            log.emit(Level.INFO, event, name + ": {address}", address=address)
+        addresses = stack.enter_context(serve_pages(options, board))
+        if "metrics" in addresses:
+            log.emit(Level.INFO, "metrics_ready", "metrics: {address}", address=addresses["metrics"])
+        if "page" in addresses:
+            log.emit(Level.INFO, "page_ready", "page: {address}", address=addresses["page"])
         yield
 
 
 @contextmanager
-def serve_pages(options: AgentOptions, board: StatusBoard) -> Iterator[list[tuple[str, str, str]]]:
-    """Serve metrics and page within the context, from one server where both have the same address.
+def serve_pages(options: AgentOptions, board: StatusBoard) -> Iterator[dict[str, str]]:
+    """Serve `metrics` and `page` within the context, from one server where both have the same address.
 
-    Give the event, the name and the address of each. Raises UserError.
+    Give the address of each. Raises UserError.
     """
-    wanted = (
-        ("metrics_ready", "metrics", options.metrics, metrics_routes(board), metrics.PATH.lstrip("/")),
-        ("page_ready", "page", options.page, page_routes(board) if options.page else {}, ""),
-    )
     diagnostics = Diagnostics()
-    routes: dict[Place, dict[str, Callable[[], Answer]]] = {}
-    found: list[tuple[str, str, NamedPath, Place, str]] = []
-    for event, name, named, answers, path in wanted:
-        if named is None:
-            continue
-        place = read_place(named.path)
-        if place is None:
+    places: dict[str, tuple[NamedPath, Place]] = {}
+    for name, named in (("metrics", options.metrics), ("page", options.page)):
+        place = read_place(named.path) if named is not None else None
+        if named is not None and place is None:
             message = f"'{named.path}' is no address for the {name}"
             diagnostics.error(message, named.span, "Write 127.0.0.1:9464, or a port alone", id="MG-9791")
-            continue
-        routes.setdefault(place, {}).update(answers)
-        found.append((event, name, named, place, path))
+        elif named is not None and place is not None:
+            places[name] = named, place
     diagnostics.check()
+    routes: dict[Place, dict[str, Callable[[], Answer]]] = {}
+    for name, (_, place) in places.items():
+        answers = metrics_routes(board) if name == "metrics" else page_routes(board)
+        routes.setdefault(place, {}).update(answers)
     with ExitStack() as stack:
         urls: dict[Place, str] = {}
-        for _, name, named, place, _ in found:
-            if place in urls:
-                continue
-            try:
-                from microros_gen.web.server import served
+        for name, (named, place) in places.items():
+            if place not in urls:
+                urls[place] = stack.enter_context(_served(name, named, place, routes[place]))
+        yield {name: urls[place] + _PATHS[name] for name, (_, place) in places.items()}
 
-                urls[place] = stack.enter_context(served(place, routes[place]))
-            except OSError as error:
-                message = f"the {name} cannot be served at '{named.path}': {error.strerror or error}"
-                hint = "Choose another address or port; port 0 is a free one"
-                raise UserError([Diagnostic(message, named.span, hint, id="MG-9792")]) from error
-        yield [(event, name, urls[place] + path) for event, name, _, place, path in found]
+
+@contextmanager
+def _served(name: str, named: NamedPath, place: Place, routes: Routes) -> Iterator[str]:
+    from microros_gen.web.server import served
+
+    with ExitStack() as stack:
+        try:
+            address = stack.enter_context(served(place, routes))
+        except OSError as error:
+            message = f"the {name} cannot be served at '{named.path}': {error.strerror or error}"
+            hint = "Choose another address or port; port 0 is a free one"
+            raise UserError([Diagnostic(message, named.span, hint, id="MG-9792")]) from error
+        yield address
 
 
 def _status_socket(named: str | None, board: StatusBoard, log: EventLog) -> StatusSocket | None:

@@ -36,9 +36,16 @@ _PERIOD_S = 1.0
     is_flag=True,
     help="Ask once a second: the table is replaced in a terminal; JSON is one line per answer.",
 )
+@click.option(
+    "--check",
+    is_flag=True,
+    help="Print `ok`, or the transports that accept no messages, and say the same by the exit status.",
+)
 @format_option
 @click.pass_context
-def status_command(ctx: click.Context, path: Path | None, pid: int | None, watch: bool, kind: str) -> None:
+def status_command(
+    ctx: click.Context, path: Path | None, pid: int | None, watch: bool, check: bool, kind: str
+) -> None:
     """Show the clients of a running agent: transport, round trip, traffic, losses, reconnects, last warning.
 
     Needs no ROS 2. Asks at the local socket of the agent, which only the user of the agent may use.
@@ -47,13 +54,20 @@ def status_command(ctx: click.Context, path: Path | None, pid: int | None, watch
     microros-gen agent status
     microros-gen agent status --watch
     microros-gen agent status --format json
+    microros-gen agent status --check
 
-    Exit status 2: no agent runs, several run and none is chosen, or the agent does not answer. SIGINT ends --watch
-    with status 0.
+    Exit status 1: with --check, a transport is not ready, for example a serial device that is unplugged. 2: no agent
+    runs, several run and none is chosen, or the agent does not answer. SIGINT ends --watch with status 0.
     """
     if path is not None and pid is not None:
         raise click.UsageError("give --socket or --pid, not both", ctx)
+    if check and watch:
+        raise click.UsageError("give --check or --watch, not both", ctx)
     place = path or _socket_of(pid)
+    if check:
+        late = _not_ready(_asked(place))
+        click.echo("\n".join(late) or "ok")
+        ctx.exit(1 if late else 0)
     if not watch:
         click.echo(_shown(_asked(place), kind, once=True), nl=False)
         ctx.exit(0)
@@ -69,6 +83,12 @@ def _watch(place: Path, kind: str) -> None:
     while True:
         click.echo(f"{clear}{_shown(_asked(place), kind, once=False)}{end}", nl=False)
         time.sleep(_PERIOD_S)
+
+
+def _not_ready(document: dict[str, Any]) -> list[str]:
+    """Return a line for each transport that accepts no messages."""
+    transports = document["agent"]["transports"]
+    return [f"{each['kind']} {each['address']} is not ready" for each in transports if not each["ready"]]
 
 
 def _shown(document: dict[str, Any], kind: str, once: bool) -> str:
