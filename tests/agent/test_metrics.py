@@ -92,8 +92,8 @@ def test_what_was_not_measured_has_no_series() -> None:
 
 def test_the_number_of_series_is_bounded_by_the_number_of_clients() -> None:
     """Clients that have left have none, however many keys there were."""
-    gone = tuple(replace(CLIENT, key=f"{i:08X}", presence=Presence.GONE) for i in range(500))
-    text = metrics_text(replace(STATUS, clients=(*gone, CLIENT)))
+    closed = tuple(replace(CLIENT, key=f"{i:08X}", presence=Presence.GONE) for i in range(500))
+    text = metrics_text(replace(STATUS, clients=(*closed, CLIENT)))
     assert series(text) == series(metrics_text(STATUS))
     began = time.process_time()
     thousand = metrics_text(many(1000))

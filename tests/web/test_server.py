@@ -11,6 +11,7 @@ import pytest
 
 from microros_gen.web.places import Place, is_loopback, read_place
 from microros_gen.web.server import CONNECTIONS, Answer, Routes, served
+from tests.support.patience import seconds
 
 ROUTES: Routes = {
     "/": lambda: Answer("text/plain", b"page"),
@@ -86,7 +87,7 @@ def test_connections_that_say_nothing_are_limited_and_do_not_last() -> None:
         place = ("127.0.0.1", int(address.rstrip("/").rpartition(":")[2]))
         silent = [socket.create_connection(place) for _ in range(CONNECTIONS)]
         with socket.create_connection(place) as further:
-            further.settimeout(30)
+            further.settimeout(seconds(30))
             assert further.recv(1) == b""
         for connection in silent:
             connection.close()

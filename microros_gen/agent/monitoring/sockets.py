@@ -117,7 +117,7 @@ def known_sockets(environ: Mapping[str, str] = os.environ, pid: int | None = Non
 def _listed() -> list[Path]:
     """Return the sockets of all users' agents in the table of proc(5); empty on a system without it."""
     try:
-        lines = LISTED.read_text(errors="replace").splitlines()
+        lines = LISTED.read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError:
         return []
     paths = {Path(line.split(maxsplit=7)[-1]) for line in lines if "/microros-agent-" in line}
