@@ -14,9 +14,9 @@ from dataclasses import field
 from enum import IntEnum
 
 from microros_gen.agent.clients import Client, ClientTable
-from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.streams_out import Queue
 from microros_gen.agent.traffic import Counts, Direction, Meter, counts_of
+from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.wire.constants import ObjectKind
 from microros_gen.records import dataclass
 
@@ -165,7 +165,8 @@ class ClientStates:
         if now >= self._measure_at:
             self._measure_at = now + MEASURE_S
             for record in self._records.values():
-                record.meter.measure(_traffic(record), now)
+                if record.client is not None:
+                    record.meter.measure(_traffic(record, record.client), now)
         if self._is_wanted and now >= self._look_at:
             self._is_wanted = False
             self._look_at = now + LOOK_S

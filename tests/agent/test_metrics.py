@@ -57,6 +57,7 @@ def test_values_are_those_of_the_status() -> None:
         "repeated_messages_total": 4,
         "sessions_total": 3,
         "silences_total": 1,
+        "denied_total": 0,
         "queue_fill_ratio": 0.5,
         "queue_bytes": 512,
         "input_bytes": 100,

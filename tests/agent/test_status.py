@@ -102,6 +102,7 @@ def test_the_json(folder: Path) -> None:
         "sessions": 3,
         "reconnects": 2,
         "silences": 1,
+        "denied": 0,
         "last_error": "late",
     }
 

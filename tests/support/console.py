@@ -113,9 +113,7 @@ class Terminal:
             f' "agent "*|"run "*) set -- "$@" --domain {domain};; esac'
         )
         patient = 'case "$1" in topic|service|param|action) set -- "$@" --spin-time 30;; esac'
-        _script(tools / "microros-gen", f'{own_domain}
-{patient}
-exec {python} -m microros_gen "$@"')
+        _script(tools / "microros-gen", f'{own_domain}\n{patient}\nexec {python} -m microros_gen "$@"')
         self._environment = {
             **os.environ,
             "PATH": f"{tools}:{os.environ['PATH']}",

@@ -67,6 +67,7 @@ def client_data(state: ClientState) -> dict[str, Any]:
         "sessions": state.sessions,
         "reconnects": state.reconnects,
         "silences": state.silences,
+        "denied": state.denied,
         "last_error": state.last_error,
     }
 

@@ -42,6 +42,7 @@ class _Family:
             yield f"{full}{{{text}}} {value!r}" if labels else f"{full} {value!r}"
 
 
+_PRESENT = (Presence.CONNECTED, Presence.SILENT)
 _AGENT: tuple[tuple[_Family, Callable[[AgentStatus], Samples]], ...] = (
     (
         _Family("build_info", "gauge", "Version of the agent; always 1."),
@@ -56,10 +57,10 @@ _AGENT: tuple[tuple[_Family, Callable[[AgentStatus], Samples]], ...] = (
         lambda s: [((("transport", f"{t.kind} {t.address}"),), int(t.ready)) for t in s.transports],
     ),
     (
-        _Family("clients", "gauge", "Number of clients that have not left, by state."),
+        _Family("clients", "gauge", "Number of clients that have not left, and of refused ones, by state."),
         lambda s: [
             ((("state", p.name.lower()),), sum(c.presence is p for c in s.clients))
-            for p in (Presence.CONNECTED, Presence.SILENT)
+            for p in (*_PRESENT, Presence.REFUSED)
         ],
     ),
     (_Family("clients_limit", "gauge", "Maximum number of clients."), lambda s: [((), s.clients_max)]),
@@ -128,6 +129,10 @@ _CLIENT: tuple[tuple[_Family, Callable[[ClientState, float], float | None]], ...
     (_Family("client_sessions_total", "counter", "Sessions that the client began."), lambda c, _: c.sessions),
     (_Family("client_silences_total", "counter", "Time-outs of the client."), lambda c, _: c.silences),
     (
+        _Family("client_denied_total", "counter", "Its sessions and objects that the policy refused."),
+        lambda c, _: c.denied,
+    ),
+    (
         _Family("client_queue_fill_ratio", "gauge", "How full the queue of output to the client is, 0 to 1."),
         lambda c, _: c.queue.fill,
     ),
@@ -149,7 +154,7 @@ def metrics_text(status: AgentStatus) -> str:
     for family, samples in _AGENT:
         lines += family.lines(samples(status))
     clients = [
-        (client, (("client", client.key),)) for client in status.clients if client.presence != Presence.GONE
+        (client, (("client", client.key),)) for client in status.clients if client.presence in _PRESENT
     ]
     lines += _INFO.lines(
         ((*label, ("name", name_of(client)), ("transport", client.transport)), 1) for client, label in clients
