@@ -47,6 +47,7 @@ NOTHING = {
     "check": False,
     "manifest": (),
     "interface_path": (),
+    "record": None,
     "verbose": 0,
     "log_format": None,
 }
@@ -68,6 +69,7 @@ entities: [a.json, /b.json]
 policy: policy.yaml
 manifests: [m.json, 0x1=n.json]
 interface_paths: [idl]
+record: all.pcapng
 log: {format: json, verbose: 2}
 """
 
@@ -99,6 +101,7 @@ def test_everything_that_a_file_can_say(tmp_path: Path) -> None:
         policy=tmp_path / "policy.yaml",
         manifests=(ManifestOf(tmp_path / "m.json"), ManifestOf(tmp_path / "n.json", "0x1")),
         interface_paths=(tmp_path / "idl",),
+        record=tmp_path / "all.pcapng",
         log_format="json",
         verbose=2,
     )

@@ -35,6 +35,7 @@ NEEDED = {
     "zsh": "zsh",
     "fish": "fish",
     "tcc": "tcc",
+    "tcpdump": "tcpdump",
     "nm": "binutils",
     "valgrind": "valgrind",
     "frama-c": "frama-c-base",

@@ -83,5 +83,6 @@ class AgentFile:
     policy: NamedPath | None = None
     manifests: tuple[NamedPath, ...] = ()
     interface_paths: tuple[NamedPath, ...] = ()
+    record: NamedPath | None = None
     log_format: str | None = None
     verbose: int | None = None

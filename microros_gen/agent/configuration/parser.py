@@ -66,6 +66,7 @@ def parse_agent_file(source: Source, diagnostics: Diagnostics) -> AgentFile:
         policy=_path(child(tree, "policy")),
         manifests=_paths(child(tree, "manifests")),
         interface_paths=_paths(child(tree, "interface_paths")),
+        record=_path(child(tree, "record")),
         log_format=text_of(child(log, "format")),
         verbose=int_of(child(log, "verbose")),
     )

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import click
@@ -211,6 +212,30 @@ def canfd(devices: tuple[str, ...], **common: Any) -> _Part:
     microros-gen agent canfd --device can0
     """
     return _Part(tuple(CanChoice(device) for device in devices), common)
+
+
+@command.command(short_help="Record every message; transports follow.")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path, dir_okay=False),
+    required=True,
+    metavar="FILE",
+    help="File (pcapng); an existing one is replaced.",
+)
+@common_options
+def record(output: Path, **common: Any) -> _Part:
+    """Run an agent that records every message, as --record FILE does; transports follow.
+
+    Wireshark, tshark and tcpdump read the file, and `agent replay` plays it. Each message is a UDP datagram there, with
+    its time in nanoseconds and its direction; comments say keys and nodes of clients. The file is complete up to the
+    last message at any time. If it cannot grow, the agent continues, and says how many messages are missing.
+
+    \b
+    microros-gen agent record -o failure.pcapng udp4 --port 8888
+    microros-gen agent record -o failure.pcapng --config agent.yaml
+    """
+    return _Part((), {**common, "record": output})
 
 
 @command.command()

@@ -167,6 +167,13 @@ _COMMON = (
         "DIR",
     ),
     click.option(
+        "--record",
+        type=click.Path(path_type=Path, dir_okay=False),
+        metavar="FILE",
+        help="Record every message in this file (pcapng, for Wireshark and `agent replay`); an existing one is"
+        " replaced.",
+    ),
+    click.option(
         "-v",
         "--verbose",
         count=True,
@@ -209,6 +216,7 @@ class AgentOptions:
     check: bool = False
     manifests: tuple[ManifestOf, ...] = ()
     interface_paths: tuple[Path, ...] = ()
+    record: Path | None = None
     log_format: str = "text"
     verbose: int = 0
     places: Mapping[Path, Span] = field(default_factory=dict, compare=False)
@@ -259,6 +267,7 @@ class AgentOptions:
                 *(ManifestOf.of(text, Path()) for text in options["manifest"]),
             ),
             interface_paths=_paths(folder, file.interface_paths, options["interface_path"]),
+            record=options["record"] or (folder / file.record.path if file.record else None),
             log_format=options["log_format"] or file.log_format or "text",
             verbose=options["verbose"] or file.verbose or 0,
             places={folder / n.path: n.span for n in _named(file) if n.span is not None},
@@ -297,7 +306,8 @@ def _read_file(path: Path | None) -> tuple[AgentFile, Path]:
 
 def _named(file: AgentFile) -> tuple[NamedPath, ...]:
     policy = () if file.policy is None else (file.policy,)
-    return (*file.references, *file.entities, *policy, *file.interface_paths)
+    recorded = () if file.record is None else (file.record,)
+    return (*file.references, *file.entities, *policy, *file.interface_paths, *recorded)
 
 
 def read_sources(

@@ -33,6 +33,7 @@ from microros_gen.agent.memory import MemoryGuard
 from microros_gen.agent.policy.model import Policy
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.readiness import notify
+from microros_gen.agent.recording.recorder import RecordedTransport, Recorder
 from microros_gen.agent.representation import References
 from microros_gen.agent.representation.reference_file import read_references
 from microros_gen.agent.ros.rclpy_bridge import open_bridge
@@ -75,6 +76,9 @@ def serve(options: AgentOptions) -> None:
     pool, budgets = InputPool(limits.input_bytes, limits.clients + streams), Budgets(limits, streams)
     shared = Shared(pool, budgets.output, Fairness(), Account())
     transports = open_transports(options.transports, options.discovery, log, shared)
+    recorder = _recorder(options, log, transports)
+    if recorder is not None:
+        transports = [RecordedTransport(transport, recorder) for transport in transports]
     parameters = ParametersOnDemand(options.parameter_server, options.parameter_file, options.domain, log)
     try:
         report, wait_s = graph_reporter(log), limits.request_wait_s
@@ -120,6 +124,20 @@ def serve(options: AgentOptions) -> None:
     ):
         notify("READY=1")
         server.run(lambda transport: _announce(announcements, transport), time.monotonic)
+    if recorder is not None:
+        recorder.close()
+
+
+def _recorder(options: AgentOptions, log: EventLog, transports: Sequence[Transport]) -> Recorder | None:
+    """Return the recorder that the options ask for; UserError, with the transports closed, if it cannot write."""
+    if options.record is None:
+        return None
+    try:
+        return Recorder(options.record, log)
+    except UserError as error:
+        _close(transports)
+        span = options.places.get(options.record)
+        raise UserError([replace(d, span=d.span or span) for d in error.diagnostics]) from error
 
 
 def check_memory(limits: Limits) -> None:

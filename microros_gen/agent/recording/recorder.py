@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Recorder: writes every message of an agent's clients, in both directions, to a pcapng file.
+
+Each packet is one write to the file, at its end, so a process that is killed leaves whole packets, and nothing waits in
+memory. What the file system does not take is lost and counted; the agent continues.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import stat
+import time
+from collections.abc import Callable, Hashable
+from functools import lru_cache
+from pathlib import Path
+
+from microros_gen import __version__
+from microros_gen.agent.log import EventLog, Level, printable
+from microros_gen.agent.recording import packets, pcapng
+from microros_gen.agent.recording.packets import Datagram, Endpoint
+from microros_gen.agent.representation import References, describe
+from microros_gen.agent.representation.description import (
+    Participant,
+    UnknownNameError,
+    UnsupportedKindError,
+)
+from microros_gen.agent.representation.reference import UnknownReferenceError
+from microros_gen.agent.transport.base import Receive, Transport
+from microros_gen.agent.wire.constants import ObjectKind, SubmessageId
+from microros_gen.agent.wire.entity_messages import Create
+from microros_gen.agent.wire.errors import MalformedError
+from microros_gen.agent.wire.message import header_size, split
+from microros_gen.agent.wire.session_messages import CreateClient
+from microros_gen.agent.wire.submessages import decode
+from microros_gen.diagnostics import Diagnostic, UserError
+
+MOST_KEYS = 4_096
+"""Maximum number of addresses whose client key is kept for comments."""
+_SOCKETS = ("udp4", "udp6", "tcp4", "tcp6")
+_DESCRIPTIONS = {
+    "udp4": "XRCE over UDP",
+    "udp6": "XRCE over UDP",
+    "tcp4": "XRCE over TCP; each message as a UDP datagram",
+    "tcp6": "XRCE over TCP; each message as a UDP datagram",
+    "canfd": "XRCE over CAN FD; each message as a UDP datagram, the identifier in the client's address",
+    "serial": "XRCE over a serial line; each message as a UDP datagram, the client's address in its address",
+}
+
+
+class Recorder:
+    """A file that is being written; one writer at a time."""
+
+    def __init__(self, path: Path, log: EventLog, clock: Callable[[], int] = time.time_ns) -> None:
+        """Create or replace the file. `clock` returns ns since 1970. Raises UserError if it cannot be written."""
+        self._path = path
+        self._log = log
+        self._clock = clock
+        self._file = _open(path)
+        self._size = 0
+        self._interfaces: dict[str, int] = {}
+        self._head = pcapng.section(f"microros-gen {__version__}")
+        self._keys: dict[str, str] = {}
+        self._dropped = 0
+        self.written = 0
+        """Number of messages in the file."""
+        self.lost = 0
+        """Number of messages that the file system did not take."""
+        self._append(b"")
+
+    def write(self, transport: Transport, address: Hashable, message: bytes, inbound: bool) -> None:
+        """Append a message from (`inbound`) or to the client at an address of `transport`. Never raises."""
+        label = transport.label
+        name = transport.name_of(address)
+        agent, client = _places(label, name, _number(address))
+        new = label not in self._interfaces
+        number = len(self._interfaces) if new else self._interfaces[label]
+        about = _DESCRIPTIONS.get(label.partition(" ")[0], "XRCE")
+        described = pcapng.interface(label, about) if new else b""
+        datagram = Datagram(client, agent, message) if inbound else Datagram(agent, client, message)
+        block = pcapng.packet(
+            number,
+            self._clock(),
+            packets.encode(datagram),
+            pcapng.INBOUND if inbound else pcapng.OUTBOUND,
+            self._comment(message, name) if inbound else "",
+            self._dropped,
+        )
+        if self._append(described + block):
+            self._interfaces[label] = number
+            self._dropped = 0
+            self.written += 1
+        else:
+            self._dropped += 1
+            self.lost += 1
+
+    def close(self) -> None:
+        """Close the file and log what it has."""
+        os.close(self._file)
+        text = "recorded {count} messages in {path}; {lost} lost"
+        self._log.emit(Level.INFO, "recorded", text, count=self.written, lost=self.lost, path=str(self._path))
+
+    def _append(self, blocks: bytes) -> bool:
+        """Write blocks at the end of the whole ones; return whether the file took them."""
+        data = self._head + blocks
+        try:
+            taken = os.pwrite(self._file, data, self._size)
+            if taken == len(data):
+                self._size += taken
+                self._head = b""
+                return True
+            why = "only a part was written"
+            os.ftruncate(self._file, self._size)
+        except OSError as error:
+            why = error.strerror or str(error)
+        if blocks and not self.lost:
+            text = "recording: {path} takes no more ({why}): messages are missing in it, and counted"
+            self._log.emit(Level.WARNING, "record_lost", text, path=str(self._path), why=why)
+        return False
+
+    def _comment(self, message: bytes, name: str) -> str:
+        """Return what a message says about its client: its key, or the name of its node; else nothing."""
+        at = 4 if message and message[0] >= 0x80 else 8
+        if len(message) <= at or message[at] > SubmessageId.CREATE:
+            return ""
+        try:
+            found = [
+                decode(identifier, flags, message, start, end)
+                for identifier, flags, start, end in split(message, header_size(message))
+                if identifier <= SubmessageId.CREATE
+            ]
+        except MalformedError:
+            return ""
+        remarks = []
+        for submessage in found:
+            if isinstance(submessage, CreateClient):
+                if len(self._keys) >= MOST_KEYS:
+                    self._keys.clear()
+                self._keys[name] = submessage.key.hex().upper()
+                remarks.append(f"client {self._keys[name]}")
+            elif isinstance(submessage, Create) and submessage.kind == ObjectKind.PARTICIPANT:
+                remarks.append(f"client {self._keys.get(name, '?')}: node {_node(submessage)}")
+        return printable(", ".join(remarks))
+
+
+class RecordedTransport:
+    """A transport whose messages are recorded."""
+
+    def __init__(self, inner: Transport, recorder: Recorder) -> None:
+        self._inner = inner
+        self._recorder = recorder
+        self.label = inner.label
+        self.forgeable = inner.forgeable
+        self.fileno = inner.fileno
+        self.name_of = inner.name_of
+        self.tick = inner.tick
+        self.claim = inner.claim
+        self.release = inner.release
+        self.close = inner.close
+
+    @property
+    def ready(self) -> bool:
+        """See Transport."""
+        return self._inner.ready
+
+    def pump(self, receive: Receive) -> None:
+        """See Transport."""
+
+        def recorded(data: bytes, address: Hashable, _transport: Transport) -> None:
+            self._recorder.write(self._inner, address, data, inbound=True)
+            receive(data, address, self)
+
+        self._inner.pump(recorded)
+
+    def send(self, data: bytes, address: Hashable) -> None:
+        """See Transport."""
+        self._recorder.write(self._inner, address, data, inbound=False)
+        self._inner.send(data, address)
+
+
+def _open(path: Path) -> int:
+    """Return the descriptor of an empty file that no other process writes. Raises UserError."""
+    try:
+        opened = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_NONBLOCK | os.O_CLOEXEC, 0o644)
+    except OSError as error:
+        raise UserError([_refused(path, error.strerror or str(error))]) from error
+    why = ""
+    if not stat.S_ISREG(os.fstat(opened).st_mode):
+        why = "it is not a regular file"
+    else:
+        try:
+            fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            os.ftruncate(opened, 0)
+        except OSError as error:
+            why = (
+                "another agent writes it"
+                if isinstance(error, BlockingIOError)
+                else error.strerror or str(error)
+            )
+    if why:
+        os.close(opened)
+        raise UserError([_refused(path, why)])
+    return opened
+
+
+def _refused(path: Path, why: str) -> Diagnostic:
+    return Diagnostic(
+        f"{path} cannot be written: {why}",
+        hint="Give --record a file in a folder that exists, such as --record agent.pcapng",
+        id="MG-9793",
+    )
+
+
+def _number(address: Hashable) -> int:
+    """Return a client's address on a line, or its identifier on a bus; 0 for others."""
+    number = address[1] if isinstance(address, tuple) and len(address) == 2 else 0
+    return number if isinstance(number, int) else 0
+
+
+@lru_cache(maxsize=1024)
+def _places(label: str, name: str, number: int) -> tuple[Endpoint, Endpoint]:
+    """Return the places of the agent and of a client, which the log calls `name`."""
+    kind, _, own = label.partition(" ")
+    if kind in _SOCKETS:
+        return packets.endpoint(own), packets.endpoint(name)
+    return packets.line_agent(), packets.line_client(number)
+
+
+def _node(create: Create) -> str:
+    try:
+        described = describe(create, References())
+    except (MalformedError, UnknownReferenceError, UnknownNameError, UnsupportedKindError):
+        return "?"
+    return described.name if isinstance(described, Participant) else "?"
