@@ -49,6 +49,7 @@ NOTHING = {
     "interface_path": (),
     "record": None,
     "verbose": 0,
+    "verbosity": None,
     "log_format": None,
 }
 WHOLE = """\
@@ -60,7 +61,7 @@ transports:
   - serial: {device: tty, baud: 9600}
   - serial: {device: /dev/ttyUSB0}
   - canfd: {device: can0}
-  - pty: {link: board}
+  - pty: {link: board, baud: 9600}
 discovery: {port: 7401}
 domain: 7
 limits: {clients: 3, client_timeout_s: 1.5, message_bytes: 1000}
@@ -91,7 +92,7 @@ def test_everything_that_a_file_can_say(tmp_path: Path) -> None:
             SerialChoice(str(tmp_path / "tty"), 9600),
             SerialChoice("/dev/ttyUSB0"),
             CanChoice("can0"),
-            PtyChoice(str(tmp_path / "board")),
+            PtyChoice(str(tmp_path / "board"), 9600),
         ),
         discovery=7401,
         domain=7,

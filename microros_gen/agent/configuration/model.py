@@ -34,9 +34,10 @@ class SerialChoice:
 
 @dataclass(frozen=True)
 class PtyChoice:
-    """A pseudo-terminal, and the path of the symbolic link that points to it."""
+    """A pseudo-terminal, the path of the symbolic link that points to it, and the speed in bit/s that it shows."""
 
     link: str | None = None
+    baud: int = 115_200
     span: Span | None = field(default=None, compare=False, repr=False)
 
 

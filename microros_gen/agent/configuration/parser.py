@@ -83,7 +83,8 @@ def _transport(kind: str, node: YamlNode) -> TransportChoice:
     if kind == "canfd":
         return CanChoice(text_of(child(node, "device")) or "")
     if kind == "pty":
-        return PtyChoice(text_of(child(node, "link")))
+        speed = int_of(child(node, "baud"))
+        return PtyChoice(text_of(child(node, "link")), PtyChoice.baud if speed is None else speed)
     port = int_of(child(node, "port"))
     limits = tuple((key, value) for key, value in _numbers(node) if key in _TCP_LIMITS)
     return SocketChoice(

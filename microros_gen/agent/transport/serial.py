@@ -102,11 +102,16 @@ class Pty(Line):
     A client that closes and opens it again finds the same one.
     """
 
-    def __init__(self, log: EventLog, link: Path | None = None) -> None:
-        """Create it, and a symbolic link to it. Raises UserError if that is not possible."""
+    def __init__(self, log: EventLog, link: Path | None = None, baud: int = DEFAULT_BAUD) -> None:
+        """Create it, and a symbolic link to it. Raises UserError if that is not possible.
+
+        `baud` is the speed that programs see that open it; it does not delay bytes.
+        """
+        if baud not in speeds():
+            raise UserError([_no_such_speed(baud)])
         self._master, self._slave = os.openpty()
         os.set_blocking(self._master, False)
-        _make_raw(self._slave, DEFAULT_BAUD)
+        _make_raw(self._slave, baud)
         device = os.ttyname(self._slave)
         self._link = link
         if link is not None:

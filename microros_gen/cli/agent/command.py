@@ -19,6 +19,8 @@ from microros_gen.agent.configuration.model import (
 )
 from microros_gen.agent.transport.sockets import PROTOCOLS, Protocol
 from microros_gen.agent.transport.tcp import TcpLimits
+from microros_gen.cli.agent.compatible import translated
+from microros_gen.cli.agent.devices import devices_of
 from microros_gen.cli.agent.options import AgentOptions, common_options
 from microros_gen.cli.agent.status import status_command
 from microros_gen.diagnostics import nearest
@@ -35,6 +37,9 @@ class _Part:
 
 class _Transports(click.Group):
     """Several transports in one command; a wrong name gets the nearest one."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        return super().parse_args(ctx, translated(args))
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -118,6 +123,7 @@ def _socket_command(protocol: Protocol) -> None:
     )
 
     @click.option(
+        "-p",
         "--port",
         type=click.IntRange(0, 65535),
         default=SocketChoice.port,
@@ -152,27 +158,44 @@ for _protocol in PROTOCOLS.values():
     _socket_command(_protocol)
 
 
+def _baud(function: Callable[..., Any]) -> Callable[..., Any]:
+    return click.option(
+        "-b",
+        "--baud",
+        "--baudrate",
+        "baud",
+        type=click.IntRange(min=1),
+        default=SerialChoice.baud,
+        show_default=True,
+        metavar="N",
+        help="Speed in bit/s; 8 data bits, no parity, 1 stop bit, no flow control. The bytes of a pseudo-terminal do"
+        " not wait for it.",
+    )(function)
+
+
+_file = click.option(
+    "-f",
+    "--file",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="File with the paths of devices, one a line.",
+)
+
+
 @command.command()
 @click.option(
+    "-D",
     "--device",
     "--dev",
     "devices",
     multiple=True,
-    required=True,
     metavar="PATH",
     help="Serial device, such as /dev/ttyUSB0, /dev/ttyACM0 or /dev/pts/3. Can be repeated.",
 )
-@click.option(
-    "--baud",
-    type=click.IntRange(min=1),
-    default=SerialChoice.baud,
-    show_default=True,
-    metavar="N",
-    help="Speed of these devices in bit/s; 8 data bits, no parity, 1 stop bit, no flow control."
-    " A pseudo-terminal ignores it.",
-)
+@_file
+@_baud
 @common_options
-def serial(devices: tuple[str, ...], baud: int, **common: Any) -> _Part:
+def serial(devices: tuple[str, ...], file: Path | None, baud: int, **common: Any) -> _Part:
     """Serve clients on serial lines: boards at a UART or USB, images in an emulator.
 
     The agent waits for a device that does not exist yet or was unplugged; its clients continue when it is back. No
@@ -185,11 +208,37 @@ def serial(devices: tuple[str, ...], baud: int, **common: Any) -> _Part:
     microros-gen agent serial --device /dev/ttyACM0 --device /dev/ttyACM1 --baud 921600
     microros-gen agent serial --device /dev/ttyACM0 serial --device /dev/ttyS1 --baud 9600
     """
-    return _Part(tuple(SerialChoice(device, baud) for device in devices), common)
+    return _lines(devices, file, baud, common)
 
 
 @command.command()
 @click.option(
+    "-D",
+    "--devs",
+    "devices",
+    metavar="PATHS",
+    help="Serial devices in one argument, separated by spaces.",
+)
+@_file
+@_baud
+@common_options
+def multiserial(devices: str | None, file: Path | None, baud: int, **common: Any) -> _Part:
+    """Serve clients on several serial lines, named as for micro_ros_agent; otherwise like serial.
+
+    \b
+    microros-gen agent multiserial --devs "/dev/ttyACM0 /dev/ttyACM1" -b 921600
+    microros-gen agent multiserial --file devices.txt
+    """
+    return _lines(tuple((devices or "").split()), file, baud, common)
+
+
+def _lines(devices: tuple[str, ...], file: Path | None, baud: int, common: dict[str, Any]) -> _Part:
+    return _Part(tuple(SerialChoice(device, baud) for device in devices_of(devices, file)), common)
+
+
+@command.command()
+@click.option(
+    "-D",
     "--device",
     "--dev",
     "devices",
@@ -245,8 +294,9 @@ def record(output: Path, **common: Any) -> _Part:
     metavar="PATH",
     help="Create a symbolic link to the pseudo-terminal, so that its name is known in advance; removed at the end.",
 )
+@_baud
 @common_options
-def pty(link: str | None, **common: Any) -> _Part:
+def pty(link: str | None, baud: int, **common: Any) -> _Part:
     """Create a pseudo-terminal and serve the clients that open it as their serial device.
 
     The client opens the path in the ready line. The path stays the same while clients come and go.
@@ -255,7 +305,8 @@ def pty(link: str | None, **common: Any) -> _Part:
     microros-gen agent pty
     microros-gen agent pty --link /tmp/board
     """
-    return _Part((PtyChoice(link),), common)
+    return _Part((PtyChoice(link, baud),), common)
 
 
 command.add_command(status_command, _STATUS)
+command.add_command(pty, "pseudoterminal")  # its name in micro_ros_agent

@@ -32,12 +32,18 @@ MAXIMUM_DOMAIN = 232
 NO_SOCKET = "none"
 """Value of --status-socket for an agent without one."""
 
+_VERBOSITY = (-3, -2, -2, -1, 0, 1, 2)
+"""Levels beyond INFO, by micro_ros_agent's: off, critical, error, warning, info, debug, trace."""
 _VALUE = re.compile(r"[\w.+-]+")
 
 
-def _file_option(name: str, text: str, metavar: str = "FILE") -> Callable[..., Any]:
+def _file_option(names: tuple[str, ...], text: str, metavar: str = "FILE") -> Callable[..., Any]:
     return click.option(
-        name, multiple=True, type=click.Path(path_type=Path), metavar=metavar, help=f"{text} Can be repeated."
+        *names,
+        multiple=True,
+        type=click.Path(path_type=Path),
+        metavar=metavar,
+        help=f"{text} Can be repeated.",
     )
 
 
@@ -55,6 +61,7 @@ _COMMON = (
         help="Put every client into this ROS domain. Default: the one that the client requests.",
     ),
     click.option(
+        "-d",
         "--discovery",
         is_flag=True,
         help="Answer clients that search for agents in the multicast group 239.255.0.2.",
@@ -132,12 +139,12 @@ _COMMON = (
         help="Any limit of the configuration file, such as message_bytes=65536. Can be repeated.",
     ),
     _file_option(
-        "--references",
+        ("-r", "--references", "--refs"),
         "XML profiles that clients refer to instead of describing their entities, in the format of the public agent"
         " (-r); `build` writes OUT/agent/references.xml.",
     ),
     _file_option(
-        "--entities",
+        ("--entities",),
         "Entities (JSON) to create for clients that create none, when they open a session; `build` writes"
         " OUT/agent/entities.json.",
     ),
@@ -161,7 +168,7 @@ _COMMON = (
         " announces its type hashes to ROS 2 and reports types that differ. Can be repeated.",
     ),
     _file_option(
-        "--interface-path",
+        ("--interface-path",),
         "Package, folder of packages or colcon workspace with interface files, searched before the ament index, pip"
         " and the included interfaces.",
         "DIR",
@@ -178,6 +185,12 @@ _COMMON = (
         "--verbose",
         count=True,
         help="-v: print a line for each message; -vv: print each message decoded and in hexadecimal.",
+    ),
+    click.option(
+        "--verbosity",
+        type=click.IntRange(0, 6),
+        help="The same as a number, as micro_ros_agent's -v0 to -v6, which are understood too: 6 is -vv, 5 is -v, 4 the"
+        " default, 3 warnings and errors, 1 and 2 errors, 0 nothing but the ready lines.",
     ),
     click.option(
         "--log-format",
@@ -269,9 +282,17 @@ class AgentOptions:
             interface_paths=_paths(folder, file.interface_paths, options["interface_path"]),
             record=options["record"] or (folder / file.record.path if file.record else None),
             log_format=options["log_format"] or file.log_format or "text",
-            verbose=options["verbose"] or file.verbose or 0,
+            verbose=_verbose(options, file),
             places={folder / n.path: n.span for n in _named(file) if n.span is not None},
         )
+
+
+def _verbose(options: dict[str, Any], file: AgentFile) -> int:
+    """Return how many levels of the log beyond INFO are shown; negative: how many fewer."""
+    verbosity: int | None = options["verbosity"]
+    if verbosity is None:
+        return options["verbose"] or file.verbose or 0
+    return _VERBOSITY[verbosity]
 
 
 def _one_each(sections: Sequence[dict[str, Any]]) -> dict[str, Any]:

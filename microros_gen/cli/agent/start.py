@@ -106,7 +106,7 @@ def serve(options: AgentOptions) -> None:
         report_policy(options.policy, files.policy, log)
     _report_memory(log, limits)
     _report_descriptors(log, limits, streams)
-    if options.verbose:
+    if options.verbose > 0:
         transports = [TracedTransport(transport, log) for transport in transports]
     reported = ", ".join(f"{name} {value:.10g}" for name, value in asdict(limits).items())
     log.emit(Level.INFO, "limits", f"limits: {reported}", **asdict(limits))
@@ -229,7 +229,7 @@ def _open(choice: TransportChoice, log: EventLog, shared: Shared) -> Transport:
     if isinstance(choice, CanChoice):
         return CanFd(choice.device, log)
     if isinstance(choice, PtyChoice):
-        return Pty(log, Path(choice.link) if choice.link else None)
+        return Pty(log, Path(choice.link) if choice.link else None, choice.baud)
     protocol = PROTOCOLS[choice.kind]
     host = choice.bind or protocol.loopback
     if not protocol.stream:

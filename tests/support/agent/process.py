@@ -52,6 +52,17 @@ class AgentProcess:
             if part in line:
                 return line
 
+    def rest(self, timeout_s: float = 15.0) -> list[str]:
+        """Return every line of the log, after both streams have ended."""
+        end, ended = deadline(timeout_s), 0
+        while ended < 2:
+            line = self._lines.get(timeout=max(0.0, end - time.monotonic()))
+            if line is None:
+                ended += 1
+            else:
+                self.log.append(line)
+        return self.log
+
     def stop(self, number: int = signal.SIGTERM) -> int:
         """Send a signal; return the exit status."""
         self.process.send_signal(number)
