@@ -23,8 +23,12 @@ from microros_gen.cli.agent.compatible import translated
 from microros_gen.cli.agent.devices import devices_of
 from microros_gen.cli.agent.options import AgentOptions, common_options
 from microros_gen.cli.agent.status import status_command
+from microros_gen.cli.agent.replay import replay
 from microros_gen.diagnostics import nearest
 from microros_gen.records import dataclass
+
+_SEEN = "microros_gen.agent.first"
+"""Where a context has the first command of the line."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +56,10 @@ class _Transports(click.Group):
             found = f"Choose {' or '.join(both)}" if len(both) > 1 else nearest(args[0], self.commands)
             hint = found or f"Available: {', '.join(self.commands)}"
             raise click.UsageError(f"unknown transport '{args[0]}'. {hint}", ctx)
+        if args and args[0] == replay.name and ctx.meta.setdefault(_SEEN, args[0]) != args[0]:
+            raise click.UsageError("replay stands alone: no transport precedes it", ctx)
+        if args:
+            ctx.meta.setdefault(_SEEN, args[0])
         return super().resolve_command(ctx, args)
 
 
@@ -310,3 +318,6 @@ def pty(link: str | None, baud: int, **common: Any) -> _Part:
 
 command.add_command(status_command, _STATUS)
 command.add_command(pty, "pseudoterminal")  # its name in micro_ros_agent
+
+
+command.add_command(replay)

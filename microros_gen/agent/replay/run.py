@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The loop of a replay: all conversations of a recording at once, in its time."""
+
+from __future__ import annotations
+
+import select
+import time
+from collections.abc import Callable, Hashable, Sequence
+from functools import partial
+
+from microros_gen.agent.recording.recorded import opens_session
+from microros_gen.agent.replay.links import Link
+from microros_gen.agent.replay.player import Player
+from microros_gen.agent.transport.base import Transport
+
+ROUND_S = 0.005
+"""Seconds between two looks at what is due."""
+
+
+class Clock:
+    """The time of the recording: it begins with the replay, `speed` times as fast; 0: at once."""
+
+    def __init__(self, begin_ns: int, speed: float) -> None:
+        self._begin_ns = begin_ns
+        self._speed = speed
+        self._began = time.monotonic()
+
+    def reached(self, now: float) -> float:
+        """Return which time of the recording, in nanoseconds, it is at `now`."""
+        if not self._speed:
+            return float("inf")
+        return self._begin_ns + (now - self._began) * 1e9 * self._speed
+
+
+class ClientSide:
+    """Plays clients towards an agent: a link for each player, or one for all."""
+
+    def __init__(self, players: Sequence[Player], links: Sequence[Link], numbers: Sequence[int]) -> None:
+        """Take one link for each player, or one that all share; `numbers` are those of clients on a line, else 0."""
+        self._links = links
+        self._players: dict[tuple[Link, int], Player] = {}
+        self._places: list[tuple[Player, Link, int]] = []
+        for place, player in enumerate(players):
+            link = links[0] if len(links) == 1 else links[place]
+            number = numbers[place]
+            self._players[link, number] = player
+            self._places.append((player, link, number))
+
+    def wait(self, seconds: float) -> None:
+        """Take what arrives within some seconds. Raises OSError if an end is gone."""
+        readable, _, _ = select.select(self._links, [], [], seconds)
+        for link in readable:
+            link.receive(partial(self._take, link))
+
+    def tick(self, now: float, reached_ns: float) -> None:
+        """Send what is due. Raises OSError if an end is gone."""
+        for player, link, number in self._places:
+            player.tick(now, reached_ns, partial(link.send, number))
+
+    def _take(self, link: Link, number: int, message: bytes) -> None:
+        player = self._players.get((link, number))
+        if player is not None:
+            player.receive(message, partial(link.send, number))
+
+
+class AgentSide:
+    """Plays the agent towards clients: each gets the conversation of its key, or else the next one."""
+
+    def __init__(self, players: Sequence[Player], transports: Sequence[Transport]) -> None:
+        self._transports = transports
+        self._free = list(players)
+        self._players: dict[Hashable, tuple[Player, Callable[[bytes], None]]] = {}
+
+    def wait(self, seconds: float) -> None:
+        """Take what arrives within some seconds."""
+        readable, _, _ = select.select(self._transports, [], [], seconds)
+        for transport in readable:
+            transport.pump(self._take)
+
+    def tick(self, now: float, reached_ns: float) -> None:
+        """Send what is due."""
+        for transport in self._transports:
+            transport.tick(now)
+        for player, send in self._players.values():
+            player.tick(now, reached_ns, send)
+
+    def _take(self, data: bytes, address: Hashable, transport: Transport) -> None:
+        if address not in self._players and opens_session(data) and self._free:
+            at = 4 if data[0] >= 0x80 else 8
+            key = data[at + 12 : at + 16].hex().upper()
+            player = next((each for each in self._free if each.conversation.key == key), self._free[0])
+            self._free.remove(player)
+            self._players[address] = player, partial(_send_to, transport, address)
+        found = self._players.get(address)
+        if found is not None:
+            found[0].receive(data, found[1])
+
+
+def _send_to(transport: Transport, address: Hashable, data: bytes) -> None:
+    transport.send(data, address)
+
+
+class Replay:
+    """A replay that runs until all players are done, or `stop`."""
+
+    def __init__(self, players: Sequence[Player], side: ClientSide | AgentSide, speed: float) -> None:
+        """Play `speed` times as fast as recorded; 0: each message as soon as what preceded it has come."""
+        self._players = players
+        self._side = side
+        begin_ns = min(player.conversation.messages[0].time_ns for player in players)
+        self._clock = Clock(begin_ns, speed)
+        self._stopped = False
+
+    def stop(self) -> None:
+        """End soon; called from a signal handler."""
+        self._stopped = True
+
+    def run(self) -> None:
+        """Play. Raises OSError if the other end of a connection is gone."""
+        while not self._stopped and not all(player.done for player in self._players):
+            now = time.monotonic()
+            self._side.tick(now, self._clock.reached(now))
+            self._side.wait(ROUND_S)
