@@ -36,13 +36,12 @@ class ClientSide:
     """Plays clients towards an agent: a link for each player, or one for all."""
 
     def __init__(self, players: Sequence[Player], links: Sequence[Link], numbers: Sequence[int]) -> None:
-        """Take one link for each player, or one that all share; `numbers` are those of clients on a line, else 0."""
-        self._links = links
+        """Take the link of each player, which may be the same; `numbers` are those of clients on a line, else 0."""
+        self._links = list(dict.fromkeys(links))
         self._players: dict[tuple[Link, int], Player] = {}
         self._places: list[tuple[Player, Link, int]] = []
         for place, player in enumerate(players):
-            link = links[0] if len(links) == 1 else links[place]
-            number = numbers[place]
+            link, number = links[place], numbers[place]
             self._players[link, number] = player
             self._places.append((player, link, number))
 
