@@ -55,7 +55,7 @@ class Place:
 
 
 def open_link(place: Place, log: EventLog) -> Link:
-    """Return a link to the agent at a place. Raises UserError if there is none."""
+    """Return a link to the agent at a place. Raises UserError if it cannot be reached."""
     try:
         if place.kind in PROTOCOLS:
             return _SocketLink(place)

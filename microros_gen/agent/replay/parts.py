@@ -92,7 +92,7 @@ class Receiver:
         kept = [(name, each) for name, each in found if not isinstance(each, Acknack | Heartbeat)]
         if head.stream == STREAM_NONE and kept:
             if kept == self._last:
-                return Taken((), acknacks, heartbeats)  # sent again, as nothing had come
+                return Taken((), acknacks, heartbeats)  # sent again, without an answer
             self._last = kept
         return Taken(self._parts(kept, head.stream, number), acknacks, heartbeats)
 
@@ -106,7 +106,7 @@ class Receiver:
         """Return the messages up to `last` that have not come, as the bitmap of an ACKNACK; bit 0 is the next one."""
         first = self.expected.get(stream, 0)
         count = (last - first + 1) & 0xFFFF
-        if count > RELIABLE_WINDOW:  # all have come
+        if count > RELIABLE_WINDOW:  # all arrived
             return 0
         return sum(1 << i for i in range(count) if (stream, (first + i) & 0xFFFF) not in self._early)
 

@@ -166,7 +166,7 @@ class Player:
         return self._may_go_on(step.after, now, before)
 
     def _may_go_on(self, wanted: dict[Where, int], now: float, otherwise: str) -> bool:
-        """Return whether nothing is waited for any more: it has not come in time."""
+        """Return whether the wait is over: an answer is later than allowed."""
         if self._impatient:
             return True
         first_of_client = self._as_agent and not self._received

@@ -126,7 +126,7 @@ def test_two_clients_of_a_line(tmp_path: Path) -> None:
         (("a.pcapng", "--at", "serial:/dev/null"), "MG-9797"),
         (("a.pcapng", "--speed", "0"), "--speed"),
         (("a.pcapng", "udp4"), "unexpected extra argument"),
-        (("a.pcapng", "--skip", "DATAS"), "DATAS"),
+        (("a.pcapng", "--skip", "NOTHING"), "NOTHING"),
     ],
 )
 def test_wrong_use(tmp_path: Path, words: tuple[str, ...], shown: str) -> None:
