@@ -103,7 +103,7 @@ class Replay:
     """A replay that runs until all players are done, or `stop`."""
 
     def __init__(self, players: Sequence[Player], side: ClientSide | AgentSide, speed: float) -> None:
-        """Play `speed` times as fast as recorded; 0: each message as soon as what preceded it has come."""
+        """Play `speed` times as fast as recorded; 0: each message as soon as what preceded it arrived."""
         self._players = players
         self._side = side
         begin_ns = min(player.conversation.messages[0].time_ns for player in players)
