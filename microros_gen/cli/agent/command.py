@@ -22,8 +22,8 @@ from microros_gen.agent.transport.tcp import TcpLimits
 from microros_gen.cli.agent.compatible import translated
 from microros_gen.cli.agent.devices import devices_of
 from microros_gen.cli.agent.options import AgentOptions, common_options
-from microros_gen.cli.agent.status import status_command
 from microros_gen.cli.agent.replay import replay
+from microros_gen.cli.agent.status import status_command
 from microros_gen.diagnostics import nearest
 from microros_gen.records import dataclass
 
