@@ -6,6 +6,7 @@
 #include "microros/rmw_client.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_routes.h"
+#include "microros/xrce_session_spin.h"
 
 #include <stddef.h>
 
@@ -54,9 +55,7 @@ rmw_ret_t rmw_uros_spin_once(rmw_context_t * context)
   if (!session_is_open(context)) {
     return RMW_RET_INVALID_ARGUMENT;
   }
-  microros_lock();
-  xrce_session_pump(context->impl);
-  microros_unlock();
+  xrce_session_spin(context->impl);
   return RMW_RET_OK;
 }
 

@@ -16,6 +16,9 @@
 extern "C" {
 #endif
 
+/* Messages that a pump receives at most, so that a flood cannot block the client. */
+enum { XRCE_TURN_MESSAGES = 32 };
+
 /* Returns whether the calling task may receive and send. */
 static inline bool xrce_turn_is_mine(void)
 {

@@ -19,6 +19,9 @@ extern "C" {
 
 enum { XRCE_TURN_POLL_MS = 1000 };
 
+/* Messages that a pump receives, with the lock. The task of the session receives with xrce_session_spin. */
+enum { XRCE_TURN_MESSAGES = 1 };
+
 /* Returns whether the calling task may receive and send: the task of the session, and each task while that does not run. */
 bool xrce_turn_is_mine(void);
 

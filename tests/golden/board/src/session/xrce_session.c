@@ -5,6 +5,7 @@
 #include "microros/port.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_routes.h"
+#include "microros/xrce_session_take.h"
 #include "microros/xrce_wire.h"
 
 #include <string.h>
@@ -14,9 +15,6 @@
 static const uint8_t properties[] = {0};
 
 enum { PROPERTIES_AT = 21, CREATE_CLIENT_SIZE = PROPERTIES_AT + sizeof(properties) + 2 };
-
-/* Limits the datagrams per pump, so that a flood cannot block the client. */
-enum { DATAGRAMS_PER_PUMP = 32 };
 
 static const uint8_t cookie_and_version[] = {'X', 'R', 'C', 'E', 1, 0, 1, 15};
 
@@ -158,35 +156,12 @@ bool xrce_session_take_submessages(xrce_client_t * client, const uint8_t * messa
   return true;
 }
 
-static const uint32_t IN_SESSION = (uint32_t)XRCE_SESSION_ID ^ (uint32_t)XRCE_SESSION_NONE;
-
-/* Passes a message to its stream; returns false for a malformed message. */
-static bool session_take_message(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
-{
-  /* The two ids differ in one bit: one constant less is kept in a register while messages are received. */
-  if (size < XRCE_MESSAGE_HEADER || (message[0] & ~IN_SESSION) != (uint32_t)XRCE_SESSION_NONE) {
-    return false;
-  }
-  if ((message[0] & IN_SESSION) != 0u) {
-    client->session.received_ms = now;
-  }
-  return xrce_route_message(client, message, size, now);
-}
-
 static void session_receive(xrce_client_t * client, uint32_t now)
 {
-  xrce_session_t * session = &client->session;
-
-  /* at most DATAGRAMS_PER_PUMP rounds */
-  for (uint8_t i = 0; i < DATAGRAMS_PER_PUMP && session->transport_open; ++i) {
-    const int32_t size = xrce_transport_receive(&session->transport, client->input, MICROROS_INPUT_SIZE);
-
-    if (size == 0) {
+  /* at most XRCE_TURN_MESSAGES rounds */
+  for (uint8_t i = 0; i < (uint8_t)XRCE_TURN_MESSAGES && client->session.transport_open; ++i) {
+    if (!xrce_session_take(client, now)) {
       return;
-    }
-    ++session->statistics.received;
-    if (size < 0 || !session_take_message(client, client->input, (size_t)size, now)) {
-      ++session->statistics.malformed;
     }
   }
 }
