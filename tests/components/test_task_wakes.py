@@ -43,6 +43,19 @@ nodes:
     executors: [{{name: a}}]
 tasks: [{{name: idle, executor: a}}]
 """
+SHARED = """\
+version: 1
+profiles: [pure_sender, pure_reader]
+components: [+executor, +multithread]
+session: {{key: 7}}
+liveliness: acknack
+transport: {{type: udp, agent: "127.0.0.1:{port}"}}
+nodes:
+  - name: device
+    publishers: [{{topic: count, type: std_msgs/msg/Int32}}]
+    subscriptions: [{{topic: target, type: std_msgs/msg/Int32}}]
+"""
+WRITE_DATA = 7
 QUIET_MS = 3500
 FULL_MS = 1500
 READ = 100
@@ -53,14 +66,20 @@ SOME_ROOM = 20
 """The system may find some room in its buffers still; a task that tries each millisecond sleeps 1500 times."""
 
 
-def serve(agent: ReadingAgent, served: socket.socket) -> None:
-    """Answer datagrams, and offer a sample for each message of the device, until the socket is closed."""
+def serve(agent: ReadingAgent, served: socket.socket, lost: int = 0) -> None:
+    """Answer datagrams, and offer a sample for each message of the device, until the socket is closed.
+
+    The first `lost` datagrams with a message of the device do not arrive.
+    """
     offered = 0
     while True:
         try:
             datagram, peer = served.recvfrom(2048)
         except OSError:
             return
+        if lost and datagram[4] == WRITE_DATA:
+            lost -= 1
+            continue
         answers = agent.receive(datagram)
         if offered < len(agent.values(0)):
             answers += agent.numbers(1, offered)
@@ -77,6 +96,19 @@ def test_tasks_without_work_do_not_wake(tmp_path: Path) -> None:
         program = program_of(out, "task_quiet.c", more=("-pthread",))
         command = [str(program), str(QUIET_MS)]
         done = subprocess.run(command, capture_output=True, text=True, timeout=seconds(60), check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert int(done.stdout) <= TIMER
+
+
+def test_a_thread_that_shares_the_library_sleeps_until_there_is_something_to_do(tmp_path: Path) -> None:
+    """Another thread publishes once: the one that sleeps repeats the message, which was lost."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as served:
+        served.bind(("127.0.0.1", 0))
+        threading.Thread(target=serve, args=(ReadingAgent(), served, 1), daemon=True).start()
+        out = rendered(tmp_path, SHARED.format(port=served.getsockname()[1]))
+        program = program_of(out, "shared_quiet.c", more=("-pthread",))
+        command = [str(program), str(QUIET_MS)]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=seconds(90), check=False)
     assert (done.returncode, done.stderr) == (0, "")
     assert int(done.stdout) <= TIMER
 

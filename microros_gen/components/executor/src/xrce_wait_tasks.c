@@ -5,12 +5,11 @@
 #include "microros/xrce_wait.h"
 #include "microros/xrce_wait_left.h"
 
-/* Returns the time that a wait may take. Another task may take or close an entity and so give the session work without a
- * wake-up; writes do wake (xrce_tasks.h). This limits the delay. What the session has to do is not for a task that does not
- * run it. */
+/* Returns the time that a wait may take. Other tasks may give the session something to do, which does not end each wait at
+ * once (xrce_turn_change.h). What the session has to do is not for a task that does not run it. */
 static uint32_t wait_left(const xrce_client_t * client, uint32_t timeout_ms)
 {
-  const uint32_t longest_ms = xrce_turn_longest_ms();
+  const uint32_t longest_ms = xrce_turn_longest_ms(client);
   const uint32_t most_ms = timeout_ms < longest_ms ? timeout_ms : longest_ms;
 
   return xrce_turn_is_mine() ? xrce_wait_left(client, most_ms) : most_ms;

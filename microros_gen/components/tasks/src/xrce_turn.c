@@ -78,8 +78,9 @@ void xrce_turn_set_round(bool is_in_round)
   }
 }
 
-uint32_t xrce_turn_longest_ms(void)
+uint32_t xrce_turn_longest_ms(const xrce_client_t * client)
 {
+  (void)client;
   return turn_is_taken ? (uint32_t)TURN_LONGEST_MS : (uint32_t)XRCE_TURN_POLL_MS;
 }
 

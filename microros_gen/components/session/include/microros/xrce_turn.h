@@ -10,6 +10,7 @@
 
 #include "microros/xrce_forward.h"
 #include "microros/xrce_transport.h"
+#include "microros/xrce_turn_change.h"
 #include "microros/xrce_wire.h"
 
 #ifdef __cplusplus
@@ -46,24 +47,6 @@ static inline void xrce_turn_borrow(void)
 static inline void xrce_turn_return(const xrce_client_t * client)
 {
   (void)client;
-}
-
-/* Called when another task may have given the session something to do that no message shows. */
-static inline void xrce_turn_change(const xrce_client_t * client)
-{
-  (void)client;
-}
-
-/* Returns the longest wait for the line, milliseconds: not everything that gives the session something to do ends it. */
-static inline uint32_t xrce_turn_longest_ms(void)
-{
-  return 1000;
-}
-
-/* Returns the time until a component looks at what may be stored without a wake-up, at most `left`, milliseconds. */
-static inline uint32_t xrce_turn_poll(uint32_t left)
-{
-  return left;
 }
 
 /* Returns the time until a stream tries once more to send what the transport has refused, at most `left`, milliseconds. */

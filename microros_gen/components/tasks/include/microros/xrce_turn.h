@@ -45,7 +45,7 @@ void xrce_turn_set_round(bool is_in_round);
 
 /* Returns the longest wait for the line, milliseconds. While the task of the session runs, all that concerns it ends its
  * wait. */
-uint32_t xrce_turn_longest_ms(void);
+uint32_t xrce_turn_longest_ms(const xrce_client_t * client);
 
 /* Returns the time until a component looks at what may be stored without a wake-up, at most `left`, milliseconds. */
 static inline uint32_t xrce_turn_poll(uint32_t left)

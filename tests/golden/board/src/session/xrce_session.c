@@ -106,6 +106,7 @@ void xrce_session_mark_lost(xrce_client_t * client, uint32_t now)
   session->state = XRCE_CONNECTING;
   session->since_ms = now;
   session->due_ms = now;
+  xrce_turn_change(client); /* another task may wait for the old socket */
 }
 
 void xrce_session_on_status_agent(
@@ -174,6 +175,7 @@ static bool session_has_turn(const xrce_client_t * client)
     xrce_turn_request(client);
     return false;
   }
+  xrce_turn_change(client);
   return true;
 }
 
@@ -219,6 +221,7 @@ bool xrce_session_await(xrce_client_t * client, uint32_t timeout_ms)
 void xrce_session_close(xrce_client_t * client)
 {
   client->session.state = XRCE_CLOSED;
+  xrce_turn_change(client); /* another task may wait for it */
   session_close_transport(&client->session);
   (void)memset(client->states, 0, sizeof(client->states)); /* invalidates open handles */
 }

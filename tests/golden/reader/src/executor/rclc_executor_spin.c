@@ -34,6 +34,12 @@ static rcl_ret_t executor_look(const rclc_executor_t * executor, bool * changed,
   return RCL_RET_OK;
 }
 
+/* Another task may have ended this one, or the context. */
+static bool executor_is_over(const rclc_executor_t * executor)
+{
+  return rmw_turn_is_over() || (MICROROS_TASKS_SHARE != 0u && !rcl_context_is_valid(executor->context));
+}
+
 static rcl_ret_t executor_wait(const rclc_executor_t * executor, int64_t timeout_ns)
 {
   rcl_waiting_t waiting = rcl_waiting_begin(timeout_ns);
@@ -45,8 +51,8 @@ static rcl_ret_t executor_wait(const rclc_executor_t * executor, int64_t timeout
 
     rcl_waiting_receive();
     result = executor_look(executor, &changed, &look_again_ns);
-    /* cppcheck-suppress knownConditionTrueFalse ; without tasks of the application file no task ends */
-    if (result != RCL_RET_OK || changed || rcl_waiting_is_over(&waiting) || rmw_turn_is_over()) {
+    /* cppcheck-suppress knownConditionTrueFalse ; without other tasks nobody ends it */
+    if (result != RCL_RET_OK || changed || rcl_waiting_is_over(&waiting) || executor_is_over(executor)) {
       return result;
     }
     rcl_waiting_rest(&waiting, look_again_ns);
@@ -165,14 +171,11 @@ static void executor_rest(int64_t duration_ns)
 
 /*
  * Longest wait of a round whose end is not observed. A time-out makes nothing ready; it only serves
- * trigger functions that look at other state, and another task that ends the context.
+ * trigger functions that look at other state.
  */
 static uint64_t executor_wait_limit(const rclc_executor_t * executor)
 {
-  const bool is_unbounded =
-    MICROROS_TASKS_SHARE == 0u && executor->trigger_function == rclc_executor_trigger_any;
-
-  return is_unbounded ? UINT64_MAX : executor->timeout_ns;
+  return executor->trigger_function == rclc_executor_trigger_any ? UINT64_MAX : executor->timeout_ns;
 }
 
 rcl_ret_t rclc_executor_spin(rclc_executor_t * executor)

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What a task that waits for the line must learn of another one: nothing, since one task alone calls the library. A component
+ * with several tasks replaces this header. The caller holds the lock of the library. Internal. */
+#ifndef MICROROS_XRCE_TURN_CHANGE_H
+#define MICROROS_XRCE_TURN_CHANGE_H
+
+#include <stdint.h>
+
+#include "microros/xrce_forward.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Called when another task may have given the session something to do that no message shows. */
+static inline void xrce_turn_change(const xrce_client_t * client)
+{
+  (void)client;
+}
+
+/* Returns the time until a component looks at what may be stored without a wake-up, at most `left`, milliseconds. */
+static inline uint32_t xrce_turn_poll(uint32_t left)
+{
+  return left;
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* MICROROS_XRCE_TURN_CHANGE_H */
