@@ -105,7 +105,9 @@ class Holds:
         why = ""
         if key in self._open:
             why = f"{name}: recursion"
-        elif flow is None or not flow.steps or "@plt" in flow.name:
+        elif flow is not None and "@plt" in flow.name:
+            why = f"{name.partition('@')[0]}: in a shared library, whose code is not in the image"
+        elif flow is None or not flow.steps:
             why = f"{name}: its code is not in the image"
         elif depth > DEEPEST:
             why = f"{name}: takes the lock more than {DEEPEST} times"
