@@ -13,8 +13,6 @@ import pytest
 
 from tests.support.paths import ROOT
 
-sys.path.insert(0, str(ROOT / "docs"))  # as mkdocs does for docs/hooks.py
-
 
 @pytest.fixture(scope="session")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:

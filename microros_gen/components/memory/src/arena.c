@@ -139,7 +139,7 @@ static void * arena_reallocate(void * pointer, size_t size, void * state)
   }
   memory = microros_arena_allocate(size, state);
   if (memory != NULL) {
-    (void)memcpy(memory, pointer, (arena_units(block) - 1u) * (size_t)UNIT);
+    (void)memcpy(memory, pointer, ((size_t)arena_units(block) - 1u) * (size_t)UNIT);
     microros_arena_deallocate(pointer, state);
   }
   return memory;
