@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("folder", type=click.Path(path_type=Path), metavar="DIR")
+@click.argument("paths", type=click.Path(path_type=Path), metavar="DIR", nargs=-1, required=True)
 @click.option(
     "--profile",
     "profiles",
@@ -63,15 +63,25 @@ if TYPE_CHECKING:
     is_flag=True,
     help="Add a golden copy of the generated code and a workflow that compares it.",
 )
+@click.option(
+    "--migrate",
+    is_flag=True,
+    help="Rewrite the files that are named in place of DIR for this version: deprecated keys, and `version:`.",
+)
+@click.option("--dry-run", is_flag=True, help="With --migrate: print what would change, as `git diff` does.")
 @interface_path_option
+@click.pass_context
 def command(
-    folder: Path,
+    context: click.Context,
+    paths: tuple[Path, ...],
     profiles: tuple[str, ...],
     target: str | None,
     sources: Path | None,
     metas: tuple[Path, ...],
     platform: str | None,
     checked: bool,
+    migrate: bool,
+    dry_run: bool,
     interface_paths: tuple[Path, ...],
 ) -> int:
     """Write a new application folder: microros.yaml, main.c, CMakeLists.txt, README.md.
@@ -84,7 +94,18 @@ def command(
     microros-gen init my_robot --profile pure_reader --target qemu-mps2-an386
     microros-gen init my_robot --from old/src --from-colcon-meta old/app-colcon.meta
     microros-gen init my_robot --platform platformio --from old/src
+    microros-gen init --migrate --dry-run microros.yaml
     """
+    if migrate:
+        others = [name for name in context.params if name not in ("paths", "migrate", "dry_run")]
+        if any(context.params[name] for name in others):
+            raise click.UsageError("--migrate takes no other option than --dry-run.")
+        return _migrate(paths, dry_run)
+    if dry_run:
+        raise click.UsageError("--dry-run needs --migrate.")
+    if len(paths) != 1:
+        raise click.UsageError(f"Got unexpected extra argument ({paths[1]})")
+    [folder] = paths
     from microros_gen.migrate.application_folder import write_folder
     from microros_gen.migrate.proposal import InitOptions, draft_of
 
@@ -100,6 +121,28 @@ def command(
     echo_found(warnings_text(written.found))
     _report(written)
     return 0 if written.builds else 2
+
+
+def _migrate(paths: tuple[Path, ...], dry_run: bool) -> int:
+    """Write or print files for the current version; none of them is changed if one has an error."""
+    from difflib import unified_diff
+
+    from microros_gen.migrate.current_keys import migrated_file
+    from microros_gen.output.tree import write_files
+
+    diagnostics = Diagnostics()
+    files = [migrated_file(path, diagnostics) for path in paths]
+    diagnostics.check()
+    for file in files:
+        if file is None or file.before == file.after:
+            continue
+        if dry_run:
+            lines = (text.splitlines(keepends=True) for text in (file.before, file.after))
+            click.echo("".join(unified_diff(*lines, f"a/{file.path}", f"b/{file.path}")), nl=False)
+        else:
+            write_files(file.path.parent, {file.path.name: file.content()})
+            click.echo(f"{file.path}: written for this version")
+    return 0
 
 
 def _package(name: str) -> PackageDescription:
