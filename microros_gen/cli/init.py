@@ -137,8 +137,9 @@ def _migrate(paths: tuple[Path, ...], dry_run: bool) -> int:
         if file is None or file.before == file.after:
             continue
         if dry_run:
-            lines = (text.splitlines(keepends=True) for text in (file.before, file.after))
-            click.echo("".join(unified_diff(*lines, f"a/{file.path}", f"b/{file.path}")), nl=False)
+            before, after = file.before.splitlines(keepends=True), file.after.splitlines(keepends=True)
+            lines = unified_diff(before, after, f"a/{file.path}", f"b/{file.path}")
+            click.echo("".join(lines), nl=False)
         else:
             write_files(file.path.parent, {file.path.name: file.content()})
             click.echo(f"{file.path}: written for this version")

@@ -4,7 +4,7 @@
 Each schema is a file next to the parser that uses it, for editors too. Keywords of this project in them, which
 other tools take as annotations: `x-expects` (what a value must be, in words), `x-keys` (what keys must be),
 `x-reserved` (what a key is kept for), `x-format` (for hints). A key with `deprecated: true` works and gives a warning
-with the hint `deprecationMessage`, which editors show, too.
+with the hint `deprecationMessage`, which editors show, too; `x-replacement` says what `init --migrate` writes instead.
 """
 
 from __future__ import annotations
