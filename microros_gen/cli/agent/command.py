@@ -27,9 +27,6 @@ from microros_gen.cli.agent.status import status_command
 from microros_gen.diagnostics import nearest
 from microros_gen.records import dataclass
 
-_SEEN = "microros_gen.agent.first"
-"""Where a context has the first command of the line."""
-
 
 @dataclass(frozen=True)
 class _Part:
@@ -56,27 +53,28 @@ class _Transports(click.Group):
             found = f"Choose {' or '.join(both)}" if len(both) > 1 else nearest(args[0], self.commands)
             hint = found or f"Available: {', '.join(self.commands)}"
             raise click.UsageError(f"unknown transport '{args[0]}'. {hint}", ctx)
-        if args and args[0] == replay.name and ctx.meta.setdefault(_SEEN, args[0]) != args[0]:
-            raise click.UsageError("replay stands alone: no transport precedes it", ctx)
-        if args:
-            ctx.meta.setdefault(_SEEN, args[0])
         return super().resolve_command(ctx, args)
 
 
-_STATUS = "status"
+_ALONE = {
+    "status": "asks a running agent and starts none",
+    "replay": "plays a recording and starts no agent",
+}
+"""Commands beside which there is no transport and no option of an agent, and why."""
 _NAMED = "microros_gen.agent.named"
 """Place in the context of the command for the words that were read as transports."""
 
 
 def _check_alone(ctx: click.Context, args: list[str]) -> None:
-    """Refuse transports and options of an agent besides `status`."""
     named = ctx.meta.setdefault(_NAMED, [])
     named.append(args[0] if args else "")
     options = [name for name in ctx.params if ctx.get_parameter_source(name) is ParameterSource.COMMANDLINE]
-    if _STATUS in named and (len(named) > 1 or options):
-        other = next((name for name in named if name != _STATUS), None)
-        what = f"'{other}'" if other else f"--{(options or [_STATUS])[0].replace('_', '-')}"
-        raise click.UsageError(f"'status' asks a running agent and starts none: remove {what}", ctx)
+    alone = next((name for name in named if name in _ALONE), None)
+    if alone is None or (len(named) == 1 and not options):
+        return
+    other = next((name for name in named if name != alone), None)
+    what = f"'{other}'" if other else f"--{(options or [alone])[0].replace('_', '-')}"
+    raise click.UsageError(f"'{alone}' {_ALONE[alone]}: remove {what}", ctx)
 
 
 @click.group(
@@ -316,8 +314,6 @@ def pty(link: str | None, baud: int, **common: Any) -> _Part:
     return _Part((PtyChoice(link, baud),), common)
 
 
-command.add_command(status_command, _STATUS)
 command.add_command(pty, "pseudoterminal")  # its name in micro_ros_agent
-
-
 command.add_command(replay)
+command.add_command(status_command, "status")

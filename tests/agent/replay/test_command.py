@@ -137,11 +137,12 @@ def test_wrong_use(tmp_path: Path, words: tuple[str, ...], shown: str) -> None:
     assert shown in done.stderr
 
 
-def test_a_transport_before_it_is_refused(tmp_path: Path) -> None:
+@pytest.mark.parametrize(("before", "removed"), [("udp4", "'udp4'"), ("--domain=3", "--domain")])
+def test_it_starts_no_agent(tmp_path: Path, before: str, removed: str) -> None:
     record_publisher(tmp_path / "a.pcapng")
-    done = run("udp4", "replay", str(tmp_path / "a.pcapng"))
+    done = run(before, "replay", str(tmp_path / "a.pcapng"))
     assert done.returncode == 2
-    assert "replay stands alone" in done.stderr
+    assert f"'replay' plays a recording and starts no agent: remove {removed}" in done.stderr
 
 
 def test_packets_outside_of_sessions_are_counted(tmp_path: Path) -> None:
