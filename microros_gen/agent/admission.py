@@ -272,7 +272,7 @@ class Admission:
             self.dismiss(neighbor, "replaced by another at its address")
         client, heritage = self._clients.with_key(link.key), {}
         same = client is not None and client.session.link.session == link.session
-        if client is not None and same and client.access.rule == access.rule:
+        if client is not None and same and self._factory.fits(client, access):
             self._welcome_back(client, link, address, transport, now)
             return Status.OK
         if client is not None:
@@ -311,7 +311,11 @@ class Admission:
 
     def review(self, client: Client) -> None:
         """Apply a new policy to a client in session: it stays, or is told that its session ends."""
-        access, reason = self.gatekeeper.review(client)
+        try:
+            access, reason = self.gatekeeper.review(client)
+        except Exception:
+            self.dismiss(client, "disconnected: the new policy could not be applied to it")
+            raise
         if reason:
             say_farewell(client, Status.DENIED)
             self.dismiss(client, f"disconnected by the new policy: {reason}")

@@ -77,9 +77,14 @@ class ClientFactory:
             opened=now,
             shares=shares,
             access=access,
+            limits=limits,
         )
         self.limit(client)
         return client
+
+    def fits(self, client: Client, access: Access) -> bool:
+        """Return whether a client has the rule of `access`, and was made with its limits."""
+        return client.access.rule == access.rule and client.limits == self._limits_of(access)
 
     def limit(self, client: Client) -> None:
         """Give a client the limits of its rule that can change during a session."""

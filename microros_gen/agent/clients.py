@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from microros_gen.agent.budgets import Shares
 from microros_gen.agent.cutting import Cutting
 from microros_gen.agent.fairness import Account
+from microros_gen.agent.limits import Limits
 from microros_gen.agent.objects import ObjectTree
 from microros_gen.agent.policy.access import Access
 from microros_gen.agent.rates import Rate
@@ -50,6 +51,8 @@ class Client:
     """Accepted messages."""
     access: Access = field(default_factory=Access)
     """What it may use."""
+    limits: Limits | None = None
+    """The limits that it was made with."""
     denials: int = 0
     """Number of its objects that were refused as not permitted."""
     claimed: bool = False
@@ -97,9 +100,6 @@ class Client:
     """Its readings, by object id."""
     waiting: deque[Reading] = field(default_factory=deque)
     """Readings that wait for space on a reliable stream."""
-    second: float = 0.0
-    """End of the second in which `messages` are counted."""
-    messages: int = 0
     received: int = 0
     """Messages from it since it is known, and their bytes; `sent` counts those to it."""
     received_bytes: int = 0

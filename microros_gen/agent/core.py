@@ -267,16 +267,18 @@ class Agent:
                 return
         elif start == 8 and client.address != address:
             self._admission.check_move(client, transport, address)
-        self._payer = client.account
+        self._payer = account = client.account
         client.received += 1
         client.received_bytes += len(data)
-        work = client.account.work
-        if work is not None and not work.allows(now):
+        if account.work is not None and not account.work.allows(now):
+            account.dropped = True
+            if not client.asleep:
+                client.last_received = now  # it is there, although nothing is done for it
             raise MalformedError("too_much_work", "the policy allows no more time for it in this second")
-        if now >= client.second:
-            client.second, client.messages = now + 1.0, 0
-        client.messages += 1
-        if client.messages > client.messages_per_second:
+        if now >= account.second:
+            account.second, account.messages = now + 1.0, 0
+        account.messages += 1
+        if account.messages > client.messages_per_second:
             raise MalformedError("too_many_messages", f"more than {client.messages_per_second} in a second")
         client.last_received = now
         if start == 8 and client.address != address:

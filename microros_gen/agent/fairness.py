@@ -47,11 +47,17 @@ class Account:
     """When that cost was last updated."""
     work: WorkRate | None = None
     """The time that the policy allows for it."""
+    dropped: bool = False
+    """Whether the current message is dropped because that time is used up; it does not count then."""
+    second: float = 0.0
+    """End of the second in which `messages` are counted: over all sessions, so reconnecting does not help."""
+    messages: int = 0
 
     def bill(self, seconds: float, now: float) -> None:
         """Charge `seconds` of work that ended at `now`."""
-        if self.work is not None and not self.refused:
+        if self.work is not None and not self.dropped:
             self.work.charge(seconds, now)
+        self.dropped = False
         if self.refused:
             self.refused = False
             seconds *= REFUSED

@@ -100,10 +100,10 @@ class EventLog:
         The number of lines is limited (see `BURST`), so no sender can fill a disk or delay the agent. Suppressed lines
         are counted and reported.
         """
-        if level > self._limit:
-            return
         if level is Level.WARNING and self.on_warning is not None:
             self._pass_on(text, fields)
+        if level > self._limit:
+            return
         if level > Level.INFO:
             self._write(level, event, text, fields)
             return

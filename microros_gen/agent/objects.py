@@ -255,6 +255,7 @@ class ObjectTree:
             check_application(object_id, wanted.description, others, self._maximum, wanted.replace)
         if present:
             yield from self._remove([present, *self._made_from(present)])
+            entity.check(self._home.access, self._home.fallback_name)  # the policy may have changed meanwhile
         elif len(self._objects) >= self._maximum:
             raise RefusedError(Status.RESOURCES, f"the client has {self._maximum} objects already")
         self._charge(entity, wanted.representation)

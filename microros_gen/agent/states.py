@@ -223,10 +223,14 @@ class ClientStates:
         )
 
     def _forget_oldest(self) -> None:
-        absent = (Presence.GONE, Presence.REFUSED)
-        closed = [key for key, record in self._records.items() if record.presence in absent]
-        for key in closed[: max(0, len(closed) - self._most)]:
-            del self._records[key]
+        gone: list[str] = []
+        refused: list[str] = []  # apart: a flood of refused keys removes nothing of those that had sessions
+        for key, record in self._records.items():
+            if record.presence in (Presence.GONE, Presence.REFUSED):
+                (refused if record.client is None else gone).append(key)
+        for closed in (gone, refused):
+            for key in closed[: max(0, len(closed) - self._most)]:
+                del self._records[key]
 
 
 def _never_connected(key: str, record: _Record, now: float) -> ClientState:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from stat import S_IMODE
 from typing import TYPE_CHECKING
 
 import click
@@ -141,7 +142,10 @@ def _migrate(paths: tuple[Path, ...], dry_run: bool) -> int:
             lines = unified_diff(before, after, f"a/{file.path}", f"b/{file.path}")
             click.echo("".join(lines), nl=False)
         else:
-            write_files(file.path.parent, {file.path.name: file.content()})
+            place = file.path.resolve()  # a link stays one
+            mode = place.stat().st_mode
+            write_files(place.parent, {place.name: file.content()})
+            place.chmod(S_IMODE(mode))
             click.echo(f"{file.path}: written for this version")
     return 0
 

@@ -22,6 +22,8 @@ from microros_gen.documents.yaml_tree import Entry, MappingNode, ScalarNode, Yam
 from microros_gen.records import dataclass
 
 _FIRST_KIND = "application"
+_LINE_END = "\r\n|[\n\r\x85\u2028\u2029]"
+"""What the loaders of YAML count as the end of a line."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +58,8 @@ def migrated_file(path: Path, diagnostics: Diagnostics) -> Migrated | None:
         diagnostics.error(f"cannot read {path}: {reason_of(error)}", hint=hint, id="MG-9278")
         return None
     before = text.replace("\r\n", "\n")
-    source, found = Source(str(path), before), Diagnostics()
+    mark = "\ufeff" if before.startswith("\ufeff") else ""  # YAML counts no column for it
+    source, found = Source(str(path), before.removeprefix(mark)), Diagnostics()
     tree = parse_yaml(source, found)
     diagnostics.extend(found)
     if tree is None or found.has_errors():
@@ -70,7 +73,7 @@ def migrated_file(path: Path, diagnostics: Diagnostics) -> Migrated | None:
         )
         return None
     after = migrated_text(tree, source, schema, diagnostics)
-    return None if after is None else Migrated(path, before, after, before != text)
+    return None if after is None else Migrated(path, before, mark + after, before != text)
 
 
 def migrated_text(tree: YamlNode, source: Source, schema: Schema, diagnostics: Diagnostics) -> str | None:
@@ -165,7 +168,7 @@ def _range(source: Source, span: Span) -> tuple[int, int]:
 
 def _line_starts(text: str) -> Iterator[int]:
     yield 0
-    yield from (found.end() for found in re.finditer("\n", text))
+    yield from (found.end() for found in re.finditer(_LINE_END, text))
 
 
 def _with_version(text: str, tree: YamlNode, source: Source, schema: Schema) -> str:

@@ -39,6 +39,11 @@ def read_place(text: str) -> Place | None:
     return Place(host or LOOPBACK, int(port))
 
 
+def host_of(text: str) -> str:
+    """Return the host of a Host header, whose port may be absent, without brackets (RFC 9110, 7.2)."""
+    return text[1:].partition("]")[0] if text.startswith("[") else text.partition(":")[0]
+
+
 def is_loopback(host: str) -> bool:
     """Return whether a host name or IP address is one of this machine itself."""
     if host == "localhost":

@@ -6,19 +6,21 @@ from __future__ import annotations
 import socket
 import threading
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import partial
 from http.server import BaseHTTPRequestHandler
 from socketserver import BaseServer, ThreadingMixIn
 from typing import Any
 
 from microros_gen.records import dataclass
-from microros_gen.web.places import Place, is_loopback
+from microros_gen.web.places import Place, host_of, is_loopback
 
 CONNECTIONS = 32
 """Maximum number of connections that are answered at the same time; further ones are closed."""
 SILENT_S = 10.0
 """Seconds after which a connection that sends or takes nothing is closed."""
+CUT_S = 30.0
+"""Seconds after which every connection is closed."""
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; connect-src 'self'"
 
 
@@ -61,7 +63,7 @@ class _Handler(BaseHTTPRequestHandler):
         """Log nothing: stdout and stderr belong to the program."""
 
     def _answer(self) -> Answer | None:
-        if not self._may_ask(self.headers.get("Host", "").rpartition(":")[0]):
+        if not self._may_ask(host_of(self.headers.get("Host", "")).lower()):
             self.send_error(403)
             return None
         route = self._routes.get(self.path.partition("?")[0])
@@ -110,10 +112,14 @@ class HttpServer(ThreadingMixIn, BaseServer):
         super().process_request(request, client_address)
 
     def process_request_thread(self, request: Any, client_address: Any) -> None:
-        """Answer one connection."""
+        """Answer one connection, which is cut off after a while: one byte at a time would keep it for days."""
+        limit = threading.Timer(CUT_S, _cut, (request,))
+        limit.daemon = True
         try:
+            limit.start()
             super().process_request_thread(request, client_address)
         finally:
+            limit.cancel()
             self._free.release()
 
     def handle_error(self, request: Any, client_address: Any) -> None:
@@ -126,6 +132,11 @@ class HttpServer(ThreadingMixIn, BaseServer):
     def server_close(self) -> None:
         """Close the socket."""
         self.socket.close()
+
+
+def _cut(connection: socket.socket) -> None:
+    with suppress(OSError):
+        connection.shutdown(socket.SHUT_RDWR)
 
 
 def anyone(_host: str) -> bool:
@@ -141,7 +152,11 @@ def served(place: Place, routes: Routes) -> Iterator[str]:
     OSError if the place cannot be used.
     """
     listener = _listener(place)
-    server = HttpServer(listener, routes, is_loopback if is_loopback(place.host) else anyone)
+    local = is_loopback(listener.getsockname()[0])  # also of a name: 127.0.1.1 is that of many machines
+    own = place.host.lower()
+    server = HttpServer(
+        listener, routes, (lambda host: is_loopback(host) or host == own) if local else anyone
+    )
     thread = threading.Thread(target=server.serve_forever, name="http", daemon=True)
     thread.start()
     try:

@@ -149,5 +149,5 @@ def test_a_path_that_is_no_device(tmp_path: Path) -> None:
 def test_help_has_an_example(name: str, tmp_path: Path) -> None:
     result = run(name, "--help", path=tmp_path)
     assert f"microros-gen agent {name}" in result.stdout
-    assert "--references FILE" in result.stdout
+    assert "--references, --refs FILE" in result.stdout
     assert "--entities FILE" in result.stdout

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Hashable
 from pathlib import Path
 
@@ -16,6 +17,8 @@ from microros_gen.agent.policy.patterns import matches
 from microros_gen.agent.ros.bridge import BridgeError
 from microros_gen.agent.transport.base import Transport
 
+_WITHIN_PART = re.compile(r"(?<=[^/])\*\*+|\*\*+(?=[^/])")
+"""`**` beside other characters of a part, for which `Path.glob` of Python 3.12 raises ValueError."""
 Refused = Callable[[str, Transport, Hashable, str], object]
 """Function that is told about a refused client: its key as in the log, where it is, and why."""
 
@@ -92,12 +95,13 @@ def is_device(pattern: str, device: str) -> bool:
     """Return whether a pattern fits the path of a device, or that of a link in the file system which leads to it."""
     if matches(pattern, device):
         return True
-    if not pattern.startswith("/"):
+    if not pattern.startswith("/") or not pattern.strip("/"):
         return False
+    listed = _WITHIN_PART.sub("*", pattern.lstrip("/"))
     wanted = os.path.realpath(device)
     return wanted.startswith("/dev/") and any(
         matches(pattern, link) and os.path.realpath(link) == wanted
-        for link in map(str, Path("/").glob(pattern[1:]))
+        for link in map(str, Path("/").glob(listed))
     )
 
 

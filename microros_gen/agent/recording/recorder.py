@@ -37,6 +37,8 @@ from microros_gen.diagnostics import Diagnostic, UserError
 
 MOST_KEYS = 4_096
 """Maximum number of addresses whose client key is kept for comments."""
+LONGEST_DESCRIBED = 2_048
+"""Maximum bytes of a description that is read for the name of a node in a comment."""
 _SOCKETS = ("udp4", "udp6", "tcp4", "tcp6")
 _DESCRIPTIONS = {
     "udp4": "XRCE over UDP",
@@ -153,6 +155,7 @@ class RecordedTransport:
         self.forgeable = inner.forgeable
         self.fileno = inner.fileno
         self.name_of = inner.name_of
+        self.origin = inner.origin
         self.tick = inner.tick
         self.claim = inner.claim
         self.release = inner.release
@@ -227,6 +230,8 @@ def _places(label: str, name: str, number: int) -> tuple[Endpoint, Endpoint]:
 
 
 def _node(create: Create) -> str:
+    if len(create.body) > LONGEST_DESCRIBED:  # anybody may send it: 64 kB of XML take 12 ms
+        return "?"
     try:
         described = describe(create, References())
     except (MalformedError, UnknownReferenceError, UnknownNameError, UnsupportedKindError):

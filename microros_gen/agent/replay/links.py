@@ -62,7 +62,7 @@ def open_link(place: Place, log: EventLog) -> Link:
         if place.kind == "canfd":
             return _CanLink(place.address, log)
         return _SerialLink(place)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, OverflowError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise UserError(
             [
@@ -87,7 +87,7 @@ class _SocketLink:
         self._socket.settimeout(CONNECT_S)
         try:
             self._socket.connect((host.strip("[]"), int(port)))
-        except (OSError, ValueError):
+        except (OSError, ValueError, OverflowError):
             self._socket.close()
             raise
 

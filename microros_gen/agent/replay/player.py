@@ -202,7 +202,9 @@ class Player:
         return join(head, [self._identified(each) for each in _content(data)])
 
     def _identified(self, submessage: bytes) -> bytes:
-        if self._as_agent or submessage[0] != WriteData.ID or submessage[7] & 0x0F != ObjectKind.REPLIER:
+        if self._as_agent or submessage[0] != WriteData.ID or len(submessage) < _SHORTEST:
+            return submessage
+        if submessage[7] & 0x0F != ObjectKind.REPLIER:
             return submessage
         identity = submessage[8 : 8 + IDENTITY]
         return submessage[:8] + self._identities.get(identity, identity) + submessage[8 + IDENTITY :]

@@ -57,16 +57,7 @@ def serve_pages(options: AgentOptions, board: StatusBoard) -> Iterator[dict[str,
 
     Give the address of each. Raises UserError.
     """
-    diagnostics = Diagnostics()
-    places: dict[str, tuple[NamedPath, Place]] = {}
-    for name, named in (("metrics", options.metrics), ("page", options.page)):
-        place = read_place(named.path) if named is not None else None
-        if named is not None and place is None:
-            message = f"'{named.path}' is no address for the {name}"
-            diagnostics.error(message, named.span, "Write 127.0.0.1:9464, or a port alone", id="MG-9791")
-        elif named is not None and place is not None:
-            places[name] = named, place
-    diagnostics.check()
+    places = checked_places(options)
     routes: dict[Place, dict[str, Callable[[], Answer]]] = {}
     for name, (_, place) in places.items():
         answers = metrics_routes(board) if name == "metrics" else page_routes(board)
@@ -77,6 +68,21 @@ def serve_pages(options: AgentOptions, board: StatusBoard) -> Iterator[dict[str,
             if place not in urls:
                 urls[place] = stack.enter_context(_served(name, named, place, routes[place]))
         yield {name: urls[place] + _PATHS[name] for name, (_, place) in places.items()}
+
+
+def checked_places(options: AgentOptions) -> dict[str, tuple[NamedPath, Place]]:
+    """Return the addresses of `metrics` and `page`, as far as the options have them. Raises UserError."""
+    diagnostics = Diagnostics()
+    places: dict[str, tuple[NamedPath, Place]] = {}
+    for name, named in (("metrics", options.metrics), ("page", options.page)):
+        place = read_place(named.path) if named is not None else None
+        if named is not None and place is None:
+            message = f"'{named.path}' is no address for the {name}"
+            diagnostics.error(message, named.span, "Write 127.0.0.1:9464, or a port alone", id="MG-9791")
+        elif named is not None and place is not None:
+            places[name] = named, place
+    diagnostics.check()
+    return places
 
 
 @contextmanager

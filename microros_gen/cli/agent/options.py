@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import field, fields, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import Any
 
@@ -20,8 +19,9 @@ from microros_gen.agent.configuration.model import (
 )
 from microros_gen.agent.configuration.parser import DISCOVERY_PORT, parse_agent_file
 from microros_gen.agent.limits import Limits
+from microros_gen.cli.agent.limit_options import limits_of
 from microros_gen.cli.agent.types import ManifestOf
-from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, Span, UserError, nearest
+from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, Span, UserError
 from microros_gen.documents.files import read_text
 from microros_gen.records import dataclass
 
@@ -34,7 +34,6 @@ NO_SOCKET = "none"
 
 _VERBOSITY = (-3, -2, -2, -1, 0, 1, 2)
 """Levels beyond INFO, by micro_ros_agent's: off, critical, error, warning, info, debug, trace."""
-_VALUE = re.compile(r"[\w.+-]+")
 
 
 def _file_option(names: tuple[str, ...], text: str, metavar: str = "FILE") -> Callable[..., Any]:
@@ -270,7 +269,7 @@ class AgentOptions:
             page=_place(options["page"]) or file.page,
             parameter_server=file.parameter_server and not options["no_parameter_server"],
             parameter_file=options["parameter_file"] or _own_file(file, folder),
-            limits=_limits(file, options),
+            limits=limits_of(file, options),
             references=_paths(folder, file.references, options["references"]),
             entities=_paths(folder, file.entities, options["entities"]),
             policy=options["policy"] or (None if file.policy is None else folder / file.policy.path),
@@ -372,40 +371,3 @@ def _own_socket(file: AgentFile, folder: Path) -> str | None:
 
 def _paths(folder: Path, of_file: Sequence[NamedPath], of_options: Sequence[Path]) -> tuple[Path, ...]:
     return tuple(dict.fromkeys((*(folder / named.path for named in of_file), *of_options)))
-
-
-def _limits(file: AgentFile, options: dict[str, Any]) -> Limits:
-    """Return the limits: defaults, then the file's, then those of the command line."""
-    chosen: dict[str, Any] = dict(file.limits)
-    diagnostics = Diagnostics()
-    for text in options["limits"]:
-        name, _, value = text.partition("=")
-        number = _limit(name, value, diagnostics)
-        if number is not None:
-            chosen[name] = number
-    diagnostics.check()
-    if options["client_timeout"] is not None:
-        chosen["client_timeout_s"] = options["client_timeout"]
-    if options["max_clients"] is not None:
-        chosen["clients"] = options["max_clients"]
-    return replace(DEFAULTS, **chosen)
-
-
-def _limit(name: str, value: str, diagnostics: Diagnostics) -> float | None:
-    """Return the value of `--limit NAME=VALUE`, checked as in a file; an error for an unknown name."""
-    names = [field.name for field in fields(Limits)]
-    if name not in names:
-        hint = nearest(name, names) or f"Known: {', '.join(names)}"
-        diagnostics.error(f"unknown limit '{name}'", hint=hint, id="MG-9705")
-        return None
-    if not _VALUE.fullmatch(value):
-        diagnostics.error(
-            f"'limits.{name}' must be a number", hint=f"Write --limit {name}=NUMBER", id="MG-9706"
-        )
-        return None
-    found = Diagnostics()
-    source = Source("--limit", f"version: 1\nlimits: {{{name}: {value}}}")
-    limits = dict(parse_agent_file(source, found).limits)
-    for diagnostic in found:
-        diagnostics.error(diagnostic.message, hint=diagnostic.hint, id="MG-9707")
-    return limits.get(name)

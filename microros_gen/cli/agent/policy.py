@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from microros_gen.agent.core import Agent
@@ -24,7 +25,10 @@ def read_policy(options: AgentOptions, diagnostics: Diagnostics) -> Policy | Non
         return None
     policy = parse_policy(sources[0], diagnostics)
     check_domain(policy, options.domain, diagnostics)
-    return policy
+    if options.domain is None:
+        return policy
+    # All clients are put into that domain, whichever they request.
+    return Policy(tuple(replace(rule, domains=None) for rule in policy.rules))
 
 
 def report_policy(path: Path, policy: Policy, log: EventLog) -> None:

@@ -44,7 +44,7 @@ from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.transport.sockets import PROTOCOLS
 from microros_gen.cli.agent.clients import client_state_node
 from microros_gen.cli.agent.graph import graph_server
-from microros_gen.cli.agent.monitoring import monitoring
+from microros_gen.cli.agent.monitoring import checked_places, monitoring
 from microros_gen.cli.agent.options import AgentOptions, read_sources
 from microros_gen.cli.agent.parameters import ParametersOnDemand
 from microros_gen.cli.agent.policy import read_policy, reloading, report_policy
@@ -59,6 +59,7 @@ def serve(options: AgentOptions) -> None:
     """Serve until a signal comes; a ready line for each transport goes to stdout. UserError: it cannot start."""
     _check_system()
     files = _files(options)
+    checked_places(options)
     if options.check:
         click.echo("no faults")
         return
@@ -76,16 +77,16 @@ def serve(options: AgentOptions) -> None:
     pool, budgets = InputPool(limits.input_bytes, limits.clients + streams), Budgets(limits, streams)
     shared = Shared(pool, budgets.output, Fairness(), Account())
     transports = open_transports(options.transports, options.discovery, log, shared)
-    recorder = _recorder(options, log, transports)
-    if recorder is not None:
-        transports = [RecordedTransport(transport, recorder) for transport in transports]
     parameters = ParametersOnDemand(options.parameter_server, options.parameter_file, options.domain, log)
     try:
         report, wait_s = graph_reporter(log), limits.request_wait_s
         bridge = open_bridge(limits.domains, options.domain, files.hashes, report, wait_s, parameters.on_type)
+        recorder = _recorder(options, log)  # after all that may fail: it replaces a file
     except UserError:
         _close(transports)
         raise
+    if recorder is not None:
+        transports = [RecordedTransport(transport, recorder) for transport in transports]
     manifests = Manifests(files.clients.by_client)
     agent = Agent(
         bridge,
@@ -114,28 +115,32 @@ def serve(options: AgentOptions) -> None:
     announcements = EventLog(sys.stdout, as_json)
     gc.collect()
     gc.freeze()  # modules and libraries stay: to look through them now and then would stop the agent for 20 ms
-    with (
-        graph_server(options.graph_server, options.domain, log),
-        client_state_node(options, limits, agent, log),
-        monitoring(options, agent, transports, log),
-        parameters.running(),
-        reloaded_by_signal(server, reloading(options, agent, log)),
-        stopped_by_signals(server),
-    ):
-        notify("READY=1")
-        server.run(lambda transport: _announce(announcements, transport), time.monotonic)
+    try:
+        with (
+            graph_server(options.graph_server, options.domain, log),
+            client_state_node(options, limits, agent, log),
+            monitoring(options, agent, transports, log),
+            parameters.running(),
+            reloaded_by_signal(server, reloading(options, agent, log)),
+            stopped_by_signals(server),
+        ):
+            notify("READY=1")
+            server.run(lambda transport: _announce(announcements, transport), time.monotonic)
+    except UserError:  # one of the servers cannot start
+        agent.close()
+        _close(transports)
+        raise
     if recorder is not None:
         recorder.close()
 
 
-def _recorder(options: AgentOptions, log: EventLog, transports: Sequence[Transport]) -> Recorder | None:
-    """Return the recorder that the options ask for; UserError, with the transports closed, if it cannot write."""
+def _recorder(options: AgentOptions, log: EventLog) -> Recorder | None:
+    """Return the recorder that the options ask for; UserError if it cannot write."""
     if options.record is None:
         return None
     try:
         return Recorder(options.record, log)
     except UserError as error:
-        _close(transports)
         span = options.places.get(options.record)
         raise UserError([replace(d, span=d.span or span) for d in error.diagnostics]) from error
 

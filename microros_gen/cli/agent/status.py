@@ -14,6 +14,7 @@ from typing import Any
 
 import click
 
+from microros_gen.agent.log import printable
 from microros_gen.cli.options import format_option, json_text
 from microros_gen.diagnostics import Diagnostic, UserError
 
@@ -88,7 +89,11 @@ def _watch(place: Path, kind: str) -> None:
 def _not_ready(document: dict[str, Any]) -> list[str]:
     """Return a line for each transport that accepts no messages."""
     transports = document["agent"]["transports"]
-    return [f"{each['kind']} {each['address']} is not ready" for each in transports if not each["ready"]]
+    return [
+        printable(f"{each['kind']} {each['address']} is not ready")
+        for each in transports
+        if not each["ready"]
+    ]
 
 
 def _shown(document: dict[str, Any], kind: str, once: bool) -> str:
@@ -96,7 +101,7 @@ def _shown(document: dict[str, Any], kind: str, once: bool) -> str:
 
     if kind == "json":
         return json_text(document) if once else json.dumps(document) + "\n"
-    return status_table(document)
+    return "".join(f"{printable(line)}\n" for line in status_table(document).splitlines())
 
 
 def _asked(place: Path) -> dict[str, Any]:

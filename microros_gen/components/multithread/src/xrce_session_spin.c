@@ -14,14 +14,15 @@
 enum { MESSAGES_PER_SPIN = 32 };
 
 /* Returns whether a message had arrived. */
-static bool session_receive(xrce_client_t * client)
+static bool spin_receive(xrce_client_t * client)
 {
-  const uint32_t now = port_time_ms();
   bool had_arrived = false;
 
   microros_lock();
   /* cppcheck-suppress knownConditionTrueFalse ; without a task for the session each task has the turn */
   if (xrce_turn_is_mine() && client->session.transport_open) {
+    const uint32_t now = port_time_ms(); /* with the lock: never before a time that another task has noted */
+
     client->session.now_ms = now;
     xrce_transport_begin_turn(&client->session.transport);
     had_arrived = xrce_session_take(client, now);
@@ -50,7 +51,7 @@ void xrce_session_spin(xrce_client_t * client)
   bool had_arrived = true;
 
   for (uint8_t i = 0; i < (uint8_t)MESSAGES_PER_SPIN && had_arrived; ++i) {
-    had_arrived = session_receive(client);
+    had_arrived = spin_receive(client);
   }
   microros_lock();
   session_step(client);
