@@ -19,8 +19,10 @@ _OF_OTHERS = {
     ("session", "wait"): "executor",
     ("session", "wake"): "executor",
     ("session", "lock"): "multithread",
+    ("multithread", "time"): "session",
     ("multithread", "wake"): "executor",
     ("peer", "wake"): "executor",
+    ("transport_canfd", "canfd_link"): "peer",
 }
 _OF_THE_PLAN = {
     "support": {"port_unique_id"},

@@ -6,11 +6,16 @@ from __future__ import annotations
 import http.client
 import json
 import socket
+import time
 from pathlib import Path
 from typing import Any
 
 ANSWER_S = 10.0
 """Seconds to wait for an answer: more than the agent waits for its own thread."""
+
+
+AGAIN_S = 0.02
+"""Seconds until a connection is tried again, of which too many wait already."""
 
 
 class NoAnswerError(Exception):
@@ -29,7 +34,17 @@ class _LocalConnection(http.client.HTTPConnection):
         """Connect. Raises OSError."""
         self.sock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         self.sock.settimeout(self._timeout_s)
-        self.sock.connect(str(self._path))
+        end = time.monotonic() + self._timeout_s
+        while True:
+            try:
+                self.sock.connect(str(self._path))
+                return
+            except (
+                BlockingIOError
+            ) as error:  # a local socket does not wait for room in the queue (connect(2))
+                if time.monotonic() >= end:
+                    raise TimeoutError from error
+                time.sleep(AGAIN_S)
 
 
 def ask(path: Path, question: str, timeout_s: float = ANSWER_S) -> tuple[int, bytes]:

@@ -11,6 +11,8 @@ import stat
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
+from microros_gen.web.server import CONNECTIONS
+
 NAME = re.compile(r"microros-agent-(\d+)\.sock")
 """File name of the socket of an agent, with the number of its process."""
 LISTED = Path("/proc/net/unix")
@@ -61,7 +63,7 @@ def listen(path: Path) -> socket.socket:
             os.fchmod(listener.fileno(), 0o600)  # Linux gives the file this mode when it is made
             listener.bind(str(path))
             path.chmod(0o600)
-            listener.listen(16)
+            listener.listen(CONNECTIONS)
         except OSError:
             listener.close()
             raise
