@@ -223,13 +223,13 @@ class ClientStates:
         )
 
     def _forget_oldest(self) -> None:
-        gone: list[str] = []
+        closed: list[str] = []
         refused: list[str] = []  # apart: a flood of refused keys removes nothing of those that had sessions
         for key, record in self._records.items():
             if record.presence in (Presence.GONE, Presence.REFUSED):
-                (refused if record.client is None else gone).append(key)
-        for closed in (gone, refused):
-            for key in closed[: max(0, len(closed) - self._most)]:
+                (refused if record.client is None else closed).append(key)
+        for keys in (closed, refused):
+            for key in keys[: max(0, len(keys) - self._most)]:
                 del self._records[key]
 
 

@@ -109,7 +109,11 @@ class HttpServer(ThreadingMixIn, BaseServer):
         if not self._free.acquire(blocking=False):
             request.close()
             return
-        super().process_request(request, client_address)
+        try:
+            super().process_request(request, client_address)
+        except RuntimeError:  # the system gives no more threads
+            self._free.release()
+            raise
 
     def process_request_thread(self, request: Any, client_address: Any) -> None:
         """Answer one connection, which is cut off after a while: one byte at a time would keep it for days."""

@@ -10,6 +10,8 @@ import time
 from pathlib import Path
 from typing import Any
 
+from microros_gen.agent.log import printable
+
 ANSWER_S = 10.0
 """Seconds to wait for an answer: more than the agent waits for its own thread."""
 
@@ -70,7 +72,8 @@ def ask_status(path: Path, question: str, timeout_s: float = ANSWER_S) -> dict[s
     """Return the status, as in `document_of`; errors as `ask`."""
     status, content = ask(path, question, timeout_s)
     if status != 200:
-        raise NoAnswerError(content.decode(errors="replace").strip()[:200] or f"status {status}")
+        text = printable(content.decode(errors="replace").strip()[:200])
+        raise NoAnswerError(text or f"status {status}")
     try:
         document = json.loads(content)
         if isinstance(document, dict) and isinstance(document["version"], int):
