@@ -195,7 +195,13 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         + "errors: code\n",
         **{
             name: _of_numbers(APPLICATIONS[name])
-            for name in ("peer_services", "peer_serial", "peer_fragments_joined", "local_chip_tasks")
+            for name in (
+                "peer_services",
+                "peer_serial",
+                "peer_canfd",
+                "peer_fragments_joined",
+                "local_chip_tasks",
+            )
         },
         "diagnosis": _BUSY
         + "    parameters: [{name: speed, type: double}]\n    modes: {SLOW: {speed: 0.5}}\n"
