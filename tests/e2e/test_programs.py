@@ -92,8 +92,7 @@ def group_is_gone(leader: int) -> bool:
 def test_run_ends_with_a_signal(image: Image, port: int, domain: int, way: str) -> None:
     with running(domain, str(image.out)) as process:
         assert process.stderr is not None
-        errors = [process.stderr.readline() for _ in range(5)]  # the client's node is last
-        assert "node /runner" in errors[4]
+        assert any("node /runner" in line for line in iter(process.stderr.readline, "")), "no node"
         if way == "SIGINT to all":  # as a terminal does
             os.killpg(process.pid, signal.SIGINT)
         else:
