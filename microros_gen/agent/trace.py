@@ -9,7 +9,8 @@ from enum import IntEnum
 from typing import Any
 
 from microros_gen.agent.log import EventLog, Json, Level
-from microros_gen.agent.transport.base import Receive, Transport
+from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.transport.observed import ObservedTransport
 from microros_gen.agent.wire.constants import DataFormat, Format, ObjectKind, Status, SubmessageId
 from microros_gen.agent.wire.entity_messages import Create
 from microros_gen.agent.wire.errors import MalformedError
@@ -22,44 +23,16 @@ _LONGEST_BYTES = 32
 """Maximum bytes of a payload shown with its submessage; all bytes follow below."""
 
 
-class TracedTransport:
+class TracedTransport(ObservedTransport):
     """A transport that writes every message to the log."""
 
     def __init__(self, inner: Transport, log: EventLog) -> None:
-        self._inner = inner
+        super().__init__(inner)
         self._log = log
-        self.label = inner.label
-        self.forgeable = inner.forgeable
-        self.fileno = inner.fileno
-        self.name_of = inner.name_of
-        self.origin = inner.origin
-        self.tick = inner.tick
-        self.claim = inner.claim
-        self.release = inner.release
-        self.close = inner.close
 
-    @property
-    def ready(self) -> bool:
-        """See Transport."""
-        return self._inner.ready
-
-    def pump(self, receive: Receive) -> None:
-        """See Transport."""
-
-        def traced(data: bytes, address: Hashable, _transport: Transport) -> None:
-            self._write("from", data, address)
-            receive(data, address, self)
-
-        self._inner.pump(traced)
-
-    def send(self, data: bytes, address: Hashable) -> None:
-        """See Transport."""
-        self._write("to", data, address)
-        self._inner.send(data, address)
-
-    def _write(self, way: str, data: bytes, address: Hashable) -> None:
+    def _observe(self, data: bytes, address: Hashable, inbound: bool) -> None:
         peer = self._inner.name_of(address)
-        head = {"way": way, "peer": peer, "transport": self.label}
+        head = {"way": "from" if inbound else "to", "peer": peer, "transport": self.label}
         whole = self._log.shows(Level.TRACE)
         level = Level.TRACE if whole else Level.DEBUG
         text = "{way} {peer} {line}"

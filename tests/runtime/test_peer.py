@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -14,8 +14,18 @@ import pytest
 from microros_gen.agent.wire.data_messages import WriteData
 from microros_gen.agent.wire.session_messages import CreateClient, StatusAgent
 from tests.support.free_ports import free_ports
-from tests.support.patience import deadline
-from tests.support.runtime.peers import HOST, Board, Relay, board_program, started, system, unreliable
+from tests.support.runtime.peers import (
+    HOST,
+    Board,
+    Relay,
+    board_program,
+    published,
+    received,
+    started,
+    system,
+    unreliable,
+    until,
+)
 
 BEST_EFFORT = 1
 """The stream."""
@@ -59,25 +69,6 @@ def pair(programs: tuple[Path, Path], clock: int = 0) -> Iterator[tuple[Board, B
     with started(programs[0], clock) as first, started(programs[1], clock) as second:
         meet(first, second)
         yield first, second
-
-
-def until(seen: Callable[[], object], *boards: Board) -> None:
-    """Let boards run until something is true."""
-    end = deadline(10)
-    while not seen():
-        assert time.monotonic() < end, [board.values for board in boards]
-        for board in boards:
-            board.spin()
-
-
-def published(board: Board, topic: int, value: int) -> bool:
-    """Publish; return whether it succeeded."""
-    return not board.publish(topic, value)
-
-
-def received(board: Board, topic: int, count: int) -> bool:
-    """Return whether a board has as many messages of a topic."""
-    return len(board.values[topic]) >= count
 
 
 def meet(first: Board, second: Board) -> None:

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import random
 import tempfile
-import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from pathlib import Path
@@ -19,8 +18,18 @@ from microros_gen.agent.wire.session_messages import CreateClient
 from microros_gen.agent.wire.submessages import decode
 from tests.support.components.rendered import program_of, rendered
 from tests.support.e2e.can_bus import CanBus, record
-from tests.support.patience import deadline
-from tests.support.runtime.peers import APPLICATION, PAIR, Board, board_program, started, system, unreliable
+from tests.support.runtime.peers import (
+    APPLICATION,
+    PAIR,
+    Board,
+    board_program,
+    published,
+    received,
+    started,
+    system,
+    unreliable,
+    until,
+)
 
 BEST, SURE = 0, 1
 CANFD = APPLICATION + "transport: {type: canfd}\n"
@@ -84,23 +93,6 @@ def three(tmp_path_factory: pytest.TempPathFactory, bus: CanBus) -> dict[str, Pa
         )
         for own, text in texts.items()
     }
-
-
-def until(seen: Callable[[], object], *boards: Board) -> None:
-    """Let boards run until something is true."""
-    end = deadline(10)
-    while not seen():
-        assert time.monotonic() < end, [board.values for board in boards]
-        for board in boards:
-            board.spin()
-
-
-def published(board: Board, topic: int, value: int) -> bool:
-    return not board.publish(topic, value)
-
-
-def received(board: Board, topic: int, count: int) -> bool:
-    return len(board.values[topic]) >= count
 
 
 def meet(first: Board, second: Board) -> None:

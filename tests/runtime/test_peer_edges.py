@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 import subprocess
-import time
-from collections.abc import Callable
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 
 from tests.support.components.rendered import program_of, rendered
-from tests.support.patience import deadline, seconds
-from tests.support.runtime.peers import APPLICATION, HOST, PAIR, Board, Relay, board_program, started, system
+from tests.support.patience import seconds
+from tests.support.runtime import peers
+from tests.support.runtime.peers import APPLICATION, HOST, PAIR, Relay, board_program, started, system
 from tests.support.runtime.plugs import Plugs
 from tests.support.runtime.reading_agent import ReadingAgent
 from tests.support.runtime.udp import UdpAgent
@@ -25,13 +25,7 @@ def own_ports(count: int) -> list[int]:
         return [port for _ in range(count) for port in stack.enter_context(Relay()).ports[:1]]
 
 
-def until(seen: Callable[[], object], *boards: Board) -> None:
-    """Let boards run until something is true."""
-    end = deadline(20)
-    while not seen():
-        assert time.monotonic() < end, [board.values for board in boards]
-        for board in boards:
-            board.spin()
+until = partial(peers.until, at_most_s=20)
 
 
 def test_a_publish_wakes_a_task_that_waits_if_the_link_then_has_work_to_do(tmp_path: Path) -> None:

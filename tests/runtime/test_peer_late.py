@@ -3,14 +3,14 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import pytest
 
 from tests.support.free_ports import free_ports
-from tests.support.patience import deadline
+from tests.support.runtime import peers
 from tests.support.runtime.peers import (
     HOST,
     Board,
@@ -50,13 +50,7 @@ def fresh(relay: Relay) -> Iterator[None]:
     assert not relay.faults
 
 
-def until(seen: Callable[[], object], *boards: Board) -> None:
-    """Let boards run until something is true."""
-    end = deadline(20)
-    while not seen():
-        assert time.monotonic() < end, [board.values for board in boards]
-        for board in boards:
-            board.spin()
+until = partial(peers.until, at_most_s=20)
 
 
 def run(*boards: Board) -> None:

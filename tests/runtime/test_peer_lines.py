@@ -3,14 +3,12 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
 import pytest
 
-from tests.support.patience import deadline
+from tests.support.runtime import peers
 from tests.support.runtime.peers import APPLICATION, PAIR, Board, board_program, started, system
 from tests.support.runtime.plugs import Plugs
 
@@ -32,13 +30,7 @@ def programs(tmp_path_factory: pytest.TempPathFactory, names: tuple[Path, Path])
     return first, second
 
 
-def until(seen: Callable[[], object], *boards: Board) -> None:
-    """Let boards run until something is true."""
-    end = deadline(20)
-    while not seen():
-        assert time.monotonic() < end, [board.values for board in boards]
-        for board in boards:
-            board.spin()
+until = partial(peers.until, at_most_s=20)
 
 
 def send(board: Board, other: Board, values: range) -> None:

@@ -26,7 +26,8 @@ from microros_gen.agent.representation.description import (
     UnsupportedKindError,
 )
 from microros_gen.agent.representation.reference import UnknownReferenceError
-from microros_gen.agent.transport.base import Receive, Transport
+from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.transport.observed import ObservedTransport
 from microros_gen.agent.wire.constants import ObjectKind, SubmessageId
 from microros_gen.agent.wire.entity_messages import Create
 from microros_gen.agent.wire.errors import MalformedError
@@ -145,40 +146,15 @@ class Recorder:
         return printable(", ".join(remarks))
 
 
-class RecordedTransport:
+class RecordedTransport(ObservedTransport):
     """A transport whose messages are recorded."""
 
     def __init__(self, inner: Transport, recorder: Recorder) -> None:
-        self._inner = inner
+        super().__init__(inner)
         self._recorder = recorder
-        self.label = inner.label
-        self.forgeable = inner.forgeable
-        self.fileno = inner.fileno
-        self.name_of = inner.name_of
-        self.origin = inner.origin
-        self.tick = inner.tick
-        self.claim = inner.claim
-        self.release = inner.release
-        self.close = inner.close
 
-    @property
-    def ready(self) -> bool:
-        """See Transport."""
-        return self._inner.ready
-
-    def pump(self, receive: Receive) -> None:
-        """See Transport."""
-
-        def recorded(data: bytes, address: Hashable, _transport: Transport) -> None:
-            self._recorder.write(self._inner, address, data, inbound=True)
-            receive(data, address, self)
-
-        self._inner.pump(recorded)
-
-    def send(self, data: bytes, address: Hashable) -> None:
-        """See Transport."""
-        self._recorder.write(self._inner, address, data, inbound=False)
-        self._inner.send(data, address)
+    def _observe(self, data: bytes, address: Hashable, inbound: bool) -> None:
+        self._recorder.write(self._inner, address, data, inbound)
 
 
 def _open(path: Path) -> int:

@@ -60,7 +60,7 @@ _ALONE = {
     "status": "asks a running agent and starts none",
     "replay": "plays a recording and starts no agent",
 }
-"""Commands beside which there is no transport and no option of an agent, and why."""
+"""Commands that take neither a transport nor an option of an agent, and why."""
 _NAMED = "microros_gen.agent.named"
 """Place in the context of the command for the words that were read as transports."""
 

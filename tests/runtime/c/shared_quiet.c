@@ -2,11 +2,12 @@
 /*
  * Wake-ups of a thread in rclc_executor_spin that has nothing to do, as the system counts them: shared_quiet MS. Prints how
  * often threads of the process went to sleep within that time. Then the main thread publishes once, and sleeps: what follows
- * of it is for the thread with the executor, which ends with the context. The application file is SHARED of test_task_wakes.py; its agent loses that
- * message, and sends a sample when it has it.
+ * of it is for the thread with the executor, which ends with the context. The application file is SHARED of
+ * test_task_wakes.py; its agent loses that message, and sends a sample when it has it.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "unit.h"
+#include "unit_heard.h"
 #include "unit_sleeps.h"
 
 #include <microros/port.h>
@@ -20,25 +21,6 @@
 enum { SETTLED_MS = 2500, SECONDS_AT_MOST = 60 };
 
 static rclc_executor_t executor;
-static uint32_t heard; /* the lock of the port guards it */
-
-static void on_sample(const void * sample)
-{
-  (void)sample;
-  port_lock();
-  ++heard;
-  port_unlock();
-}
-
-static uint32_t heard_now(void)
-{
-  uint32_t value;
-
-  port_lock();
-  value = heard;
-  port_unlock();
-  return value;
-}
 
 static void * spin(void * argument)
 {

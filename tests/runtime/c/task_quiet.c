@@ -6,6 +6,7 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "unit.h"
+#include "unit_heard.h"
 #include "unit_sleeps.h"
 
 #include <microros/port.h>
@@ -18,26 +19,6 @@
 enum { EXECUTORS = 3, SETTLED_MS = 1500 };
 
 static rcl_publisher_t publisher;
-static uint32_t heard; /* the lock of the port guards it */
-
-static void on_sample(const void * sample)
-{
-  (void)sample;
-  port_lock();
-  ++heard;
-  port_unlock();
-}
-
-static uint32_t heard_now(void)
-{
-  uint32_t value;
-
-  port_lock();
-  value = heard;
-  port_unlock();
-  return value;
-}
-
 /* The agent answers each message with a sample. */
 static void exchange(void)
 {

@@ -8,6 +8,7 @@ import select
 import socket
 import subprocess
 import threading
+import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -16,6 +17,7 @@ from microros_gen.agent.wire.message import header_size, split
 from microros_gen.agent.wire.submessages import decode
 from tests.support.components.rendered import program_of, rendered
 from tests.support.e2e.commanded import CommandedProgram
+from tests.support.patience import deadline
 
 HOST = "127.0.0.1"
 APPLICATION = """\
@@ -259,3 +261,22 @@ def started(program: Path, clock: int = 0) -> Iterator[Board]:
     finally:
         if board.process.poll() is None:
             board.kill()
+
+
+def until(seen: Callable[[], object], *boards: Board, at_most_s: float = 10) -> None:
+    """Let boards run until something is true."""
+    end = deadline(at_most_s)
+    while not seen():
+        assert time.monotonic() < end, [board.values for board in boards]
+        for board in boards:
+            board.spin()
+
+
+def published(board: Board, topic: int, value: int) -> bool:
+    """Publish; return whether it succeeded."""
+    return not board.publish(topic, value)
+
+
+def received(board: Board, topic: int, count: int) -> bool:
+    """Return whether a board has as many messages of a topic."""
+    return len(board.values[topic]) >= count
