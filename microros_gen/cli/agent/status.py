@@ -7,7 +7,6 @@ import json
 import os
 import pwd
 import sys
-import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -16,6 +15,7 @@ import click
 
 from microros_gen.agent.log import printable
 from microros_gen.cli.options import format_option, json_text
+from microros_gen.cli.ros_tools import until_interrupted
 from microros_gen.diagnostics import Diagnostic, UserError
 
 _CLEAR = "\x1b[2J\x1b[H"
@@ -58,7 +58,8 @@ def status_command(
     microros-gen agent status --check
 
     Exit status 1: with --check, a transport is not ready, for example a serial device that is unplugged. 2: no agent
-    runs, several run and none is chosen, or the agent does not answer. SIGINT ends --watch with status 0.
+    runs, several run and none is chosen, or the agent does not answer. SIGINT and SIGTERM end --watch with
+    status 0.
     """
     if path is not None and pid is not None:
         raise click.UsageError("give --socket or --pid, not both", ctx)
@@ -72,18 +73,17 @@ def status_command(
     if not watch:
         click.echo(_shown(_asked(place), kind, once=True), nl=False)
         ctx.exit(0)
-    try:
-        _watch(place, kind)
-    except KeyboardInterrupt:
-        ctx.exit(0)
+    _watch(place, kind)
+    ctx.exit(0)
 
 
 def _watch(place: Path, kind: str) -> None:
     clear = _CLEAR if sys.stdout.isatty() and kind != "json" else ""
     end = "" if kind == "json" or clear else "\n"
-    while True:
-        click.echo(f"{clear}{_shown(_asked(place), kind, once=False)}{end}", nl=False)
-        time.sleep(_PERIOD_S)
+    with until_interrupted() as interrupted:
+        while not interrupted:
+            click.echo(f"{clear}{_shown(_asked(place), kind, once=False)}{end}", nl=False)
+            interrupted.wait(_PERIOD_S)
 
 
 def _not_ready(document: dict[str, Any]) -> list[str]:
