@@ -308,7 +308,7 @@ static void ask_once(uint32_t turn)
   }
 #endif
   if (turn % 32u == 0u) {
-    DO(rmw_uros_flush(context, 20));
+    DO(rmw_uros_flush(context, 200)); /* until nothing of any task is on its way */
   }
 }
 
