@@ -50,14 +50,17 @@ class MemoryGuard:
         self._trim = trim or (lambda: None)
         self._trimmed_at = float("-inf")
         self._most_held = 0
+        self._again = False
 
     def look(self, held: int, now: float) -> Pressure:
         """Return the pressure, after returning free memory if that helps; clients hold `held` bytes."""
         self._most_held = max(self._most_held, held)
         pressure = self._pressure()
         freed = self._most_held - held >= FREED_BYTES
-        if (freed or pressure) and now >= self._trimmed_at + TRIM_EVERY_S:
+        if (freed or pressure or self._again) and now >= self._trimmed_at + TRIM_EVERY_S:
             self._trimmed_at, self._most_held = now, held
+            # DDS frees the history of a writer some time after the writer is destroyed.
+            self._again = freed
             self._trim()
             pressure = self._pressure()
         return pressure

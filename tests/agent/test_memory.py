@@ -111,6 +111,16 @@ def test_memory_is_returned_after_clients_freed_much_and_not_too_often() -> None
     assert 2 <= process.trims <= 6
 
 
+def test_memory_that_dds_frees_later_is_returned_too() -> None:
+    process = Process()
+    for now, held in ((1.0, 20 * MIB), (2.0, 0), (3.0, 0)):
+        process.guard.look(held, now)
+    assert process.trims == 1
+    for now in (4.0, 6.0, 8.0):
+        process.guard.look(0, now)
+    assert process.trims == 2, "once more, then only after clients freed something"
+
+
 def test_memory_is_returned_after_entities_are_destroyed() -> None:
     """A client leaves the table at once, its entities as fast as changes of the graph are allowed."""
     process, budgets = Process(), Budgets(Limits())
