@@ -111,7 +111,7 @@ class Os:
     it for the system and the port, around what the task calls. `task_stack_macro`, of the header `task_stack_header`,
     defines one from its name and bytes; empty: an array. `parts`: kind and name of built-in parts that provide what
     this one does not. `device` names the serial line if the application file does not; empty: the only line of a board
-    has no name. `waits_for_room`: port_wait also ends when a TCP connection or serial line that was full has room.
+    has no name.
     """
 
     hosted: bool = False
@@ -124,7 +124,6 @@ class Os:
     parts: tuple[tuple[str, str], ...] = ()
     device: str = ""
     task_stack_context: int = 256
-    waits_for_room: bool = False
 
 
 @dataclass(frozen=True)

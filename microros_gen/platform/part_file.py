@@ -38,7 +38,8 @@ _IMAGE_KEYS = ("entry", "first", "first_section", "uart_handler")
 _TABLE_KEYS = ("words", "least")
 _DRIVER_KEYS = ("divisor", "fraction", "tx_irq", "stdio")
 _BAUD_KEYS = {"divisor": ("by", "least", "most"), "fraction": ("of_hz", "bits", "unused")}
-_OS_KEYS = ("hosted", "linker_script", "tick", "task_stack", "parts", "device", "waits_for_room")
+_TRANSPORTS = ("udp", "tcp", "serial", "canfd")
+_OS_KEYS = ("hosted", "linker_script", "tick", "task_stack", "parts", "device")
 
 
 @dataclass(frozen=True)
@@ -169,6 +170,11 @@ def _check(component: Component, kind: str, span: Span | None, diagnostics: Diag
     for name in sorted(set(named) - set(capabilities())):
         hint = nearest(name, capabilities()) or f"Known: {', '.join(capabilities())}"
         diagnostics.error(f"{place} names an unknown capability '{name}'", span, hint, id="MG-6007")
+    for provision in component.provides:
+        if provision.waits_for_room and provision.capability not in _TRANSPORTS:
+            what = f"{place} has 'waits_for_room' at '{provision.capability}', which is not a transport"
+            hint = f"Remove it there; transports are {', '.join(_TRANSPORTS)}"
+            diagnostics.error(what, span, hint, id="MG-3294")
     for file in component.files:
         if not (component.folder / "src" / file.path).is_file():
             diagnostics.error(
@@ -205,7 +211,6 @@ def _with_facts(part: Part, path: Path, diagnostics: Diagnostics) -> Part:
             tuple((entry.key, text_of(entry.value) or "") for entry in entries(node.get("parts"))),
             text_at(node, "device", diagnostics),
             context or Os.task_stack_context,
-            bool_of(node.get("waits_for_room")) or False,
         ),
     )
 

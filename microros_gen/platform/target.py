@@ -260,6 +260,21 @@ class Target:
         sends = self.stdio is not None and self.stdio.interrupt is not None
         return not self.hosted and (sends or self._always_provides("console_send"))
 
+    def waits_for_room(self, transport: str) -> bool:
+        """Return whether room in a transport that had none ends port_wait, with each part that may provide it.
+
+        `transport` is a capability (udp, tcp, serial, canfd), or one that no part has.
+        """
+        if transport in self.own_capabilities:
+            return False
+        for part in self.parts:
+            for provision in part.component.provides:
+                if provision.capability == transport and (
+                    _has_file(provision) or not provision.waits_for_room
+                ):
+                    return provision.waits_for_room
+        return False
+
     def _always_provides(self, capability: str) -> bool:
         named = {p.capability for part in self.parts for p in part.component.provides if _has_file(p)}
         return capability in (*named, *self.provides)

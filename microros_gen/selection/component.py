@@ -39,13 +39,15 @@ class Provision:
     """A capability that a part of a platform provides: the files that have it, and what these ask for.
 
     A plan in which none of the files has its place lacks the capability. `always`: the application may call it as
-    well, so it is there even where no component asks for it.
+    well, so it is there even where no component asks for it. `waits_for_room`: of a transport that had none, room ends
+    port_wait.
     """
 
     capability: str
     sources: tuple[SourceFile, ...]
     asks: tuple[Ask, ...] = ()
     always: bool = False
+    waits_for_room: bool = False
 
 
 @dataclass(frozen=True)

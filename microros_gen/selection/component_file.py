@@ -21,7 +21,7 @@ LAYERS = ("micro-ROS", "middleware", "port")
 _REQUIRED = ("component", "summary", "layer", "status")
 _LISTS = ("needs", "asks", "xrce", "sends", "receives", "objects", "headers", "sources", "implies", "pools")
 _IMPLIED = ("type", "every_node", "queue", "qos", "limits", "executed", "storage", "unless", "outside_ros")
-_PROVISION = ("sources", "asks", "always")
+_PROVISION = ("sources", "asks", "always", "waits_for_room")
 _STATUS = ("ready", "planned")
 
 
@@ -108,7 +108,8 @@ def _provides(node: MappingNode, diagnostics: Diagnostics) -> tuple[Provision, .
         check_keys(provision, _PROVISION, ("sources",), diagnostics)
         always = bool_of(provision.get("always")) or False
         sources, asks = _sources(provision, diagnostics), _asks(provision, diagnostics)
-        found.append(Provision(entry.key, sources, asks, always))
+        waits_for_room = bool_of(provision.get("waits_for_room")) or False
+        found.append(Provision(entry.key, sources, asks, always, waits_for_room))
     return tuple(found)
 
 

@@ -42,8 +42,8 @@ SERIAL = {"transport": "{type: serial}", "more": ", +multithread", "tasks": TASK
 VARIANTS: tuple[dict[str, str], ...] = (
     {"transport": UDP, "more": ", +multithread, +sleep_cycles"},
     {"transport": UDP, "more": ", +multithread", "tasks": TASKS},
-    {"transport": "{type: udp}", "more": ", +multithread, +discovery"},
-    {"transport": "{type: tcp, agent: 192.168.1.2:8888}", "more": ""},
+    {"transport": "{type: udp}", "more": ", +discovery"},
+    {"transport": "{type: tcp, agent: 192.168.1.2:8888}", "more": ", +multithread", "tasks": TASKS},
 )
 WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Werror")
 COMPILERS = (
@@ -97,7 +97,12 @@ PAIRS = [
 OF_PAIRS = {
     "lwip": VARIANTS,
     "freertos_tcp": (VARIANTS[0], *VARIANTS[2:]),
-    "zephyr_sockets": (VARIANTS[0], VARIANTS[2], {**VARIANTS[3], "more": ", +diagnosis"}, SERIAL),
+    "zephyr_sockets": (
+        VARIANTS[0],
+        {**VARIANTS[2], "more": ", +discovery, +diagnosis"},
+        VARIANTS[3],
+        SERIAL,
+    ),
     "posix_sockets": (SERIAL, {**SERIAL, "more": ", +multithread, +diagnosis"}),
     "esp_idf": ({**VARIANTS[0], "more": ", +diagnosis", "session": ""}, VARIANTS[1]),
 }

@@ -305,6 +305,11 @@ ERRORS = {
         TARGET,
         "names an unknown capability 'lok'",
     ),
+    "room": (
+        {"component.yaml": PART.replace("[port_demo_timer.c]", "[port_demo_timer.c], waits_for_room: true")},
+        TARGET,
+        "demo.yaml:4:5: error: the os 'port_demo' has 'waits_for_room' at 'timer', which is not a transport",
+    ),
     "file": (
         {"component.yaml": PART.replace("port_demo_timer.c", "x.c")},
         TARGET,

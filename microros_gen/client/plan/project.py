@@ -226,7 +226,8 @@ def plan_project(
         clock=running.clock,
     )
     board = plan_board(application, target, runtime, diagnostics)
-    own_line = runtime.transport.kind == "serial" and not target.names_lines and not board.has_serial_driver
+    has_driver = target.names_lines or board.has_serial_driver
+    own_line = runtime.transport.kind == "serial" and ("serial" in target.own_capabilities or not has_driver)
     runtime = replace(runtime, transport=replace(runtime.transport, own_line=own_line))
     context = PlanContext(application, selection, target, by_name, runtime, line)
     runtime = replace(runtime, features=plan_features(context, diagnostics))

@@ -85,6 +85,11 @@ class TransportPlan:
         return self.kind in ("udp", "tcp")
 
     @property
+    def has_system_line(self) -> bool:
+        """Whether it goes over a serial line whose functions the platform has."""
+        return self.kind == "serial" and not self.own_line
+
+    @property
     def send_may_wait(self) -> bool:
         """Whether sending is a function of the application, which may wait for its line."""
         return self.kind == "custom" or self.own_line

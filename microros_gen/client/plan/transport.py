@@ -40,8 +40,7 @@ def plan_transport(
 
 def _wakes_for_room(application: Application, selection: Selection, target: Target) -> bool:
     """Return whether room in the line ends the wait of the session's task."""
-    line = selection.transport == "tcp" or (selection.transport == "serial" and target.names_lines)
-    return bool(application.tasks) and target.os.waits_for_room and line
+    return bool(application.tasks) and target.waits_for_room(selection.transport)
 
 
 def _device(transport: Transport, target: Target) -> str:

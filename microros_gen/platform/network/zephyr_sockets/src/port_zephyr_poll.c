@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A wait for sockets and for a descriptor that port_wake makes ready. An interrupt may not write to a descriptor: it lets
+ * A wait for sockets and for a descriptor that port_wake makes ready. Each end takes one of the kernel's events, and a
+ * connection without room another one. An interrupt may not write to a descriptor: it lets
  * the kernel's work queue do that.
  */
 #include "microros/links.h"
 #include "microros/port.h"
+#include "microros/port_zephyr_room.h"
 #include "microros/port_zephyr_socket.h"
 
 #include <limits.h>
@@ -61,6 +63,7 @@ void port_wait(intptr_t handle, uint32_t timeout_ms)
     ends[i].events = ZSOCK_POLLIN;
     ends[i].revents = 0;
   }
+  port_zephyr_room_watch(&ends[AGENT]);
   (void)zsock_poll(
     ends, (int)(sizeof(ends) / sizeof(ends[0])), timeout_ms > (uint32_t)INT_MAX ? INT_MAX : (int)timeout_ms);
   if (wake >= 0) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/port.h"
+#include "microros/port_zephyr_room.h"
 #include "microros/port_zephyr_socket.h"
 
 #include <errno.h>
@@ -19,6 +20,7 @@ bool port_tcp_open(port_tcp_t * tcp, const char * host, uint16_t port)
 
 void port_tcp_close(port_tcp_t * tcp)
 {
+  port_zephyr_room_note((int)tcp->handle, false);
   (void)zsock_close((int)tcp->handle);
   tcp->handle = -1;
 }
@@ -43,6 +45,7 @@ int32_t port_tcp_send(port_tcp_t * tcp, const uint8_t * data, size_t size)
 {
   const ssize_t taken = zsock_send((int)tcp->handle, data, size, 0);
 
+  port_zephyr_room_note((int)tcp->handle, taken != (ssize_t)size);
   if (taken >= 0) {
     return (int32_t)taken;
   }

@@ -19,6 +19,7 @@
 #define SOL_SOCKET 1
 #define SO_ERROR 4
 #define ZSOCK_POLLIN 1
+#define ZSOCK_POLLOUT 4
 #define ZSOCK_MSG_TRUNC 0x20
 #define ZSOCK_MSG_DONTWAIT 0x40
 #define ZVFS_F_GETFL 3
