@@ -37,9 +37,11 @@ CHECKS = (
     Check("unique_id", ("unique_id",)),
     Check("udp", ("udp",)),
     Check("udp_loop", ("udp", "udp_local"), _LENGTHS),
+    Check("udp_link", ("udp",)),
     Check("tcp", ("tcp",)),
     Check("multicast", ("multicast",)),
     Check("serial", ("serial",), _LENGTHS),
+    Check("canfd", ("canfd",), _LENGTHS),
     Check("storage", ("storage",)),
 )
 

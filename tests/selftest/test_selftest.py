@@ -8,6 +8,7 @@ import os
 import pty
 import re
 import shutil
+import socket
 import subprocess
 import threading
 import tty
@@ -25,7 +26,9 @@ from microros_gen.selftest import checks as checks_module
 from microros_gen.selftest.render import lacks_image
 from microros_gen.toolchain.emulator import Emulator, Machine
 from tests.support.command_line import Runner
+from tests.support.e2e.can_bus import CanBus
 from tests.support.firmware.board import need, target
+from tests.support.runtime.fake_agent import FakeAgent
 from tests.support.selftest.programs import (
     failed,
     generated,
@@ -157,6 +160,23 @@ MULTICAST_FAULTS = {
     "multicast_invents": "multicast_receive_nothing",
     "multicast_waits": "multicast_receive_never_waits",
 }
+LINK_FAULTS = {
+    "link_send_waits": "link_down_send_never_waits",
+    "link_invents": "link_down_receive_nothing",
+    "link_receive_waits": "link_down_receive_never_waits",
+    "link_refuses": "link_up_opens link_up_answers",
+    "link_stays_down": "link_up_answers",
+}
+CAN_FAULTS = {
+    "can_none": "canfd_open",
+    "can_refuses": "canfd_send",
+    "can_invents": "canfd_receive_nothing",
+    "can_waits": "canfd_receive_never_waits",
+    "can_send_waits": "canfd_send_never_waits",
+    "can_flips": "canfd_lengths",
+    "can_cuts": "canfd_lengths",
+    "can_once": "canfd_opens_again",
+}
 STORAGE_FAULTS = {
     "storage_none": "storage_works",
     "storage_cuts": "storage_keeps",
@@ -177,6 +197,8 @@ TRIES = 6
 DECODER = ("-DHAS_DECODER",)
 TASKS = ("-DHAS_TASKS", *DECODER)
 STORAGE = ("-DHAS_STORAGE", *DECODER)
+CAN = ("-DHAS_CAN", *DECODER)
+LINK = ("-DHAS_LINK", *DECODER)
 UNSEEN = {"lock_is_recursive"}
 """A check that does not fail but stops the program: `test_a_lock_that_is_not_recursive_stops_the_program`."""
 
@@ -239,9 +261,10 @@ def test_the_port_to_posix_passes(program: Path) -> None:
     skipped = {name: why for name, (word, why) in found.items() if word == "SKIP"}
     if skipped.get("lock_inheritance"):
         print(skipped.pop("lock_inheritance"))
+    assert "-DSELFTEST_LINK" in skipped.pop("link_down")
     assert skipped == {
         name: f"the library does not use '{name}'"
-        for name in ("microseconds", "stack_peak", "tcp", "serial", "multicast", "storage")
+        for name in ("microseconds", "stack_peak", "tcp", "serial", "multicast", "canfd", "storage")
     }
     assert {name for name in found if "/" in name} == {
         *("std_msgs/msg/Int32", "std_msgs/msg/Empty", "sensor_msgs/msg/Imu"),
@@ -323,6 +346,44 @@ def test_a_serial_line_that_is_looped(outputs: Path) -> None:
     )
 
 
+@contextmanager
+def answering() -> Iterator[int]:
+    """An agent at a port: it answers what asks for it, and nothing else."""
+    agent = FakeAgent()
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as served:
+        served.bind(("127.0.0.1", 0))
+        thread = threading.Thread(target=answer, args=(served, agent))
+        thread.start()
+        try:
+            yield served.getsockname()[1]
+        finally:
+            served.sendto(b"", served.getsockname())
+            thread.join()
+
+
+def answer(served: socket.socket, agent: FakeAgent) -> None:
+    datagram, peer = served.recvfrom(2048)
+    while datagram:
+        for message in agent.receive(datagram):
+            served.sendto(message, peer)
+        datagram, peer = served.recvfrom(2048)
+
+
+def test_a_network_that_goes_down_and_up(outputs: Path) -> None:
+    with answering() as port:
+        text = f"{HEAD}transport: {{type: udp, agent: '127.0.0.1:{port}'}}\n{SMALL}"
+        out = generated(outputs / "link", text)
+        program = link(["gcc", "-O1", "-DSELFTEST_LINK"], out, out / "faulty", LINK)
+        assert results(all_pass(program))["link_up_answers"] == ("PASS", "")
+        check_faults(program, LINK_FAULTS)
+    found = results(all_pass(program))
+    assert (found["link_up_opens"][0], found["link_up_answers"][0]) == ("PASS", "SKIP")
+    shutil.rmtree(out / "objects-gcc")
+    program = link(["gcc", "-O1"], out, out / "without", DECODER)
+    word, why = results(all_pass(program))["link_down"]
+    assert (word, "-DSELFTEST_LINK" in why) == ("SKIP", True)
+
+
 def test_a_connection_that_is_refused(outputs: Path) -> None:
     out = generated(outputs / "tcp", f"{HEAD}transport: {{type: tcp, agent: '127.0.0.1:8888'}}\n{SMALL}")
     program = link(["gcc", "-O1"], out, out / "faulty", DECODER)
@@ -336,6 +397,22 @@ def test_multicast(outputs: Path) -> None:
     program = link(["gcc", "-O1"], out, out / "faulty", DECODER)
     assert results(all_pass(program))["multicast_send"] == ("PASS", "")
     check_faults(program, MULTICAST_FAULTS)
+
+
+def test_a_controller_that_is_looped(outputs: Path) -> None:
+    with CanBus(outputs / "bus") as bus:
+        out = generated(
+            outputs / "can", f"{HEAD}transport: {{type: canfd, id: 0x7f, device: '{bus.device}'}}\n{SMALL}"
+        )
+        program = link(["gcc", "-O1"], out, out / "faulty", CAN)
+        word, why = results(all_pass(program))["canfd_lengths"]
+        assert (word, "loopback" in why) == ("SKIP", True), "a bus does not send a frame back"
+        bus.echoes = True
+        assert results(all_pass(program))["canfd_lengths"] == ("PASS", "")
+        for fault in CAN_FAULTS:
+            check_faults(program, {fault: CAN_FAULTS[fault]})
+    word, why = results(lines_of(start(program))[1])["canfd_open"]
+    assert (word, why.startswith("seen no controller expected the controller 'unix:")) == ("FAIL", True)
 
 
 def test_storage_is_tested_where_a_slot_is_free(outputs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -424,7 +501,8 @@ def test_a_serial_line_of_a_board_that_is_looped(outputs: Path) -> None:
 
 def test_every_check_has_a_fault() -> None:
     """Each name in the C files is one that some fault makes fail."""
-    faults = (HOST_FAULTS, SERIAL_FAULTS, TCP_FAULTS, MULTICAST_FAULTS, STORAGE_FAULTS, BOARD_FAULTS)
+    of_lines = (SERIAL_FAULTS, TCP_FAULTS, MULTICAST_FAULTS, LINK_FAULTS, CAN_FAULTS)
+    faults = (HOST_FAULTS, *of_lines, STORAGE_FAULTS, BOARD_FAULTS)
     wanted = [checks for group in faults for checks in group.values()]
     tested = {name for checks in wanted if ": " not in checks for name in checks.split()}
     folder = Path(checks_module.__file__).parent / "c"

@@ -6,6 +6,7 @@
 #ifndef SELFTEST_H
 #define SELFTEST_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "selftest_config.h"
@@ -24,6 +25,10 @@ uint32_t selftest_run(void);
 /* Prints a line; `text` is without its end. selftest_console.c prints to standard output: leave that file out to define
  * the function yourself. Called by the task that called selftest_run. */
 void selftest_line(const char * text);
+
+/* Takes the network down or up, and returns when it is: a switch of the interface, or a person at the cable. The application
+ * defines it where the self-test is compiled with -DSELFTEST_LINK. Called by the task that called selftest_run. */
+void selftest_set_link(bool is_up);
 
 #ifdef __cplusplus
 }

@@ -24,9 +24,11 @@ void selftest_inheritance(void);
 void selftest_stack_peak(void);
 void selftest_udp(void);
 void selftest_udp_loop(void);
+void selftest_udp_link(void);
 void selftest_tcp(void);
 void selftest_multicast(void);
 void selftest_serial(void);
+void selftest_canfd(void);
 void selftest_storage(void);
 
 /* Round trips of the message types (selftest_types.c). */

@@ -6,6 +6,9 @@
 #define _GNU_SOURCE
 #include "microros/message_type.h"
 #include "microros/port.h"
+#ifdef HAS_CAN
+#include "microros/port_can.h"
+#endif
 #ifdef HAS_STORAGE
 #include "microros/port_storage.h"
 #endif
@@ -159,8 +162,26 @@ WRAP(uint32_t, port_stack_peak, (void))
   return IS("peak_zero") ? 0u : IS("peak_above") ? 1000000u : __real_port_stack_peak();
 }
 
+#ifdef HAS_LINK
+static bool is_down;
+static bool was_down;
+
+void selftest_set_link(bool is_up);
+
+void selftest_set_link(bool is_up)
+{
+  is_down = !is_up;
+  was_down = true;
+}
+#else
+enum { is_down = 0, was_down = 0 };
+#endif
+
 WRAP(bool, port_udp_open, (port_udp_t * udp, const char * host, uint16_t port))
 {
+  if (was_down && IS("link_refuses")) {
+    return false;
+  }
   if (IS("udp_takes_all") || IS("udp_none")) {
     return IS("udp_takes_all");
   }
@@ -172,6 +193,12 @@ WRAP(bool, port_udp_send, (port_udp_t * udp, const uint8_t * data, size_t size))
   static bool is_broken;
 
   is_broken = is_broken || (size == 0u && IS("udp_breaks"));
+  if (is_down && IS("link_send_waits")) {
+    __real_port_sleep_ms(50);
+  }
+  if (is_down || (was_down && IS("link_stays_down"))) {
+    return is_down && IS("link_takes");
+  }
   return !is_broken && __real_port_udp_send(udp, data, IS("udp_cuts") && size > 20u ? size - 1u : size);
 }
 
@@ -179,8 +206,11 @@ WRAP(int32_t, port_udp_receive, (port_udp_t * udp, uint8_t * buffer, size_t capa
 {
   int32_t size;
 
-  if (IS("udp_waits")) {
+  if (IS("udp_waits") || (is_down && IS("link_receive_waits"))) {
     __real_port_sleep_ms(50);
+  }
+  if (is_down) {
+    return IS("link_invents") ? 5 : 0;
   }
   size = __real_port_udp_receive(udp, buffer, capacity);
   if (IS("udp_invents") && size == 0) {
@@ -292,6 +322,41 @@ WRAP(size_t, port_serial_read, (port_serial_t * serial, uint8_t * buffer, size_t
   }
   return __real_port_serial_read(serial, buffer, capacity);
 }
+
+#ifdef HAS_CAN
+WRAP(bool, port_can_open, (port_can_t * can, const char * device, uint32_t id))
+{
+  static uint32_t calls;
+
+  ++calls;
+  return !IS("can_none") && !(IS("can_once") && calls > 1u) && __real_port_can_open(can, device, id);
+}
+
+WRAP(bool, port_can_send, (port_can_t * can, const uint8_t * data, size_t size))
+{
+  uint8_t bytes[PORT_CAN_DATA];
+
+  if (IS("can_refuses")) {
+    return false;
+  }
+  if (IS("can_send_waits")) {
+    __real_port_sleep_ms(50);
+  }
+  (void)memcpy(bytes, data, size);
+  if (IS("can_flips") && size > 20u) {
+    bytes[20] ^= 1u;
+  }
+  return __real_port_can_send(can, bytes, IS("can_cuts") && size > 8u ? 8u : size);
+}
+
+WRAP(size_t, port_can_receive, (port_can_t * can, uint8_t * data))
+{
+  if (IS("can_waits")) {
+    __real_port_sleep_ms(50);
+  }
+  return IS("can_invents") ? 8u : __real_port_can_receive(can, data);
+}
+#endif
 
 #ifdef HAS_TASKS
 static pthread_mutex_t plain = PTHREAD_MUTEX_INITIALIZER;

@@ -44,6 +44,8 @@ class CanBus:
         self.frames: list[bytes] = []
         """Every frame that was not lost, in order."""
         self.losses = 0
+        self.echoes = False
+        """Whether a frame also goes back to its sender, as a controller in loopback mode does."""
         self.lost: Lost = lambda frame: False
         self.fate: Fate = lambda frame: (frame,)
         self._members: list[socket.socket] = []
@@ -104,7 +106,7 @@ class CanBus:
 
     def _spread(self, frame: bytes, sender: socket.socket | None) -> None:
         self.frames.append(frame)
-        for member in [member for member in self._members if member is not sender]:
+        for member in [member for member in self._members if self.echoes or member is not sender]:
             try:
                 member.send(
                     frame, socket.MSG_NOSIGNAL
