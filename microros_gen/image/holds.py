@@ -42,6 +42,7 @@ class Rules:
     function is told to handle (None: nobody knows). `through`: where the call through a register at an address goes;
     None: nobody knows. `bytes`: those that a call is told to handle at most; None: nobody knows. `of_port`: what counts
     for a function of the port, by its name and what was found. `zero`: functions that return zero at each call.
+    `calls`: in how many rounds of its loop a call is reached at most; None: in all of them.
     """
 
     rounds: Callable[[Flow, int, frozenset[int], int | None], Length]
@@ -49,6 +50,7 @@ class Rules:
     bytes: Callable[[Flow, Step], int | None]
     of_port: Callable[[str, Length], Length]
     zero: frozenset[int] = frozenset()
+    calls: Callable[[Flow, Step], int | None] = lambda flow, step: None
 
 
 @dataclass
@@ -246,7 +248,7 @@ class _Walk:
 
     def _measure(self, begins: Mapping[Place, Length]) -> tuple[Length | None, dict[int, Length]]:
         """Return the longest paths from `begins` to where the lock is released, and to each end."""
-        reached = longest(self._edges, begins, self._rounds)
+        reached = longest(self._edges, begins, self._rounds, self._limit)
         released: Length | None = None
         ends: dict[int, Length] = {}
         for place, length in reached.items():
@@ -255,6 +257,10 @@ class _Walk:
             for depth, more in self._ends.get(place, {}).items():
                 ends[depth] = longer(ends.get(depth), length + more)
         return released, ends
+
+    def _limit(self, place: Place) -> int | None:
+        step = self._flow.steps[place[0]]
+        return None if step.call is None else self._holds.rules.calls(self._flow, step)
 
     def _rounds(self, head: Place, part: frozenset[Place]) -> Length:
         return self._holds.rules.rounds(self._flow, head[0], frozenset(at for at, _ in part), self._key[2])

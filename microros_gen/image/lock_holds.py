@@ -76,7 +76,7 @@ class _Image:
 
     def rules(self, zero: frozenset[int] = frozenset()) -> Rules:
         """Return what the code does not say."""
-        return Rules(self._rounds, self._targets.get, self._bytes, self._of_port, zero)
+        return Rules(self._rounds, self._targets.get, self._bytes, self._of_port, zero, self._calls)
 
     def _rounds(self, flow: Flow, head: int, part: frozenset[int], size: int | None) -> Length:
         if head in flow.rounds:
@@ -109,6 +109,10 @@ class _Image:
         if step.size is not None or place is None:
             return step.size
         return self._sources.size(place)
+
+    def _calls(self, flow: Flow, step: Step) -> int | None:
+        place = None if self._is_library(flow.address) else self._lines.place(step.address)
+        return self._sources.calls(place) if place is not None else None
 
     def _of_port(self, name: str, length: Length) -> Length:
         return Length(self._port) if length.open and self._port is not None else length

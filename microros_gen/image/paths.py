@@ -3,7 +3,8 @@
 
 A loop is a strongly connected part that is entered at one place. Without the edges to that place it may contain others
 (Bourdoncle, "Efficient chaotic iteration strategies with widenings", 1993). What its place is reached with grows by its
-longest round for each round.
+longest round for each round. A place of a loop may be reached in few of its rounds only: the others then grow by the
+longest one without it.
 """
 
 from __future__ import annotations
@@ -32,6 +33,14 @@ NOTHING = Length(0)
 Edges = Mapping[Node, Mapping[Node, Length]]
 Rounds = Callable[[Node, frozenset[Node]], Length]
 """Of a loop, by the place where it is entered and all of its places: the most rounds, or why nobody knows."""
+Limits = Callable[[Node], int | None]
+"""Of a place: in how many rounds of its innermost loop it is reached at most, each time that the loop is entered.
+None: in all of them."""
+
+
+def _everywhere(node: Hashable) -> int | None:
+    """Limit no place."""
+    return None
 
 
 def longer(known: Length | None, other: Length) -> Length:
@@ -39,9 +48,14 @@ def longer(known: Length | None, other: Length) -> Length:
     return other if known is None else Length(max(known.count, other.count), known.open | other.open)
 
 
-def longest(edges: Edges[Node], begins: Mapping[Node, Length], rounds: Rounds[Node]) -> dict[Node, Length]:
+def longest(
+    edges: Edges[Node],
+    begins: Mapping[Node, Length],
+    rounds: Rounds[Node],
+    limits: Limits[Node] = _everywhere,
+) -> dict[Node, Length]:
     """Return the longest path to each place that one of `begins` leads to, from what each of those begins with."""
-    return _longest(_reached(edges, begins), edges, begins, rounds)
+    return _longest(_reached(edges, begins), edges, begins, rounds, limits)
 
 
 def _reached(edges: Edges[Node], begins: Iterable[Node]) -> set[Node]:
@@ -56,7 +70,11 @@ def _reached(edges: Edges[Node], begins: Iterable[Node]) -> set[Node]:
 
 
 def _longest(
-    nodes: set[Node], edges: Edges[Node], begins: Mapping[Node, Length], rounds: Rounds[Node]
+    nodes: set[Node],
+    edges: Edges[Node],
+    begins: Mapping[Node, Length],
+    rounds: Rounds[Node],
+    limits: Limits[Node],
 ) -> dict[Node, Length]:
     found: dict[Node, Length] = {}
     coming: dict[Node, Length] = {node: value for node, value in begins.items() if node in nodes}
@@ -65,7 +83,7 @@ def _longest(
             if part[0] in coming:
                 found[part[0]] = coming[part[0]]
         else:
-            found.update(_loop(frozenset(part), edges, coming, frozenset(begins), rounds))
+            found.update(_loop(frozenset(part), edges, coming, frozenset(begins), rounds, limits))
         for node in part:
             for after, length in edges.get(node, {}).items():
                 if after in nodes and after not in part and node in found:
@@ -79,6 +97,7 @@ def _loop(
     coming: Mapping[Node, Length],
     begins: frozenset[Node],
     rounds: Rounds[Node],
+    limits: Limits[Node],
 ) -> dict[Node, Length]:
     """Return the longest paths into a loop; one that begins in its middle counts as one from its entry."""
     entered = [node for node in part if node in coming]
@@ -93,17 +112,43 @@ def _loop(
     within = {
         node: {n: w for n, w in edges.get(node, {}).items() if n in part and n != head} for node in part
     }
-    inner = _longest(set(part), within, {head: NOTHING}, rounds)
+    inner = _longest(set(part), within, {head: NOTHING}, rounds, limits)
+    most = rounds(head, part)
+    more = _rounds(part, head, edges, inner, most)
+    limited = _limited(part, within, limits)
+    few = sum(limited.values())
+    if limited and few < most.count:
+        others = {node: {} if node in limited else after for node, after in within.items()}
+        shorter = _longest(set(part), others, {head: NOTHING}, rounds, limits)
+        free = {node: edges.get(node, {}) if node not in limited else {} for node in part}
+        rest = _rounds(part, head, free, shorter, Length(most.count - few))
+        more = _rounds(part, head, edges, inner, Length(few, most.open)) + rest
+    if len(outside) > 1:
+        more += Length(0, frozenset({"a loop with several entries"}))
+    return {node: value + more + length for node, length in inner.items()}
+
+
+def _rounds(
+    part: frozenset[Node], head: Node, edges: Edges[Node], inner: Mapping[Node, Length], most: Length
+) -> Length:
+    """Return `most` times the longest round of a loop; `inner` are the longest paths from its entry."""
     cycle = NOTHING
     for node in part:
         back = edges.get(node, {}).get(head)
         if back is not None and node in inner:
             cycle = longer(cycle, inner[node] + back)
-    most = rounds(head, part)
-    more = Length(cycle.count * most.count, cycle.open | most.open)
-    if len(outside) > 1:
-        more += Length(0, frozenset({"a loop with several entries"}))
-    return {node: value + more + length for node, length in inner.items()}
+    return Length(cycle.count * most.count, cycle.open | most.open)
+
+
+def _limited(part: frozenset[Node], within: Edges[Node], limits: Limits[Node]) -> dict[Node, int]:
+    """Return the places of a loop that few of its rounds reach; those of its inner loops count there."""
+    known = {node: limit for node in part if (limit := limits(node)) is not None}
+    if not known:
+        return {}
+    inner = {node for each in _parts(set(part), within) if len(each) > 1 for node in each}
+    return {
+        node: limit for node, limit in known.items() if node not in inner and node not in within.get(node, {})
+    }
 
 
 def _parts(nodes: set[Node], edges: Edges[Node]) -> Sequence[tuple[Node, ...]]:

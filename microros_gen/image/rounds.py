@@ -3,7 +3,8 @@
 
 A loop says it itself, as in `for (i = 0; i < MICROROS_TASKS; ++i)`, or a comment does, at its line or on a separate
 one before it: `/* at most MICROROS_TASKS rounds */`, and for a call `/* at most MICROROS_MTU bytes */`. Numbers are
-constants of the output, with `+ - * /` and parentheses; of `A or B` the first that the output has.
+constants of the output, with `+ - * /` and parentheses; of `A or B` the first that the output has. Where few of the
+rounds of a loop reach a call, a comment at it says so: `/* at most MICROROS_MTU / 12 calls */`.
 """
 
 from __future__ import annotations
@@ -198,6 +199,11 @@ class Sources:
     def size(self, place: tuple[str, int]) -> int | None:
         """Return the most bytes that a call handles, or None."""
         statement = self._source(place[0]).stated(place[1], "bytes")
+        return self._value(place[0], statement) if statement is not None else None
+
+    def calls(self, place: tuple[str, int]) -> int | None:
+        """Return in how many rounds of its loop a call is reached at most, or None: in all of them."""
+        statement = self._source(place[0]).stated(place[1], "calls")
         return self._value(place[0], statement) if statement is not None else None
 
     def _value(self, name: str, statement: str) -> int | None:

@@ -8,7 +8,7 @@ import subprocess
 import threading
 from pathlib import Path
 
-from tests.support.components.rendered import program_of, rendered
+from tests.support.components.rendered import program_of, rendered, run
 from tests.support.patience import seconds
 from tests.support.runtime.reading_agent import ReadingAgent
 from tests.support.runtime.tcp import TcpAgent
@@ -129,3 +129,9 @@ def test_a_line_without_room_wakes_its_task_when_it_has_some(tmp_path: Path) -> 
         reads_on.set()
         assert running.wait(seconds(60)) == 0
     assert sleeps <= SOME_ROOM
+
+
+def test_a_submessage_that_is_too_short_for_any_counts_as_malformed(tmp_path: Path) -> None:
+    """Otherwise a message would hold more of them than the bound of the session's hold of the lock supposes."""
+    out = rendered(tmp_path, FULL.format(port=8888))
+    run(program_of(out, "unit_short.c", more=("-pthread",)))

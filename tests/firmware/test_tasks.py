@@ -52,8 +52,10 @@ tasks:
   - {{name: session, session: true, interval: 10 ms, stack: auto,
      instructions: {session}, lock_instructions: {session_lock}}}
 """
-FULL = 50
+FULL = 10
 """How much longer a message full of submessages may take than those that the agent of the firmware sends."""
+CLOSE = 3
+"""How far above the heaviest message its bound may be: a submessage takes another path than the longest one."""
 JOBS, ROUNDS = 4, 3
 """Jobs of a task in each of its turns, and turns of each (c/measured_tasks.c): in the order of the application file."""
 
@@ -220,6 +222,15 @@ def test_no_hold_of_the_lock_is_longer_than_the_call_graph_says(tasked: Built) -
     assert rows["session"]["instructions"] < FULL * measured["session"], (
         "one message, not all that have arrived"
     )
+
+
+@pytest.mark.system
+def test_a_message_full_of_submessages_is_below_the_bound_and_close_to_it(tasked: Built) -> None:
+    """Each of them asks for all messages of the stream once more."""
+    image = tasked.link(C_FILES / "measured_tasks.c", tasked.out.parent / "full.elf", "-DMEASURED_FULL")
+    bound = holds_of(tasked, image)["session"]["instructions"]
+    most = max(counted(tasked, "-DMEASURED_FULL", "-DMEASURED_HOLDS=RCLC_TASK_SESSION")[0::2])
+    assert 2 * HOLDS["session_lock"] < most <= bound < CLOSE * most, (most, bound)
 
 
 @pytest.mark.system

@@ -40,14 +40,43 @@ def test_a_loop_with_two_entries_is_no_bound() -> None:
     assert found[3].open == {"a loop with several entries"}
 
 
-def walked(graph: Graph, left: Mapping[int, int], at: int, length: int, best: dict[int, int]) -> None:
-    """Follow each path that takes an edge back to a node at most as often as `left` says."""
+def limited(graph: Graph, rounds: Mapping[int, int], limits: Mapping[int, int]) -> dict[int, int]:
+    edges = {node: {to: Length(weight) for to, weight in after.items()} for node, after in graph.items()}
+    found = longest(edges, {0: NOTHING}, lambda head, _: Length(rounds[head]), limits.get)
+    return {node: length.count for node, length in found.items()}
+
+
+def test_what_few_rounds_reach_counts_in_those() -> None:
+    graph = {0: {1: 2}, 1: {2: 1, 3: 1, 4: 1}, 2: {1: 100}, 3: {1: 4}}
+    assert limited(graph, {1: 10}, {2: 3})[4] == 2 + 3 * 101 + 7 * 5 + 1
+    assert limited(graph, {1: 10}, {2: 3, 3: 2})[4] == 2 + 5 * 101 + 1, "any of those that are limited"
+    assert limited(graph, {1: 10}, {2: 30})[4] == 2 + 10 * 101 + 1
+    assert limited(graph, {1: 10}, {2: 0})[4] == 2 + 10 * 5 + 1
+
+
+def test_what_few_rounds_of_an_inner_loop_reach_counts_in_each_of_the_outer_one() -> None:
+    graph = {0: {1: 1}, 1: {2: 1, 9: 1}, 2: {3: 1, 4: 1, 1: 1}, 3: {2: 50}, 4: {2: 1}}
+    assert limited(graph, {1: 3, 2: 7}, {3: 2})[9] == 1 + 3 * (1 + 2 * 51 + 5 * 2 + 1) + 1
+
+
+def walked(
+    graph: Graph, left: Mapping[int, int], at: int, length: int, best: dict[int, int], few: tuple[int, int]
+) -> None:
+    """Follow each path that takes an edge back to a node at most as often as `left` says.
+
+    `few`: a node, and how often a path leaves it at most.
+    """
     best[at] = max(best.get(at, 0), length)
+    node, most = few
+    if at == node:
+        if most == 0:
+            return
+        few = (node, most - 1)
     for to, weight in graph.get(at, {}).items():
         if to > at:
-            walked(graph, left, to, length + weight, best)
+            walked(graph, left, to, length + weight, best, few)
         elif left[to]:
-            walked(graph, {**left, to: left[to] - 1}, to, length + weight, best)
+            walked(graph, {**left, to: left[to] - 1}, to, length + weight, best, few)
 
 
 @pytest.mark.parametrize("seed", range(40))
@@ -64,6 +93,11 @@ def test_no_path_is_longer_than_what_was_found(seed: int) -> None:
         graph[chance.randrange(head, count - 1)][head] = chance.randint(1, 9)
     rounds = dict.fromkeys(range(count), 2)
     found, best = measured(graph, rounds), dict[int, int]()
-    walked(graph, rounds, 0, 0, best)
+    walked(graph, rounds, 0, 0, best, (count, 0))
     assert set(found) == set(best)
     assert all(found[node] >= length for node, length in best.items())
+    for node in range(count):
+        best = {}
+        walked(graph, rounds, 0, 0, best, (node, 1))
+        few = limited(graph, rounds, {node: 1})
+        assert all(length <= few[at] <= found[at] for at, length in best.items())

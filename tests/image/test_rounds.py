@@ -70,6 +70,12 @@ def test_a_comment_says_how_many_bytes_a_call_handles() -> None:
     assert [sources.size(("file.c", line)) for line in (1, 2, 4)] == [22, None, 9]
 
 
+def test_a_comment_says_in_how_many_rounds_a_call_is_reached() -> None:
+    text = "take(a); /* at most 1 + MICROROS_MTU / 12 calls */\ntake(a); /* at most 4 rounds */"
+    sources = Sources(lambda _: text, [HEADER])
+    assert [sources.calls(("file.c", line)) for line in (1, 2)] == [1 + 22 // 12, None]
+
+
 def test_a_comment_of_the_outer_loop_does_not_bound_the_inner_one() -> None:
     text = "for (;;) { /* at most 4 rounds */\n  while (*at != 0) {\n    ++at;\n  }\n}"
     assert (rounds(text, 1), rounds(text, 3)) == (4, "src/part/file.c:2")
@@ -80,13 +86,21 @@ WAITS = "port_time_ms() - start <"
 """A loop that ends at a time, and rests in each round."""
 
 
-@pytest.mark.parametrize("component", ["peer", "stream_reliable", "write"])
+BOUNDED = (
+    *("framing", "peer", "stream_best_effort", "stream_reliable", "stream_reliable_input"),
+    *("transport_canfd", "write"),
+)
+
+
+@pytest.mark.parametrize("component", BOUNDED)
 def test_the_loops_of_what_sends_and_receives_have_a_bound(component: str) -> None:
     """Without one `lock: auto` would be refused for an application that has the component."""
     declared = "".join(path.read_text() for path in COMPONENTS.glob("*/component.yaml"))
+    declared += (COMPONENTS / "base" / "include" / "microros_config.h.j2").read_text()
     defines = "".join(f"#define {name} 8u\n" for name in {*re.findall(r"\bMICROROS_[A-Z0-9_]+", declared)})
     own = sorted((COMPONENTS / component).rglob("*.[ch]"))
     headers = [defines, *(path.read_text() for path in own if path.suffix == ".h")]
+    headers += [re.sub("{%.*?%}", "", path.read_text()) for path in (COMPONENTS / component).rglob("*.h.j2")]
     sources = Sources(lambda name: Path(name).read_text(), headers)
     bounds = {
         (path.name, loop.first): sources.rounds([(str(path), loop.first)])

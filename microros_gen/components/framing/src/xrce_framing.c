@@ -86,7 +86,7 @@ int32_t xrce_framing_receive(
   xrce_framing_t * framing, struct xrce_transport_t * line, uint8_t * buffer, size_t capacity)
 {
   for (int i = 0; i < CHUNKS_PER_CALL; ++i) {
-    while (framing->used < framing->held) {
+    while (framing->used < framing->held) { /* at most XRCE_FRAMING_CHUNK rounds */
       const int32_t size = reader_take_raw(framing, framing->chunk[framing->used++], buffer, capacity);
 
       if (size != 0) {

@@ -64,6 +64,7 @@ static size_t frame_size(const uint8_t * message, uint16_t size)
   size_t count = 0;
 
   xrce_frame_begin(&frame, message, size);
+  /* at most 2 * (MICROROS_MTU + MICROROS_PEER_MTU) + 13 or 2 * MICROROS_MTU + 13 rounds */
   while (xrce_frame_next(&frame) >= 0) {
     ++count;
   }
@@ -85,10 +86,11 @@ bool xrce_framing_send(struct xrce_transport_t * line, const uint8_t * message, 
     return false;
   }
   xrce_frame_begin(&frame, message, (uint16_t)size);
+  /* at most (MICROROS_MTU + MICROROS_PEER_MTU) / 8 + 2 or MICROROS_MTU / 8 + 2 rounds */
   while (left != 0u) {
     size_t count = 0;
 
-    while (count < sizeof(chunk) && left != 0u) {
+    while (count < sizeof(chunk) && left != 0u) { /* at most CHUNK rounds */
       chunk[count] = (uint8_t)((uint32_t)xrce_frame_next(&frame) & 0xffu);
       ++count;
       --left;

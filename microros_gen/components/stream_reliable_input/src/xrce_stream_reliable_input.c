@@ -101,7 +101,7 @@ static void input_deliver_stored(xrce_client_t * client, uint32_t now)
   size_t size = 0;
   const uint8_t * message = xrce_stream_reliable_input_kept(stream, stream->next, &size);
 
-  while (message != NULL) { /* at most MICROROS_RELIABLE_INPUT_SLOTS rounds */
+  while (message != NULL) { /* at most MICROROS_RELIABLE_INPUT_SLOTS - 1 rounds */
     input_deliver(client, message, size, now);
     message = xrce_stream_reliable_input_kept(stream, stream->next, &size);
   }

@@ -9,6 +9,7 @@ static uint8_t input_slot(const xrce_stream_reliable_input_t * stream, uint16_t 
 {
   uint8_t slot = 0;
 
+  /* at most XRCE_RELIABLE_INPUT_HELD rounds */
   while (slot < XRCE_RELIABLE_INPUT_HELD &&
          (stream->size[slot] == 0u || stream->sequence[slot] != sequence)) {
     ++slot;
@@ -21,6 +22,7 @@ void xrce_stream_reliable_input_keep(
 {
   uint8_t slot = 0;
 
+  /* at most XRCE_RELIABLE_INPUT_HELD rounds */
   while (slot < XRCE_RELIABLE_INPUT_HELD && stream->size[slot] != 0u) {
     ++slot;
   }
@@ -29,6 +31,7 @@ void xrce_stream_reliable_input_keep(
     input_slot(stream, sequence) != XRCE_RELIABLE_INPUT_HELD) {
     return;
   }
+  /* at most MICROROS_RELIABLE_INPUT_SLOT_SIZE bytes */
   (void)memcpy(stream->message[slot], message, size);
   stream->size[slot] = (uint16_t)size;
   stream->sequence[slot] = sequence;

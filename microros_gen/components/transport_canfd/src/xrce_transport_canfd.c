@@ -17,7 +17,7 @@ static size_t canfd_length(size_t size)
   if (size <= 8u) {
     return size;
   }
-  while (lengths[i] < size) {
+  while (lengths[i] < size) { /* at most 6 rounds */
     ++i;
   }
   return lengths[i];

@@ -22,6 +22,17 @@ enum { XRCE_TURN_POLL_MS = 1000 };
 /* Messages that a pump receives, with the lock. The task of the session receives with xrce_session_spin. */
 enum { XRCE_TURN_MESSAGES = 1 };
 
+/* The smallest payload of what an agent sends, but for the end of a sample in fragments, which is alone in its message. A
+ * submessage with it takes so many bytes up to the next one. */
+enum { XRCE_TURN_SHORTEST = 5, XRCE_TURN_SHORTEST_PLACE = 12 };
+
+/* Returns whether a submessage with so many bytes of payload is taken after another one of its message: this bounds the work
+ * for a message, and with it the hold of the lock. */
+static inline bool xrce_turn_takes(size_t length)
+{
+  return length >= (size_t)XRCE_TURN_SHORTEST;
+}
+
 /* Returns whether the calling task may receive and send: the task of the session, and each task while that does not run. */
 bool xrce_turn_is_mine(void);
 

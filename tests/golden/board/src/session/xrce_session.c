@@ -151,7 +151,13 @@ bool xrce_session_take_submessages(xrce_client_t * client, const uint8_t * messa
     if (length > size - at - XRCE_SUBMESSAGE_HEADER) {
       return false;
     }
-    xrce_route_submessage(client, &message[at], length, now);
+    /* cppcheck-suppress knownConditionTrueFalse ; without a task for the session each one is taken */
+    if (at == (size_t)XRCE_MESSAGE_HEADER || xrce_turn_takes(length)) {
+      /* at most 1 + (MICROROS_INPUT_SIZE - 5) / XRCE_TURN_SHORTEST_PLACE calls */
+      xrce_route_submessage(client, &message[at], length, now);
+    } else {
+      ++client->session.statistics.malformed;
+    }
     at = (at + XRCE_SUBMESSAGE_HEADER + length + 3u) & ~(size_t)3u;
   }
   return true;
