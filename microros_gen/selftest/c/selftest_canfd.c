@@ -64,7 +64,8 @@ static size_t wrong_length(void)
 static void check_loop(void)
 {
   selftest_fill(sent, SHORT);
-  selftest_true("canfd_send", port_can_send(&can, sent, SHORT), "a frame that was refused", "one that was taken");
+  selftest_true(
+    "canfd_send", port_can_send(&can, sent, SHORT), "a frame that was refused", "one that was taken");
   if (receive_back() == 0u) {
     selftest_skip("canfd_lengths", "nothing came back: put the controller into loopback mode");
   } else {

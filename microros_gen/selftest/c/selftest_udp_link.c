@@ -63,8 +63,7 @@ static void check_down(void)
   if (!is_open) {
     return;
   }
-  selftest_at_most(
-    "link_down_send_never_waits", (int64_t)selftest_shortest_ms(send), (int64_t)ZERO_MS, "ms");
+  selftest_at_most("link_down_send_never_waits", (int64_t)selftest_shortest_ms(send), (int64_t)ZERO_MS, "ms");
   selftest_equal(
     "link_down_receive_nothing", (int64_t)port_udp_receive(&udp, received, sizeof(received)), 0, "bytes");
   selftest_at_most(
@@ -88,8 +87,7 @@ static void check_up(bool was_answered)
   }
   selftest_true("link_up_opens", opens, "no socket", "one within 2 s after the link is up");
   if (was_answered) {
-    selftest_true(
-      "link_up_answers", is_answer, "no answer of the agent", "one, as before the link was down");
+    selftest_true("link_up_answers", is_answer, "no answer of the agent", "one, as before the link was down");
   } else {
     selftest_skip("link_up_answers", "no agent at " SELFTEST_HOST " answers while the link is up");
   }
@@ -113,8 +111,7 @@ void selftest_udp_link(void)
 
 void selftest_udp_link(void)
 {
-  selftest_skip(
-    "link_down", "define selftest_set_link, and -DSELFTEST_LINK when you compile the self-test");
+  selftest_skip("link_down", "define selftest_set_link, and -DSELFTEST_LINK when you compile the self-test");
 }
 
 #endif

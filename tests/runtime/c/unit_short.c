@@ -22,8 +22,7 @@ int main(void)
   /* of a kind that the client does not know (0x0f), and ACKNACKs */
   static const uint8_t alone[] = {0x81, 0, 0, 0, 0x0f, 1, 4, 0, 1, 2, 3, 4};
   static const uint8_t too_short_alone[] = {0x81, 0, 0, 0, 0x0a, 1, 4, 0, 0, 0, 0, 0};
-  static const uint8_t whole[] = {
-    0x81, 0, 0, 0, 0x0f, 1, 4, 0, 1, 2, 3, 4, 0x0a, 1, 5, 0, 0, 0, 0, 0, 0x80};
+  static const uint8_t whole[] = {0x81, 0, 0, 0, 0x0f, 1, 4, 0, 1, 2, 3, 4, 0x0a, 1, 5, 0, 0, 0, 0, 0, 0x80};
   static const uint8_t after_another[] = {
     0x81, 0, 0, 0, 0x0a, 1, 5, 0, 0, 0, 0, 0, 0x80, 0, 0, 0, 0x0a, 1, 4, 0, 0, 0, 0, 0};
   static const uint8_t unknown_after_another[] = {

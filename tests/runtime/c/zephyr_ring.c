@@ -15,10 +15,10 @@ enum { BAUD = 115200 };
 static const struct device uart = {"uart"};
 static uart_irq_callback_user_data_t interrupt;
 static void * context;
-static bool sends;        /* the transmit interrupt is enabled */
-static bool is_pending;   /* of this call */
-static uint32_t unsent;   /* bytes of the ring of the output */
-static uint32_t sent;     /* bytes, in all */
+static bool sends;      /* the transmit interrupt is enabled */
+static bool is_pending; /* of this call */
+static uint32_t unsent; /* bytes of the ring of the output */
+static uint32_t sent;   /* bytes, in all */
 static unsigned wakes;
 static uint32_t woken_at; /* the number of bytes that were sent before the last one */
 
