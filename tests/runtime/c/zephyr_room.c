@@ -11,7 +11,9 @@
 enum { AGENT = 1, HANDLE = 5, OTHER = 6 };
 
 static int events;     /* that the last wait looked for at the connection */
-static ssize_t taken;  /* by the next send; less than 0: EAGAIN */
+static ssize_t taken;  /* by the next send */
+static int refusal;    /* errno of a send that takes nothing */
+static int wait_ms;    /* of the last wait */
 static unsigned locks; /* that were taken and not released */
 
 void port_lock(void)
@@ -105,14 +107,14 @@ ssize_t zsock_recv(int sock, void * bytes, size_t size, int flags)
 ssize_t zsock_send(int sock, const void * bytes, size_t size, int flags)
 {
   (void)sock, (void)bytes, (void)size, (void)flags;
-  errno = EAGAIN;
+  errno = refusal;
   return taken;
 }
 
 int zsock_poll(struct zsock_pollfd * descriptors, int count, int timeout)
 {
-  (void)timeout;
   CHECK(count > AGENT && locks == 0u);
+  wait_ms = timeout;
   events = descriptors[AGENT].events;
   return 0;
 }
@@ -136,6 +138,7 @@ int main(void)
 {
   port_tcp_t tcp;
 
+  refusal = EAGAIN;
   CHECK(port_tcp_open(&tcp, "192.168.1.2", 8888));
   CHECK(waited(tcp.handle) == ZSOCK_POLLIN);
   CHECK(sent(&tcp, -1) == (ZSOCK_POLLIN | ZSOCK_POLLOUT)); /* nothing was taken */
@@ -146,5 +149,11 @@ int main(void)
   CHECK(sent(&tcp, -1) == (ZSOCK_POLLIN | ZSOCK_POLLOUT));
   port_tcp_close(&tcp);
   CHECK(waited(HANDLE) == ZSOCK_POLLIN); /* the next connection has the same descriptor */
+  CHECK(wait_ms == 1000);
+  refusal =
+    ENOBUFS; /* the connection counts as ready to send: without a wait the task would keep the processor */
+  CHECK(port_tcp_open(&tcp, "192.168.1.2", 8888) && sent(&tcp, -1) == ZSOCK_POLLIN && wait_ms == 1);
+  refusal = EAGAIN;
+  CHECK(sent(&tcp, -1) == (ZSOCK_POLLIN | ZSOCK_POLLOUT) && wait_ms == 1000);
   return 0;
 }

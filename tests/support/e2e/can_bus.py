@@ -45,7 +45,7 @@ class CanBus:
         """Every frame that was not lost, in order."""
         self.losses = 0
         self.echoes = False
-        """Whether a frame also goes back to its sender, as a controller in loopback mode does."""
+        """Whether a frame goes back to its sender alone, as with a controller in loopback mode."""
         self.lost: Lost = lambda frame: False
         self.fate: Fate = lambda frame: (frame,)
         self._members: list[socket.socket] = []
@@ -106,7 +106,7 @@ class CanBus:
 
     def _spread(self, frame: bytes, sender: socket.socket | None) -> None:
         self.frames.append(frame)
-        for member in [member for member in self._members if self.echoes or member is not sender]:
+        for member in [m for m in self._members if (m is sender) == (self.echoes and sender is not None)]:
             try:
                 member.send(
                     frame, socket.MSG_NOSIGNAL

@@ -53,6 +53,7 @@ void port_wait(intptr_t handle, uint32_t timeout_ms)
   const int wake = wake_open();
   struct zsock_pollfd ends[(int)ENDS + (int)MICROROS_LINKS];
   zvfs_eventfd_t count = 0;
+  uint32_t left_ms;
 
   ends[WAKE].fd = wake;
   ends[AGENT].fd = (int)handle; /* a negative descriptor is passed over */
@@ -63,9 +64,9 @@ void port_wait(intptr_t handle, uint32_t timeout_ms)
     ends[i].events = ZSOCK_POLLIN;
     ends[i].revents = 0;
   }
-  port_zephyr_room_watch(&ends[AGENT]);
+  left_ms = port_zephyr_room_watch(&ends[AGENT], timeout_ms);
   (void)zsock_poll(
-    ends, (int)(sizeof(ends) / sizeof(ends[0])), timeout_ms > (uint32_t)INT_MAX ? INT_MAX : (int)timeout_ms);
+    ends, (int)(sizeof(ends) / sizeof(ends[0])), left_ms > (uint32_t)INT_MAX ? INT_MAX : (int)left_ms);
   if (wake >= 0) {
     (void)zvfs_eventfd_read(wake, &count); /* an error: nothing has woken it */
   }

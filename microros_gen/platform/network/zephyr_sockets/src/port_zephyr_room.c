@@ -3,12 +3,16 @@
 
 #include "microros/lock.h"
 
-static int full_handle = -1; /* the session has one connection at a time */
+enum { AGAIN_MS = 1 };
 
-void port_zephyr_room_note(int handle, bool is_full)
+static int full_handle = -1; /* the session has one connection at a time */
+static bool lacks_memory;    /* the connection may count as ready to send meanwhile */
+
+void port_zephyr_room_note(int handle, bool is_full, bool is_memory)
 {
   if (is_full) {
     full_handle = handle;
+    lacks_memory = is_memory;
   } else if (full_handle == handle) {
     full_handle = -1;
   } else {
@@ -16,11 +20,20 @@ void port_zephyr_room_note(int handle, bool is_full)
   }
 }
 
-void port_zephyr_room_watch(struct zsock_pollfd * end)
+uint32_t port_zephyr_room_watch(struct zsock_pollfd * end, uint32_t timeout_ms)
 {
+  uint32_t left_ms = timeout_ms;
+
   microros_lock();
   if (end->fd >= 0 && end->fd == full_handle) {
-    end->events = ZSOCK_POLLIN | ZSOCK_POLLOUT;
+    if (!lacks_memory) {
+      end->events = ZSOCK_POLLIN | ZSOCK_POLLOUT;
+    } else if (left_ms > (uint32_t)AGAIN_MS) {
+      left_ms = AGAIN_MS;
+    } else {
+      /* sooner */
+    }
   }
   microros_unlock();
+  return left_ms;
 }

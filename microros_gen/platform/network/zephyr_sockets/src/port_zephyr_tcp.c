@@ -20,7 +20,7 @@ bool port_tcp_open(port_tcp_t * tcp, const char * host, uint16_t port)
 
 void port_tcp_close(port_tcp_t * tcp)
 {
-  port_zephyr_room_note((int)tcp->handle, false);
+  port_zephyr_room_note((int)tcp->handle, false, false);
   (void)zsock_close((int)tcp->handle);
   tcp->handle = -1;
 }
@@ -45,7 +45,8 @@ int32_t port_tcp_send(port_tcp_t * tcp, const uint8_t * data, size_t size)
 {
   const ssize_t taken = zsock_send((int)tcp->handle, data, size, 0);
 
-  port_zephyr_room_note((int)tcp->handle, taken != (ssize_t)size);
+  port_zephyr_room_note(
+    (int)tcp->handle, taken != (ssize_t)size, taken < 0 && (errno == ENOBUFS || errno == ENOMEM));
   if (taken >= 0) {
     return (int32_t)taken;
   }
