@@ -73,7 +73,8 @@ static void answer_status(uint8_t stream, const uint8_t * ids)
 }
 
 #ifdef MEASURED_FULL
-/* As many as a message has room for. All but the last one ask for every message of the stream once more. */
+/* As many submessages as a message has room for. All but the last one are of the kind MEASURED_FULL: an ACKNACK asks for every
+ * message of the stream once more, and a HEARTBEAT for an ACKNACK. */
 static void answer_acknack(const uint8_t * message)
 {
   enum { PLACE = 12, ASKING = 4, LAST = HEADER + ASKING * PLACE, FULL = LAST + 9 };
@@ -85,6 +86,7 @@ static void answer_acknack(const uint8_t * message)
   put(full, (const uint8_t[HEADER]){0x81, 0, 0, 0}, HEADER);
   for (volatile size_t at = HEADER; at <= (size_t)LAST; at += (size_t)PLACE) {
     put(&full[at], begin, PLACE);
+    full[at] = at == (size_t)LAST ? begin[0] : (uint8_t)MEASURED_FULL;
     full[at + 4u] = (uint8_t)((at == (size_t)LAST ? next : sequence) & 0xffu);
     full[at + 5u] = (uint8_t)((at == (size_t)LAST ? next : sequence) >> 8);
     full[at + 8u] = message[1];
