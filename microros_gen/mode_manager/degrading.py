@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 
 from microros_gen.mode_manager.settings import Settings
 from microros_gen.modes.manager import rule_of
-from microros_gen.modes.model import Model, Part, Status
+from microros_gen.modes.model import Model, Part, Reported, Rule, Status
 from microros_gen.modes.recovery import History, extended, recovery_of
 
 
@@ -23,25 +23,39 @@ class Degrading:
         self._log = log
         self._applied: dict[str, int] = {}
         self._histories: dict[str, History] = {}
+        self._causes: dict[tuple[str, str], str] = {}
         self._recovered: dict[str, list[float]] = {}
 
     def next(
-        self, system: Part, target: Status | None, statuses: Mapping[str, Status], now: float
+        self,
+        system: Part,
+        target: Status | None,
+        statuses: Mapping[str, Status],
+        reported: Reported,
+        now: float,
     ) -> Status | None:
-        """Return the next target of a system that is at rest; None: it stays."""
-        rule = rule_of(system, target, statuses)
+        """Return the next target of a system that is at rest; None: it stays. `reported` is of /diagnostics."""
+        rule = rule_of(system, target, statuses, reported)
         history = self._histories.get(system.name, ())
         if rule is None:
-            return self._recover(system, history, statuses, now)
+            undone = recovery_of(history, statuses, reported)
+            return None if undone is None else self._recover(system, undone, history, now)
         self._applied[system.name] = self._applied.get(system.name, 0) + 1
         if self._applied[system.name] > 2 * len(self._model.targets(system)):
             self.oscillating.add(system.name)
             self._log(f"{system.name}: its rules oscillate, and are not applied until the next request")
             return None
-        self._log(f"{system.name}: rule {rule.name}: {rule.new_target}")
+        status = rule.cause(reported)
+        cause = f"{rule.if_part}: {status}" if status else ""
+        self._log(f"{system.name}: rule {rule.name}: {rule.new_target}{f' ({cause})' if cause else ''}")
         self.rules[system.name] = rule.name
+        self._causes[system.name, rule.name] = cause
         self._histories[system.name] = extended(history, rule)
         return rule.new_target
+
+    def cause(self, system: str) -> str:
+        """Return why the rule of a system that was applied last was: `node: status: level`; empty: not for a status."""
+        return self._causes.get((system, self.rules.get(system, "")), "")
 
     def command(self, system: str) -> None:
         """Note that a system is commanded from above, or requested."""
@@ -58,12 +72,7 @@ class Degrading:
         self.rules.clear()
         self.oscillating.clear()
 
-    def _recover(
-        self, system: Part, history: History, statuses: Mapping[str, Status], now: float
-    ) -> Status | None:
-        rule = recovery_of(history, statuses)
-        if rule is None:
-            return None
+    def _recover(self, system: Part, rule: Rule, history: History, now: float) -> Status | None:
         since = now - self._settings.recover_s
         times = [time for time in self._recovered.get(system.name, []) if time > since]
         if len(times) >= self._settings.attempts:

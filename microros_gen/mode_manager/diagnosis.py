@@ -45,6 +45,8 @@ class Row:
     message: str
     retries: int = 0
     rule: str = ""
+    cause: str = ""
+    """The status on /diagnostics for which `rule` was applied."""
 
 
 def rows_of(manager: Orchestrator) -> tuple[Row, ...]:
@@ -81,6 +83,7 @@ def _row(manager: Orchestrator, name: str, actual: Status) -> Row:
         message,
         leaf.retries if leaf is not None else 0,
         manager.rules.get(name, ""),
+        manager.cause(name),
     )
 
 
@@ -108,6 +111,7 @@ def array_of(rows: Collection[Row]) -> dict[str, Any]:
                         ("actual", row.actual),
                         ("retries", row.retries),
                         ("rule", row.rule),
+                        ("diagnostics", row.cause),
                     )
                 ],
             }
@@ -132,13 +136,22 @@ def read_rows(message: Mapping[str, Any]) -> Iterator[Row]:
             "" if status["level"] == OK else status["message"],
             int(retries) if retries.isdecimal() else 0,
             values.get("rule", ""),
+            values.get("diagnostics", ""),
         )
 
 
-def read_problems(
-    message: Mapping[str, Any], levels: Mapping[str, DiagnosticLevels]
-) -> Iterator[tuple[str, str, str]]:
-    """Yield part, name of the status and error (empty: none) of each status that belongs to one of the parts.
+@dataclass(frozen=True)
+class PartStatus:
+    """A status of a part. `name` is without that of the part; `level` is empty: it is OK; `error`: it is none."""
+
+    part: str
+    name: str
+    level: str
+    error: str
+
+
+def read_statuses(message: Mapping[str, Any], levels: Mapping[str, DiagnosticLevels]) -> Iterator[PartStatus]:
+    """Yield each status of a message that belongs to one of the parts.
 
     A status belongs to a part if its name is that of the node, or begins with it and a colon, as diagnostic_updater
     writes it. `levels` says for each part which levels are errors.
@@ -148,11 +161,11 @@ def read_problems(
         part = next((p for p in levels if name == p or name.startswith(f"{p}:")), None)
         if part is None or status["hardware_id"] == HARDWARE:
             continue
-        yield part, name, error_of(levels[part], part, name, int(status["level"]), status["message"])
+        own = name[len(part) :].lstrip(":").strip()
+        word = _NAMES.get(int(status["level"]), "")
+        yield PartStatus(part, own, word, error_of(levels[part], own, word, status["message"]))
 
 
-def error_of(levels: DiagnosticLevels, part: str, name: str, level: int, message: str) -> str:
-    """Return the text of an error of a part; empty: the level is none for the status `name`."""
-    own = name[len(part) :].lstrip(":").strip()
-    word = _NAMES.get(level, "")
-    return (message or word) if word and levels.is_error(word, own) else ""
+def error_of(levels: DiagnosticLevels, name: str, level: str, message: str) -> str:
+    """Return the text of an error of a part; empty: the level, which is empty for OK, is none for the status `name`."""
+    return (message or level) if level and levels.is_error(level, name) else ""

@@ -92,6 +92,8 @@ class Leaf:
     """The mode that it went to by itself, for an error that is not over yet: rules do not command it the same again."""
     problem: str = ""
     """An error that the part's diagnosis reports."""
+    reported: dict[str, str] = field(default_factory=dict)
+    """The level of each status of it on /diagnostics, for rules."""
 
     @property
     def name(self) -> str:

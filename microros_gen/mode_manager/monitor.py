@@ -84,6 +84,7 @@ class Overview:
                     "message": row.message,
                     "retries": row.retries,
                     "rule": row.rule,
+                    "diagnostics": row.cause,
                 }
                 for row in self.rows()
             ],
@@ -116,5 +117,6 @@ def _walk(model: Model, names: Sequence[str], depth: int) -> Iterable[tuple[str,
 
 
 def _text(row: Row) -> str:
-    rule = f"rule {row.rule}" if row.rule else ""
+    cause = f" ({row.cause})" if row.cause else ""
+    rule = f"rule {row.rule}{cause}" if row.rule else ""
     return "; ".join(text for text in (row.message, rule) if text)

@@ -76,11 +76,16 @@ class Orchestrator:
         self._degrading = Degrading(model, self.settings, log)
         self._commander = Commander(self._knowledge, self.progress, self.settings, log)
         self._shown: Mapping[str, Status] = self.statuses()
+        self._reported = {name: leaf.reported for name, leaf in self.leaves.items()}
 
     @property
     def rules(self) -> Mapping[str, str]:
         """Return the rule that was applied last to each system since the last request, as far as it is not over."""
         return self._degrading.rules
+
+    def cause(self, system: str) -> str:
+        """Return the status on /diagnostics for which the rule of a system was applied; empty: for none."""
+        return self._degrading.cause(system)
 
     @property
     def oscillating(self) -> Collection[str]:
@@ -168,6 +173,10 @@ class Orchestrator:
         if not text and leaf.problem:
             leaf.reaction = ""
         leaf.problem = text
+
+    def hear_level(self, name: str, status: str, level: str) -> None:
+        """Note the level of a status of a part on /diagnostics, for rules; `status` is without the name of the part."""
+        self.leaves[name].reported[status] = level
 
     def answer(self, call: Call, success: bool, reason: str = "", **facts: object) -> None:
         """Note a response. `facts` of a query: state, mode, or values."""
@@ -348,7 +357,8 @@ class Orchestrator:
         for system in self.scope.systems:
             if self.progress.is_moving(system.name) or system.name in self._degrading.oscillating:
                 continue
-            goal = self._degrading.next(system, self.targets.get(system.name), self.statuses(), self._clock())
+            target, now = self.targets.get(system.name), self._clock()
+            goal = self._degrading.next(system, target, self.statuses(), self._reported, now)
             if goal is not None:
                 self._set_target(system, goal, by_rule=True)
         for leaf in self.leaves.values():

@@ -54,7 +54,8 @@ function show(data) {
     row.id = "part-" + part.part;
     cell(row, "part", part.part).style.paddingLeft = (0.75 + 1.5 * part.depth) + "rem";
     for (const name of ["target", "actual", "level"]) cell(row, name, part[name]);
-    cell(row, "message", part.rule ? part.message + " (rule " + part.rule + ")" : part.message);
+    const rule = part.diagnostics ? part.rule + ": " + part.diagnostics : part.rule;
+    cell(row, "message", part.rule ? part.message + " (rule " + rule + ")" : part.message);
   }
   body.replaceChildren(...rows.children);
 }

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Protocol
 
+from microros_gen.mode_manager.diagnosis import PartStatus
 from microros_gen.mode_manager.orchestrator import Orchestrator
 from microros_gen.records import dataclass
 
@@ -33,12 +34,14 @@ class Problems:
         self._sources = sources
         self._reported: dict[str, dict[str, str]] = {}
 
-    def report(self, part: str, source: str, text: str) -> None:
-        """Note what a named source of another process says of a part; empty: no error."""
-        known = self._reported.setdefault(part, {})
+    def report(self, status: PartStatus) -> None:
+        """Note a status of a part from another process: an error until it is none any more, and its level for rules."""
+        source = f"{status.part}: {status.name}" if status.name else status.part
+        known = self._reported.setdefault(status.part, {})
         known.pop(source, None)
-        if text:
-            known[source] = text
+        if status.error:
+            known[source] = status.error
+        self._manager.hear_level(status.part, status.name, status.level)
 
     def forget(self, part: str) -> None:
         """Forget what was reported of a part, which has left."""

@@ -9,7 +9,7 @@ from functools import partial
 from typing import Any
 
 from microros_gen.mode_manager.calls import Link
-from microros_gen.mode_manager.diagnosis import TOPIC, TYPE, Row, array_of, read_problems, rows_of
+from microros_gen.mode_manager.diagnosis import TOPIC, TYPE, Row, array_of, read_statuses, rows_of
 from microros_gen.mode_manager.links import PartLink
 from microros_gen.mode_manager.messages import values_of
 from microros_gen.mode_manager.orchestrator import Orchestrator
@@ -113,8 +113,8 @@ class ModeManager(Serving):
             self._diagnostics.publish(array_of(rows))
 
     def _diagnostic(self, message: dict[str, Any]) -> None:
-        for part, source, text in read_problems(message, self._levels):
-            self._problems.report(part, source, text)
+        for status in read_statuses(message, self._levels):
+            self._problems.report(status)
 
     def _parameters(self, event: dict[str, Any]) -> None:
         leaf = self.orchestrator.leaves.get(event["node"].lstrip("/"))

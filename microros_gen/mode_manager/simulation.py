@@ -19,7 +19,7 @@ from microros_gen.mode_manager.calls import (
     Kind,
     Link,
 )
-from microros_gen.mode_manager.diagnosis import error_of
+from microros_gen.mode_manager.diagnosis import PartStatus, error_of
 from microros_gen.mode_manager.orchestrator import Orchestrator
 from microros_gen.mode_manager.problems import Problems
 from microros_gen.mode_manager.scope import select_scope
@@ -38,11 +38,11 @@ from microros_gen.modes.model import (
     Scalar,
     Status,
 )
+from microros_gen.modes.node_keys import LEVELS
 from microros_gen.modes.script import (
     CHANGE,
     DELAY,
     DIAGNOSE,
-    DIAGNOSED,
     FAIL,
     LEAVE,
     REFUSE,
@@ -264,10 +264,9 @@ class _Play:
 
     def _diagnose(self, event: Event) -> None:
         """Let /diagnostics have a status of a node, as the manager reads it."""
-        name = f"{event.part}: {event.name}" if event.name else event.part
-        levels = self._model.parts[event.part].diagnostics
-        text = error_of(levels, event.part, name, DIAGNOSED.index(event.level), "")
-        self._problems.report(event.part, name, text)
+        level = event.level if event.level in LEVELS else ""
+        text = error_of(self._model.parts[event.part].diagnostics, event.name, level, "")
+        self._problems.report(PartStatus(event.part, event.name, level, text))
         self._problems.step()
 
     def _turn(self, calls: Sequence[Call]) -> None:

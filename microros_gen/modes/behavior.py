@@ -7,9 +7,12 @@ system, a part is therefore a function from commands to statuses, a *behavior*; 
 combination of failures below it, and many combinations have the same. A part belongs to one system, so the behaviors
 of the parts of a system are independent of each other.
 
-The combinations of a system are not enumerated. Its parts are taken one after another. Of the parts so far four facts
+Besides, the statuses of a node on /diagnostics have levels, which rules of its system can want (`reports`).
+
+The combinations of a system are not enumerated. Its parts are taken one after another. Of the parts so far these facts
 are kept for each target of the system: whether one is in error processing, whether one is not what is commanded, which
-rule holds (the last one by name), and which other modes fit. Combinations that are equal in these stay equal whatever
+rule holds (the last one by name; separately of those that want diagnostics, which hold in the target, too), and which
+other modes fit. Combinations that are equal in these stay equal whatever
 follows. At the end they say for each target which rule is next, or is undone (`recovery`): a cycle of targets is an
 oscillation.
 
@@ -19,7 +22,7 @@ system again, and from there on the functions above say what follows.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from microros_gen.modes.inference import fulfills
 from microros_gen.modes.model import (
@@ -36,19 +39,20 @@ from microros_gen.modes.model import (
     Status,
     active,
 )
+from microros_gen.modes.reports import Diagnosis, reports_of
 from microros_gen.records import dataclass
 
-Failures = tuple[tuple[str, Status], ...]
-"""The nodes that are stuck, and where."""
+Failures = tuple[tuple[str, Status | Diagnosis], ...]
+"""The nodes that are stuck, and where; and the statuses of nodes that are not OK."""
 
 Behaviors = dict[tuple[Status, ...], Failures]
 """For each target of a part in `targets_of` order what it ends in, with the fewest failures that this takes."""
 
 _Led = Mapping[Status, frozenset[Status]]
 
-_Seen = tuple[bool, bool, int, int, int]
-"""Error processing, deviates, the index of the rule that holds or -1, the modes that fit and the rules that can be
-undone, both as bits."""
+_Seen = tuple[bool, bool, int, int, int, int, int]
+"""Error processing, deviates, the index of the rule that holds or -1, that of one with diagnostics; as bits: the modes
+that fit, the rules whose parts are well again, and those whose diagnostics hold."""
 
 
 @dataclass(frozen=True)
@@ -141,10 +145,12 @@ def _combine(
     """Return what can be seen of all parts together, by target, with the fewest failures that this takes."""
     targets = model.targets(system)
     every_mode = (1 << len(system.modes)) - 1
-    kept: dict[tuple[_Seen, ...], Failures] = {((False, False, -1, every_mode, 0),) * len(targets): ()}
+    first: _Seen = (False, False, -1, -1, every_mode, 0, 0)
+    kept: dict[tuple[_Seen, ...], Failures] = {(first,) * len(targets): ()}
     for name in system.part_names:
         seen = _distinct(
-            (_seen(model, system, name, outcomes), failures) for outcomes, failures in behaviors[name].items()
+            (_seen(model, system, name, outcomes, held), failures)
+            for outcomes, held, failures in _reporting(model.parts[name], system, behaviors[name])
         )
         if len(kept) * len(seen) > most * _WORK:
             raise _TooManyError
@@ -156,6 +162,20 @@ def _combine(
         if len(kept) > most:
             raise _TooManyError
     return kept
+
+
+def _reporting(
+    part: Part, system: Part, behaviors: Behaviors
+) -> Iterator[tuple[tuple[Status, ...], int, Failures]]:
+    """Yield each behavior of a part with each combination of its statuses: outcomes, rules whose diagnostics hold."""
+    ends = next(iter(behaviors))
+    for report, statuses in reports_of(part, system.rules).items():
+        diagnosed = tuple((part.name, status) for status in statuses)
+        if report.is_error:
+            yield (Status(ERROR),) * len(ends), report.held, diagnosed
+            continue
+        for outcomes, failures in behaviors.items():
+            yield outcomes, report.held, failures + diagnosed
 
 
 def _distinct(
@@ -172,27 +192,29 @@ def _distinct(
 
 def _join(a: _Seen, b: _Seen) -> _Seen:
     rule = a[2] if a[2] > b[2] else b[2]
+    urgent = a[3] if a[3] > b[3] else b[3]
     if a[0] or b[0]:
-        return True, True, rule, 0, a[4] | b[4]  # nothing else can be seen then
-    return False, a[1] or b[1], rule, a[3] & b[3], a[4] | b[4]
+        return True, True, rule, urgent, 0, a[5] | b[5], a[6] | b[6]  # nothing else can be seen then
+    return False, a[1] or b[1], rule, urgent, a[4] & b[4], a[5] | b[5], a[6] | b[6]
 
 
-def _seen(model: Model, system: Part, name: str, outcomes: tuple[Status, ...]) -> tuple[_Seen, ...]:
-    """Return what one part contributes, for each target of its system."""
+def _seen(
+    model: Model, system: Part, name: str, outcomes: tuple[Status, ...], held: int
+) -> tuple[_Seen, ...]:
+    """Return what one part contributes, for each target of its system; `held`: rules whose diagnostics hold."""
     part = model.parts[name]
     answer = dict(zip(map(str, targets_of(model, part)), outcomes, strict=True))
     found: list[_Seen] = []
     for target in model.targets(system):
         command = model.command(system, target, name)
         actual = answer[str(command)]
-        rule = max(
-            (
-                i
-                for i, r in enumerate(system.rules)
-                if r.if_part == name and r.if_target.is_same(target) and actual.is_same(r.if_status)
-            ),
-            default=-1,
-        )
+        holding = [
+            (i, r.diagnostics is not None)
+            for i, r in enumerate(system.rules)
+            if r.if_part == name and r.if_target.is_same(target) and actual.is_same(r.if_status)
+        ]
+        rule = max((i for i, is_diagnosed in holding if not is_diagnosed), default=-1)
+        urgent = max((i for i, is_diagnosed in holding if is_diagnosed and held >> i & 1), default=-1)
         modes = sum(
             1 << i for i, m in enumerate(system.modes.values()) if actual.is_same(m.commands[name].target)
         )
@@ -201,7 +223,8 @@ def _seen(model: Model, system: Part, name: str, outcomes: tuple[Status, ...]) -
             for i, r in enumerate(system.rules)
             if r.recover_part == name and any(map(actual.is_same, r.recover_statuses))
         )
-        found.append((actual.state == ERROR, not fulfills(actual, command), rule, modes, undone))
+        deviates = not fulfills(actual, command)
+        found.append((actual.state == ERROR, deviates, rule, urgent, modes, undone, held))
     return tuple(found)
 
 
@@ -233,13 +256,14 @@ _At = tuple[int, tuple[int, ...]]
 def _next(system: Part, targets: tuple[Status, ...], at: _At, seen: tuple[_Seen, ...]) -> tuple[_At, str]:
     """Return what follows, which may be the same, and the rule that leads there, or is undone; "": it is stable."""
     target, history = at
-    error, deviates, rule, _, undone = seen[target]
-    if rule >= 0 and (error or deviates):
+    error, deviates, rule, urgent, _, well, held = seen[target]
+    rule = max(rule, urgent) if error or deviates else urgent
+    if rule >= 0:
         goal = targets.index(system.rules[rule].new_target)
         path = (*history, rule)
         cut = (path[:i] for i, r in enumerate(path) if targets.index(system.rules[r].if_target) == goal)
         return (goal, next(cut, path)), system.rules[rule].name
-    if history and undone >> history[-1] & 1:
+    if history and (well & ~held) >> history[-1] & 1:
         last = system.rules[history[-1]]
         return (targets.index(last.if_target), history[:-1]), last.name
     return at, ""
@@ -264,7 +288,7 @@ def _path(
 
 def _infer(system: Part, target: Status, seen: _Seen) -> Status:
     """Return what `Inference.infer_system` returns of parts of which this is seen."""
-    error, deviates, _, modes, _ = seen
+    error, deviates, _, _, modes, _, _ = seen
     if error:
         return Status(ERROR)
     if not deviates:

@@ -10,6 +10,7 @@ from microros_gen.application.model import Application, NodeDecl, ParameterDecl
 from microros_gen.application.modes import set_parameters, start_value, value_in
 from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.modes.model import Mode, Part, Scalar, Value
+from microros_gen.modes.published import published_of
 
 _NOWHERE = Span(Source("", ""), 1, 1)
 
@@ -25,15 +26,15 @@ def parts_of(applications: Iterable[Application]) -> dict[str, Part]:
         for application in applications
         for index, node in enumerate(application.nodes)
         if node.modes
-        for part in (_part(node, _contingencies(application, index)),)
+        for part in (_part(node, _contingencies(application, index), published_of(application, index)),)
     }
 
 
-def _part(node: NodeDecl, contingencies: tuple[str, ...]) -> Part:
+def _part(node: NodeDecl, contingencies: tuple[str, ...], published: tuple[str, ...] | None) -> Part:
     name = f"{node.namespace}/{node.name}".strip("/")
     modes = {mode.name: _mode(node, mode) for mode in node.modes}
     span = node.name_span or node.span or _NOWHERE
-    return Part(name, False, span, modes, contingencies=contingencies)
+    return Part(name, False, span, modes, contingencies=contingencies, published=published)
 
 
 def _contingencies(application: Application, node: int) -> tuple[str, ...]:

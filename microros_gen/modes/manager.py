@@ -16,7 +16,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from microros_gen.modes.inference import Inference
-from microros_gen.modes.model import ACTIVE, UNCONFIGURED, Model, Part, Rule, Status, start_sequence
+from microros_gen.modes.model import (
+    ACTIVE,
+    ERROR,
+    UNCONFIGURED,
+    Model,
+    Part,
+    Reported,
+    Rule,
+    Status,
+    start_sequence,
+)
 from microros_gen.modes.recovery import History, extended, recovery_of
 from microros_gen.records import dataclass
 
@@ -43,14 +53,17 @@ class Step:
         return f"{self.kind} {self.part} {self.status}"
 
 
-def rule_of(system: Part, target: Status | None, statuses: Mapping[str, Status]) -> Rule | None:
+def rule_of(
+    system: Part, target: Status | None, statuses: Mapping[str, Status], reported: Reported
+) -> Rule | None:
     """Return the rule that changes the target of a system next; `statuses` are those of the system and its parts."""
-    if target is None or statuses[system.name].is_same(target):
+    if target is None:
         return None
+    is_reached = statuses[system.name].is_same(target)
     holding = [
         rule
         for rule in system.rules
-        if rule.if_target.is_same(target) and statuses[rule.if_part].is_same(rule.if_status)
+        if rule.if_target.is_same(target) and rule.holds(statuses, reported, is_reached)
     ]
     return holding[-1] if holding else None
 
@@ -66,11 +79,12 @@ class Manager:
         self._stuck: set[str] = set()
         self._reacted: set[str] = set()
         self._histories: dict[str, History] = {}
+        self._reported: dict[str, dict[str, str]] = {}
         self._shown: Mapping[str, Status] = self.statuses()
 
     def statuses(self) -> Mapping[str, Status]:
         """Return the status of each part; that of systems is inferred."""
-        return self._inference.infer_all(self.targets, self.nodes)
+        return self._inference.infer_all(self.targets, {**self.nodes, **self._errors()})
 
     def request(self, part: str, target: Status) -> Iterator[Step]:
         """Command a part to be `target` and settle."""
@@ -98,6 +112,14 @@ class Manager:
             yield Step(STATUS, node, status)
         yield from self.settle()
 
+    def diagnose(self, node: str, name: str, level: str) -> Iterator[Step]:
+        """Let a status of a node on /diagnostics have a level from now on, and settle; `ok`: it is well.
+
+        `name` is without that of the node.
+        """
+        self._reported.setdefault(node, {})[name] = level
+        yield from self.settle()
+
     def settle(self) -> Iterator[Step]:
         """Apply rules until none holds, command deviating nodes again, and say what changed."""
         known: set[object] = {self._snapshot()}
@@ -114,17 +136,26 @@ class Manager:
         """Return the steps of the rule that is applied next, else of repeated commands; empty: it is stable."""
         statuses = self.statuses()
         for system in self.model.systems:
-            rule = rule_of(system, self.targets.get(system.name), statuses)
+            rule = rule_of(system, self.targets.get(system.name), statuses, self._reported)
             if rule is not None:
                 step = Step(RULE, system.name, rule.new_target, rule.name)
                 self._histories[system.name] = extended(self._histories.get(system.name, ()), rule)
                 return [step, *self._command(system, rule.new_target, by_rule=True)]
-            undone = recovery_of(self._histories.get(system.name, ()), statuses)
+            undone = recovery_of(self._histories.get(system.name, ()), statuses, self._reported)
             if undone is not None:
                 self._histories[system.name] = self._histories[system.name][:-1]
                 step = Step(RECOVERY, system.name, undone.if_target, undone.name)
                 return [step, *self._command(system, undone.if_target, by_rule=True)]
         return list(self._repeat())
+
+    def _errors(self) -> Mapping[str, Status]:
+        """Return error processing for each node of which a status is an error."""
+        levels = {node: self.model.parts[node].diagnostics for node in self._reported}
+        return {
+            node: Status(ERROR)
+            for node, statuses in self._reported.items()
+            if any(levels[node].is_error(level, name) for name, level in statuses.items())
+        }
 
     def _repeat(self) -> Iterator[Step]:
         for name, status in self.nodes.items():

@@ -7,7 +7,7 @@ is a set of parameter values, a mode of a system is a state, and where that is a
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field
 
 from microros_gen.diagnostics import Source, Span
@@ -37,7 +37,15 @@ STATES = (
 """The states of lifecycle_msgs/msg/State as the package spells them."""
 
 WARN_LEVEL, ERROR_LEVEL, STALE_LEVEL = "warn", "error", "stale"
-"""Levels of /diagnostics that can be errors of a node."""
+"""Levels of /diagnostics that can be errors of a node, or let a rule apply."""
+_AT_LEAST = {
+    WARN_LEVEL: (WARN_LEVEL, ERROR_LEVEL),
+    ERROR_LEVEL: (ERROR_LEVEL,),
+    STALE_LEVEL: (STALE_LEVEL,),
+}
+
+Reported = Mapping[str, Mapping[str, str]]
+"""Node → name of a status on /diagnostics, without that of the node → its level. Those that are OK can be left out."""
 
 Scalar = bool | int | float | str
 
@@ -95,11 +103,49 @@ class Mode:
     commands: Mapping[str, Command] = field(default_factory=dict)
 
 
+def is_named(name: str, names: Iterable[str]) -> bool:
+    """Return whether a status has one of these names; `motor*` is each name that begins with motor."""
+    return any(name.startswith(n[:-1]) if n.endswith("*") else name == n for n in names)
+
+
+@dataclass(frozen=True)
+class RuleDiagnostics:
+    """What a rule wants of the statuses of its node: one of `names` (none: any of all) with one of `levels`.
+
+    `warn` is also fulfilled by ERROR, as an error is worse; `stale` by nothing else. `span` is the place of the levels.
+    """
+
+    levels: tuple[str, ...]
+    names: tuple[Named, ...]
+    span: Span
+
+    @property
+    def patterns(self) -> tuple[str, ...]:
+        """Return the names; `*` if none were given."""
+        return tuple(named.name for named in self.names) or ("*",)
+
+    def covers(self, name: str, level: str) -> bool:
+        """Return whether a status `name` (without the node's) with this level fulfills it."""
+        return any(level in _AT_LEAST[own] for own in self.levels) and is_named(name, self.patterns)
+
+    def first(self, statuses: Mapping[str, str]) -> str:
+        """Return the first status that fulfills it, as `name: level`; empty: none does."""
+        found = ((name, level) for name, level in statuses.items() if self.covers(name, level))
+        return next((f"{name}: {level}" if name else level for name, level in found), "")
+
+    def __str__(self) -> str:
+        names = ", ".join(named.name for named in self.names)
+        return f"{names or 'any status'}: {' or '.join(self.levels)}"
+
+
 @dataclass(frozen=True)
 class Rule:
     """If a system with the target `if_target` is not in it, and `if_part` is in `if_status`, its target changes.
 
-    It changes back when the part `recover_part` is in one of `recover_statuses`; without them it does not.
+    With `diagnostics` it also changes while the system is in its target, and only if these hold of the part.
+
+    It changes back when the part `recover_part` is in one of `recover_statuses`, and `diagnostics` hold no longer;
+    without statuses it does not.
     """
 
     name: str
@@ -110,30 +156,46 @@ class Rule:
     span: Span
     recover_part: str = ""
     recover_statuses: tuple[Status, ...] = ()
+    diagnostics: RuleDiagnostics | None = None
 
-    def recovers(self, statuses: Mapping[str, Status]) -> bool:
+    def holds(self, statuses: Mapping[str, Status], reported: Reported, is_reached: bool) -> bool:
+        """Return whether the rule applies to a system with its target, which it is in or not (`is_reached`)."""
+        if not statuses[self.if_part].is_same(self.if_status):
+            return False
+        return bool(self.cause(reported)) if self.diagnostics is not None else not is_reached
+
+    def cause(self, reported: Reported) -> str:
+        """Return the status on /diagnostics that lets it apply, as `name: level`; empty: none does."""
+        return self.diagnostics.first(reported.get(self.if_part, {})) if self.diagnostics is not None else ""
+
+    def recovers(self, statuses: Mapping[str, Status], reported: Reported) -> bool:
         """Return whether the rule, which was applied, is undone; `statuses` are those of the parts of its system."""
-        return any(statuses[self.recover_part].is_same(status) for status in self.recover_statuses)
+        is_well = any(statuses[self.recover_part].is_same(status) for status in self.recover_statuses)
+        return is_well and not self.cause(reported)
 
 
 @dataclass(frozen=True)
 class DiagnosticLevels:
-    """Which levels of /diagnostics are errors of a node; besides ERROR only for statuses in `names`, if it has some."""
+    """Which levels of /diagnostics are errors of a node; besides ERROR only for statuses in `names`, if it has some.
+
+    `motor*` in `names` is each status whose name begins with motor.
+    """
 
     levels: tuple[str, ...] = (ERROR_LEVEL,)
     names: tuple[str, ...] = ()
 
     def is_error(self, level: str, name: str) -> bool:
         """Return whether a status `name` (without the node's) with this level is an error."""
-        is_named = not self.names or name in self.names
-        return level == ERROR_LEVEL or (level in self.levels and is_named)
+        is_meant = not self.names or is_named(name, self.names)
+        return level == ERROR_LEVEL or (level in self.levels and is_meant)
 
 
 @dataclass(frozen=True)
 class Part:
     """A node or a system; `parts`, `rules` and `start_after` are those of a system.
 
-    `contingencies` are modes that a node changes to by itself, for an error.
+    `contingencies` are modes that a node changes to by itself, for an error. `published` are the names of the statuses
+    on /diagnostics that a node can have, as its application file declares them; None: they are not known.
 
     `rules` are sorted by name, modes are in the order of the file. `start_after` has for a part the parts that are
     commanded before it.
@@ -148,6 +210,7 @@ class Part:
     start_after: Mapping[str, tuple[Named, ...]] = field(default_factory=dict)
     contingencies: tuple[str, ...] = ()
     diagnostics: DiagnosticLevels = DiagnosticLevels()
+    published: tuple[str, ...] | None = None
 
     @property
     def part_names(self) -> tuple[str, ...]:

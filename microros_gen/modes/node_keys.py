@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from microros_gen.diagnostics import Diagnostics, nearest
+from microros_gen.documents.named import Named
 from microros_gen.documents.tree_read import check_keys, expect_mapping
 from microros_gen.documents.tree_values import items, text_of
 from microros_gen.documents.yaml_tree import MappingNode, ScalarNode, SequenceNode, YamlNode
-from microros_gen.modes.model import ERROR_LEVEL, STALE_LEVEL, WARN_LEVEL, DiagnosticLevels
+from microros_gen.modes.model import ERROR_LEVEL, STALE_LEVEL, WARN_LEVEL, DiagnosticLevels, is_named
 
 LEVELS = (WARN_LEVEL, ERROR_LEVEL, STALE_LEVEL)
 
@@ -31,22 +32,77 @@ def parse_contingencies(
     return tuple(dict.fromkeys(found))
 
 
-def parse_levels(body: MappingNode, part: str, diagnostics: Diagnostics) -> DiagnosticLevels:
-    """Return which levels of /diagnostics are errors of a node; ERROR always is one."""
+def parse_levels(
+    body: MappingNode, part: str, published: tuple[str, ...] | None, diagnostics: Diagnostics
+) -> DiagnosticLevels:
+    """Return which levels of /diagnostics are errors of a node; ERROR always is one.
+
+    `published` are the names of its statuses, None: they are not known.
+    """
     node = expect_mapping(body.get("diagnostics"), f"'diagnostics' of '{part}'", diagnostics)
     if node is None:
         return DiagnosticLevels()
+    levels, names = parse_levels_and_names(node, part, diagnostics)
+    check_published(part, names, published, diagnostics)
+    found = tuple(level for level in LEVELS if level in (ERROR_LEVEL, *levels))
+    return DiagnosticLevels(found, tuple(named.name for named in names))
+
+
+def parse_levels_and_names(
+    node: MappingNode, owner: str, diagnostics: Diagnostics
+) -> tuple[tuple[str, ...], tuple[Named, ...]]:
+    """Return `level` and `names` of the diagnostics of a node or rule; what is wrong with them is reported."""
     check_keys(node, ("level", "names"), ("level",), diagnostics)
-    levels = [ERROR_LEVEL]
-    for item in _listed(node.get("level"), "level", "warn, or [warn, stale]", diagnostics):
-        name = text_of(item) or ""
-        levels.append(name)
-        if name not in LEVELS:
-            hint = nearest(name, LEVELS) or f"Known: {', '.join(LEVELS)}"
-            message = f"unknown level '{name}' of the diagnostics of '{part}'"
-            diagnostics.error(message, item.span, hint, id="MG-8882")
-    names = (text_of(item) or "" for item in _listed(node.get("names"), "names", "[battery]", diagnostics))
-    return DiagnosticLevels(tuple(level for level in LEVELS if level in levels), tuple(names))
+    levels = tuple(_texts(node, "level", owner, "warn, or [warn, stale]", diagnostics))
+    for level in levels:
+        if level.name not in LEVELS:
+            hint = nearest(level.name, LEVELS) or f"Known: {', '.join(LEVELS)}"
+            message = f"unknown level '{level.name}' of the diagnostics of '{owner}'"
+            diagnostics.error(message, level.span, hint, id="MG-8882")
+    names = tuple(_texts(node, "names", owner, "[battery]", diagnostics))
+    for i, named in enumerate(names):
+        if "*" in named.name[:-1]:
+            message = f"'{named.name}' has a '*' that is not at its end"
+            hint = f"Write '{named.name.partition('*')[0]}*', or the whole name"
+            diagnostics.error(message, named.span, hint, id="MG-9830")
+        _check_repeated(
+            named, (*names[:i], *(n for n in names[i + 1 :] if n.name != named.name)), diagnostics
+        )
+    for i, level in enumerate(levels):
+        _check_repeated(level, levels[:i], diagnostics)
+    return tuple(level.name for level in levels if level.name in LEVELS), names
+
+
+def check_published(
+    owner: str, names: Sequence[Named], published: tuple[str, ...] | None, diagnostics: Diagnostics
+) -> None:
+    """Report names of statuses that a node does not publish; `published` None: it is not known what it publishes."""
+    for named in names if published is not None else ():
+        if not any(is_named(name, (named.name,)) for name in published or ()):
+            hint = nearest(named.name, published or ()) or f"Known: {', '.join(published or ())}"
+            message = f"nothing publishes the status '{named.name}' of '{owner}'"
+            diagnostics.error(message, named.span, hint, id="MG-9832")
+
+
+def _check_repeated(own: Named, others: Sequence[Named], diagnostics: Diagnostics) -> None:
+    """Report a name that is the same as another one, or that a pattern among them matches."""
+    other = next((other for other in others if is_named(own.name, (other.name,))), None)
+    if other is not None:
+        is_same = other.name == own.name
+        message = f"'{own.name}' is listed twice" if is_same else f"'{own.name}' is among '{other.name}'"
+        diagnostics.error(message, own.span, "Remove it", id="MG-9831")
+
+
+def _texts(
+    node: MappingNode, key: str, owner: str, example: str, diagnostics: Diagnostics
+) -> Iterator[Named]:
+    """Yield the texts of a key with their places; a list without any is an error."""
+    value = node.get(key)
+    if isinstance(value, SequenceNode) and not value.items:
+        message = f"'{key}' of the diagnostics of '{owner}' is empty"
+        diagnostics.error(message, value.span, f"Write {key}: {example}", id="MG-9833")
+    for item in _listed(value, key, example, diagnostics):
+        yield Named(text_of(item) or "", item.span)
 
 
 def _listed(node: YamlNode | None, key: str, example: str, diagnostics: Diagnostics) -> Iterator[YamlNode]:

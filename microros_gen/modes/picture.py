@@ -96,6 +96,8 @@ def _lines(part: Part) -> Iterator[tuple[str, str]]:
     for rule in part.rules:
         yield "rule", f"{rule.if_target} → {rule.new_target}"
         yield "rule", f"  if {rule.if_part} is {rule.if_status}"
+        if rule.diagnostics is not None:
+            yield "rule", f"  and reports {rule.diagnostics}"
         if rule.recover_part:
             yield (
                 "rule",

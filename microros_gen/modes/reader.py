@@ -17,6 +17,7 @@ from microros_gen.modes.model import DEFAULT, Mode, Model, Part
 from microros_gen.modes.node_keys import parse_contingencies, parse_levels
 from microros_gen.modes.outline import PARAMETERS, Outline, parse_outlines
 from microros_gen.modes.part_names import parse_parts
+from microros_gen.modes.rule_diagnostics import check_rules
 from microros_gen.modes.statuses import Subject
 from microros_gen.modes.systems import parse_system
 from microros_gen.modes.templates import check_templates
@@ -79,6 +80,7 @@ def parse_model(
     model = Model(source, {**leaflets, **parts}, parents)
     for system in parts.values():
         check_start_order(system, found)
+        check_rules(system, model.parts, found)
     if has_structure:
         check_templates(model, found)
     diagnostics.extend(sorted(found, key=lambda d: (d.span.line, d.span.column) if d.span else (0, 0)))
@@ -91,9 +93,15 @@ def _node(outline: Outline, leaflet: Part | None, diagnostics: Diagnostics) -> P
     modes = _node_modes(outline, diagnostics) if is_here or leaflet is None else dict(leaflet.modes)
     own = parse_contingencies(outline.body, outline.name, tuple(modes), diagnostics)
     contingencies = dict.fromkeys((*own, *(leaflet.contingencies if leaflet else ())))
-    levels = parse_levels(outline.body, outline.name, diagnostics)
+    published = leaflet.published if leaflet else None
     return Part(
-        outline.name, False, outline.span, modes, contingencies=tuple(contingencies), diagnostics=levels
+        outline.name,
+        False,
+        outline.span,
+        modes,
+        contingencies=tuple(contingencies),
+        diagnostics=parse_levels(outline.body, outline.name, published, diagnostics),
+        published=published,
     )
 
 

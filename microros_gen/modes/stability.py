@@ -3,14 +3,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from math import prod
 
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Severity
 from microros_gen.modes.alike import alike_modes, with_inferred
 from microros_gen.modes.behavior import Failures, Oscillation, Settled, failure_states, settle_all
-from microros_gen.modes.manager import Manager
+from microros_gen.modes.manager import Manager, Step
 from microros_gen.modes.model import Model, Status
 from microros_gen.modes.report import OPEN, PROVEN, REFUTED, Property
+from microros_gen.modes.reports import Diagnosis
 
 MOST_COMBINATIONS = 100_000
 """Different combinations of a system that are kept by default; 6 parts with a few modes and rules have some hundred."""
@@ -35,8 +37,10 @@ def check_stability(model: Model, settled: Settled, most: int, diagnostics: Diag
     diagnostics.extend(vague)
     result = REFUTED if settled.oscillations else OPEN if inferred.open or vague else PROVEN
     count = prod(1 + len(failure_states(node)) for node in model.nodes)
-    rules = sum(len(part.rules) for part in model.parts.values())
-    detail = f"rules: {rules}; combinations of failures: {count:,}, different: {settled.kept:,}"
+    rules = [rule for part in model.parts.values() for rule in part.rules]
+    diagnosed = sum(rule.diagnostics is not None for rule in rules)
+    of = f", with diagnostics: {diagnosed}" if diagnosed else ""
+    detail = f"rules: {len(rules)}{of}; combinations of failures: {count:,}, different: {settled.kept:,}"
     return Property("stable rules", result, detail)
 
 
@@ -45,7 +49,7 @@ def _undecided(model: Model, found: Oscillation) -> Diagnostic:
     rules = ", ".join(f"'{name}'" for name in found.rules)
     message = f"not proven for '{found.system}': its rules {rules} take modes with the same values for others"
     hint = "Let the modes of a node differ in a value"
-    block = tuple(f"  failed {node} {status}" for node, status in found.failures)
+    block = tuple(f"  {_fault(*failure)}" for failure in found.failures)
     span = model.parts[found.system].span
     return Diagnostic(message, span, hint, Severity.WARNING, block=block, id="MG-8847")
 
@@ -64,10 +68,21 @@ def trace(model: Model, failures: Failures, part: str, request: Status) -> list[
     """Return the lines of what happens when a part is requested while nodes are stuck."""
     manager = Manager(model)
     lines = []
-    for node, status in failures:
-        lines.append(f"failed {node} {status}")
-        for _ in manager.fail(node, status):
+    for node, what in failures:
+        lines.append(_fault(node, what))
+        for _ in _steps(manager, node, what):
             pass  # no part has a target yet: nothing happens
     lines.append(f"request {part} {request}")
     lines += [str(step) for step in manager.request(part, request)]
     return lines if len(lines) <= _LONGEST_TRACE else [*lines[:_LONGEST_TRACE], "…"]
+
+
+def _steps(manager: Manager, node: str, what: Status | Diagnosis) -> Iterator[Step]:
+    if isinstance(what, Diagnosis):
+        return manager.diagnose(node, what.name, what.level)
+    return manager.fail(node, what)
+
+
+def _fault(node: str, what: Status | Diagnosis) -> str:
+    """Return the line of a trace: where a node is stuck, or what a status of it is."""
+    return f"{'diagnosed' if isinstance(what, Diagnosis) else 'failed'} {node} {what}"

@@ -13,6 +13,7 @@ from microros_gen.documents.yaml_tree import Entry, MappingNode, SequenceNode, Y
 from microros_gen.modes.model import DEFAULT, Command, Mode, Part, Rule, Status, Value
 from microros_gen.modes.outline import PARAMETERS, Outline, plain_name
 from microros_gen.modes.part_names import PartList, parse_names
+from microros_gen.modes.rule_diagnostics import DIAGNOSTICS_KEY, parse_diagnostics
 from microros_gen.modes.statuses import Subject, parse_status, parse_target
 from microros_gen.modes.values import inherit, parse_values
 from microros_gen.records import dataclass
@@ -107,7 +108,7 @@ def _rule(entry: Entry, outline: Outline, parts: _Parts, diagnostics: Diagnostic
     node = expect_mapping(entry.value, f"the rule '{entry.key}'", diagnostics)
     if node is None:
         return None
-    check_keys(node, (*_RULE_KEYS, _RECOVER_KEY), _RULE_KEYS, diagnostics)
+    check_keys(node, (*_RULE_KEYS, _RECOVER_KEY, DIAGNOSTICS_KEY), _RULE_KEYS, diagnostics)
     if_target, if_part, new_target = (node.get(key) for key in _RULE_KEYS)
     if if_target is None or if_part is None or new_target is None:
         return None
@@ -121,7 +122,8 @@ def _rule(entry: Entry, outline: Outline, parts: _Parts, diagnostics: Diagnostic
     if parsed is None:
         return None
     recover_part, statuses = _recovery(node.get(_RECOVER_KEY), outline, parts, diagnostics)
-    return Rule(entry.key, target, part, parsed, goal, entry.key_span, recover_part, statuses)
+    wanted = parse_diagnostics(node, entry.key, diagnostics)
+    return Rule(entry.key, target, part, parsed, goal, entry.key_span, recover_part, statuses, wanted)
 
 
 def _recovery(

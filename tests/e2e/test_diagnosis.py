@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from microros_gen.cli.modes.devices import read_system
-from microros_gen.mode_manager.diagnosis import read_problems
+from microros_gen.mode_manager.diagnosis import PartStatus, read_statuses
 from microros_gen.mode_manager.scope import select_scope
 from microros_gen.mode_manager.server import ModeManager
 from microros_gen.modes.model import DiagnosticLevels, active
@@ -215,8 +215,8 @@ def test_levels_and_the_requested_mode(board: Board) -> None:
     board.call("accept")
     assert board.next("battery", lambda s: values(s)["mode waits"] == "false")["level"] == ERROR
     assert board.call("show")[2] == ["SLOW 2"]
-    problems = list(read_problems({"status": [error]}, {"arm/device": DiagnosticLevels()}))
-    assert problems == [("arm/device", "arm/device: battery", "value below 11000")]
+    statuses = list(read_statuses({"status": [error]}, {"arm/device": DiagnosticLevels()}))
+    assert statuses == [PartStatus("arm/device", "battery", "error", "value below 11000")]
     board.call("set 11199")
     assert board.next("battery", lambda s: values(s)["value"] == "11199")["level"] == ERROR
     board.call("set 11200")

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.mode_manager.diagnosis import TOPIC, TYPE, read_problems
+from microros_gen.mode_manager.diagnosis import TOPIC, TYPE, read_statuses
 from microros_gen.mode_manager.simulation import simulate
 from microros_gen.modes import check, parse_model
 from microros_gen.modes.leaflets import parts_of
@@ -34,7 +34,7 @@ def problems(keys: str, name: str, level: int) -> list[str]:
     """Return the errors of the gripper for a status that it publishes."""
     levels = model_of(changed(model_text("arm"), GRIPPER, f"{GRIPPER}{keys}")).parts["gripper"].diagnostics
     status = {"name": name, "level": level, "message": "", "hardware_id": "board"}
-    return [text for _, _, text in read_problems({"status": [status]}, {"gripper": levels})]
+    return [each.error for each in read_statuses({"status": [status]}, {"gripper": levels})]
 
 
 @pytest.mark.parametrize(

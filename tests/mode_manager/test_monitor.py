@@ -16,7 +16,7 @@ import pytest
 
 from microros_gen.diagnostics import UserError
 from microros_gen.mode_manager.calls import Link
-from microros_gen.mode_manager.diagnosis import array_of, read_problems, read_rows, rows_of
+from microros_gen.mode_manager.diagnosis import PartStatus, array_of, read_rows, read_statuses, rows_of
 from microros_gen.mode_manager.monitor import OLD_S, UNMANAGED, Overview
 from microros_gen.mode_manager.page import served_page
 from microros_gen.mode_manager.problems import Problem, Problems
@@ -127,11 +127,11 @@ def test_errors_of_others_belong_to_parts() -> None:
             status("arm: cpu", 2, ""),
         ]
     }
-    assert list(read_problems(message, {"left/arm": DiagnosticLevels(), "arm": DiagnosticLevels()})) == [
-        ("left/arm", "left/arm: motor", "hot"),
-        ("left/arm", "left/arm", ""),
-        ("arm", "arm", ""),
-        ("arm", "arm: cpu", "error"),
+    assert list(read_statuses(message, {"left/arm": DiagnosticLevels(), "arm": DiagnosticLevels()})) == [
+        PartStatus("left/arm", "motor", "error", "hot"),
+        PartStatus("left/arm", "", "warn", ""),
+        PartStatus("arm", "", "", ""),
+        PartStatus("arm", "cpu", "error", "error"),
     ]
 
 
@@ -158,11 +158,11 @@ def test_sources_of_problems_are_joined() -> None:
         "errorprocessing",
     )
     assert rows["arm"].actual == "errorprocessing"
-    problems.report("gripper", "gripper: motor", "hot")
+    problems.report(PartStatus("gripper", "motor", "error", "hot"))
     deadlines.missed = False
     problems.step()
     assert world.manager.leaves["gripper"].problem == "gripper: motor: hot"
-    problems.report("gripper", "gripper: motor", "")
+    problems.report(PartStatus("gripper", "motor", "", ""))
     problems.step()
     assert world.manager.leaves["gripper"].problem == ""
 

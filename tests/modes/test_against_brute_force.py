@@ -3,10 +3,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
-from itertools import combinations, pairwise
+from itertools import combinations, pairwise, product
 
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from microros_gen.diagnostics import Diagnostics, Source
@@ -29,7 +30,7 @@ from tests.support.modes.oracle import (
     reached_in_time,
     settle,
 )
-from tests.support.modes.random_models import plain_models
+from tests.support.modes.random_models import REPORTED, diagnosed_models, plain_models
 
 _FEW = settings(max_examples=examples(40), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 
@@ -69,6 +70,72 @@ def test_the_proof_finds_exactly_the_oscillations(plain: PlainModel) -> None:
     assert settled.open == ()
     found = [o.system for o in settled.oscillations]
     assert set(found[:1]) == oscillating(plain)
+
+
+def all_levels(plain: PlainModel) -> Iterator[dict[str, dict[str, str]]]:
+    """Yield every level of every status that can tell rules apart, of the nodes that rules want statuses of."""
+    wanted = {rule.part for system in plain.systems.values() for rule in system.rules if rule.wanted}
+    levels = ("ok", "warn", "error", "stale")
+    of_node = [dict(zip(REPORTED, each, strict=True)) for each in product(levels, repeat=len(REPORTED))]
+    for chosen in product(of_node, repeat=len(wanted)):
+        yield dict(zip(sorted(wanted), chosen, strict=True))
+
+
+@settings(max_examples=examples(25), deadline=None, suppress_health_check=list(HealthCheck))
+@given(diagnosed_models())
+def test_the_proof_finds_exactly_the_oscillations_with_diagnostics(plain: PlainModel) -> None:
+    """Each combination of levels of all statuses with each of failures, of models with one or two such nodes."""
+    assume(len({rule.part for s in plain.systems.values() for rule in s.rules if rule.wanted}) in (1, 2))
+    assume(len(plain.nodes) < 3)
+    model = parsed(plain)
+    found = settle_all(model, MOST_COMBINATIONS).oscillations
+    tried: set[str] = set()
+    names = list(plain.systems)
+    for name in names:
+        cases = product(all_levels(plain), plain.failures(), plain.systems[name].targets)
+        for levels, failures, target in cases:
+            try:
+                settle(plain, name, target, failures, None, levels)
+            except OscillatesError as error:
+                tried.add(str(error))
+                break
+        if tried:
+            break
+    assert {o.system for o in found[:1]} == tried
+    for oscillation in found[:1]:
+        lines = trace(model, oscillation.failures, oscillation.system, oscillation.request)
+        assert "oscillates: " in "\n".join(lines), lines
+
+
+@_FEW
+@given(diagnosed_models(), st.data())
+def test_the_simulations_end_with_diagnostics_where_trying_ends(
+    plain: PlainModel, data: st.DataObject
+) -> None:
+    """That of the proof, and the decisions of the manager."""
+    model, top = parsed(plain), list(plain.systems)[-1]
+    levels = {
+        node: {name: data.draw(st.sampled_from(("ok", "warn", "error", "stale"))) for name in REPORTED}
+        for node in plain.nodes
+    }
+    target = data.draw(st.sampled_from(plain.systems[top].targets))
+    try:
+        expected = settle(plain, top, target, {}, None, levels)
+    except OscillatesError:
+        return
+    manager = Manager(model)
+    for node, statuses in levels.items():
+        for name, level in statuses.items():
+            list(manager.diagnose(node, name, level))
+    assert "oscillation" not in [step.kind for step in manager.request(top, status(target))]
+    assert str(manager.statuses()[top]) == expected
+    events = [
+        Event(0, "diagnose", node, level=level, name=name)
+        for node, statuses in levels.items()
+        for name, level in statuses.items()
+    ]
+    played = simulate(model, [*events, Event(1, "request", top, status(target))])
+    assert str({end.part: end.status for end in played.ends}[top]) == expected, played.text()
 
 
 @_FEW

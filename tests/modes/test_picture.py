@@ -43,6 +43,16 @@ def test_a_rule_with_a_return_shows_when_it_is_over() -> None:
     assert not any(line.startswith("recover") for line in texts(draw(model_of(model_text("arm")))))
 
 
+def test_a_rule_shows_which_diagnostics_it_wants() -> None:
+    part = "        if_part: [joint, inactive]\n"
+    for keys, shown in (
+        ("{level: [warn, stale], names: [heat, motor*]}", "and reports heat, motor*: warn or stale"),
+        ("{level: warn}", "and reports any status: warn"),
+    ):
+        text = changed(model_text("arm"), part, f"{part}        diagnostics: {keys}\n")
+        assert shown in texts(draw(model_of(text)))
+
+
 def test_values_are_written_as_in_the_file() -> None:
     shown = texts(draw(model_of(changed(model_text("robot"), "rate: 10", "rate: true"))))
     assert {

@@ -10,6 +10,27 @@ from tests.support.modes.models import changed, model_text, parsed
 BASE = model_text("robot")
 ARM = model_text("arm")
 
+RULE = "        if_target: active.QUICK\n        if_part: [joint, inactive]\n"
+WARNED = "        if_target: active.QUICK\n        if_part: [joint, active.RUSH]\n"
+DIAGNOSED = [
+    (
+        "{level: warm}",
+        "MG-8882",
+        "warm}",
+        "unknown level 'warm' of the diagnostics of 'without_joint'. Did you",
+    ),
+    ("warn", "MG-1007", "warn", "'diagnostics' of 'without_joint' must be a mapping of keys and values"),
+    ("{names: [heat]}", "MG-1009", "{names: [heat]}", "missing key 'level'"),
+    ("{level: warn, name: heat}", "MG-1008", "name: heat}", "unknown key 'name'. Did you mean 'names'?"),
+    ("{level: [warn, [stale]]}", "MG-8883", "[warn, [stale]]}", "'level' must be a text, or a list of texts"),
+    ("{level: warn, names: ['m*r']}", "MG-9830", "'m*r']}", "'m*r' has a '*' that is not at its end"),
+    ("{level: [warn, warn]}", "MG-9831", "warn]}", "'warn' is listed twice. Remove it"),
+    ("{level: warn, names: [heat, heat]}", "MG-9831", "heat]}", "'heat' is listed twice"),
+    ("{level: warn, names: [heater, heat*]}", "MG-9831", "heater, heat*]}", "'heater' is among 'heat*'"),
+    ("{level: warn, names: []}", "MG-9833", "[]}", "'names' of the diagnostics of 'without_joint' is empty"),
+    ("{level: error}", "MG-9835", "error}", "with these statuses 'joint' is in errorprocessing"),
+]
+
 CASES = [
     (
         "camera:\n  ros__parameters:\n    type: node\n",
@@ -221,6 +242,37 @@ def test_a_mistake_is_reported_at_its_place(
     span = matching[0].span
     assert (span.source.line(span.line)[span.column - 1 :] if span else "") == place
     assert matching[0].hint
+
+
+@pytest.mark.parametrize(("value", "identity", "place", "words"), DIAGNOSED)
+def test_a_mistake_in_the_diagnostics_of_a_rule(value: str, identity: str, place: str, words: str) -> None:
+    model, found = parsed(changed(ARM, RULE, f"{WARNED}        diagnostics: {value}\n"))
+    assert model is None
+    assert [d.id for d in found] == [identity], [d.render() for d in found]
+    span = found[0].span
+    assert span is not None
+    assert span.source.line(span.line)[span.column - 1 :] == place
+    assert words in found[0].headline()
+    assert found[0].hint
+
+
+def test_diagnostics_of_a_rule_are_those_of_a_node() -> None:
+    rule = "        if_part: [base, activating]\n"
+    _, found = parsed(changed(BASE, rule, f"{rule}        diagnostics: {{level: warn}}\n"))
+    assert [d.id for d in found] == ["MG-9834"]
+    assert "'base' is a system, and the rule 'stop' wants diagnostics of it" in found[0].headline()
+
+
+def test_a_level_that_is_an_error_of_the_node_as_well() -> None:
+    """Then the rule has to be one for error processing."""
+    text = changed(ARM, RULE, f"{WARNED}        diagnostics: {{level: warn, names: [heat]}}\n")
+    joint = "joint:\n  ros__parameters:\n    type: node\n"
+    assert parsed(text)[1] == []
+    for names, identities in (("[heat]", ["MG-9835"]), ("[h*]", ["MG-9835"]), ("[motor]", [])):
+        keys = f"    diagnostics: {{level: warn, names: {names}}}\n"
+        assert [d.id for d in parsed(changed(text, joint, f"{joint}{keys}"))[1]] == identities
+    right = changed(text, "[joint, active.RUSH]", "[joint, errorprocessing]")
+    assert parsed(changed(right, joint, f"{joint}    diagnostics: {{level: warn}}\n"))[1] == []
 
 
 def test_all_mistakes_are_reported_in_one_run_in_the_order_of_lines() -> None:

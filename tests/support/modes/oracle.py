@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import combinations, product
+from types import MappingProxyType
 
 DEFAULT = "active.__DEFAULT__"
 STUCK = (
@@ -37,6 +38,8 @@ class PlainRule:
     new_target: str
     recover: str = ""
     """`part status`: when the rule is undone."""
+    wanted: str = ""
+    """`level name`: the status of the part, a node, that it wants; `*` at the end of the name: any text."""
 
 
 @dataclass(frozen=True)
@@ -84,6 +87,9 @@ class PlainModel:
                 yield f"      {rule.name}:\n        if_target: {rule.if_target}"
                 yield f"        if_part: [{rule.part}, {rule.status}]"
                 yield f"        new_target: {rule.new_target}"
+                if rule.wanted:
+                    level, wanted = rule.wanted.split()
+                    yield f"        diagnostics: {{level: {level}, names: ['{wanted}']}}"
                 if rule.recover:
                     yield f"        recover_if: [{', '.join(rule.recover.split())}]"
 
@@ -115,13 +121,22 @@ class OscillatesError(Exception):
     """The rules of the named system never end."""
 
 
+Levels = Mapping[str, Mapping[str, str]]
+"""Node → name of a status → its level."""
+
+
 def settle(
-    model: PlainModel, part: str, target: str, failures: Mapping[str, str], known: set[str] | None = None
+    model: PlainModel,
+    part: str,
+    target: str,
+    failures: Mapping[str, str],
+    known: set[str] | None = None,
+    levels: Levels = MappingProxyType({}),
 ) -> str:
     """Return the status that a part ends in; raises OscillatesError. `known` gets the targets that it has."""
     system = model.systems.get(part)
     if system is None:
-        return failures.get(part, target)
+        return "errorprocessing" if "error" in levels.get(part, {}).values() else failures.get(part, target)
     known = set() if known is None else known
     passed: set[tuple[str, ...]] = set()
     way: list[tuple[str, PlainRule]] = []  # from which target each rule led on
@@ -131,29 +146,49 @@ def settle(
         if place in passed:
             raise OscillatesError(part)
         passed.add(place)
-        actual = {p: settle(model, p, _commanded(system, target, p), failures) for p in system.parts}
+        actual = {
+            p: settle(model, p, _commanded(system, target, p), failures, None, levels) for p in system.parts
+        }
         status = _infer(system, target, actual)
-        rule = _following(system, target, status, actual)
+        rule = _following(system, target, status, actual, levels)
         if rule is not None:
             way.append((target, rule))
             target = rule.new_target
             before = [start for start, _ in way]
             if target in before:
                 del way[before.index(target) :]
-        elif way and way[-1][1].recover and _is_over(way[-1][1], actual):
+        elif way and way[-1][1].recover and _is_over(way[-1][1], actual, levels):
             target = way.pop()[0]
         else:
             return status
 
 
-def _is_over(rule: PlainRule, actual: Mapping[str, str]) -> bool:
+def _reports(rule: PlainRule, levels: Levels) -> bool:
+    """Return whether the node of a rule has the status that it wants."""
+    level, wanted = rule.wanted.split()
+    enough = {"warn": ("warn", "error")}.get(level, (level,))
+    return any(
+        own in enough and (name == wanted or (wanted.endswith("*") and name.startswith(wanted.rstrip("*"))))
+        for name, own in levels.get(rule.part, {}).items()
+    )
+
+
+def _is_over(rule: PlainRule, actual: Mapping[str, str], levels: Levels) -> bool:
+    if rule.wanted and _reports(rule, levels):
+        return False
     part, wanted = rule.recover.split()
     return actual[part] == wanted or (
         not wanted.startswith("active") and actual[part].split(".")[0] == wanted
     )
 
 
-def _following(system: PlainSystem, target: str, status: str, actual: Mapping[str, str]) -> PlainRule | None:
+def _following(
+    system: PlainSystem,
+    target: str,
+    status: str,
+    actual: Mapping[str, str],
+    levels: Levels = MappingProxyType({}),
+) -> PlainRule | None:
     """Return the rule that holds."""
     holding = sorted(
         (rule.name, i)
@@ -161,8 +196,9 @@ def _following(system: PlainSystem, target: str, status: str, actual: Mapping[st
         if rule.if_target == target
         and actual[rule.part].split(".")[0] == rule.status.split(".")[0]
         and (not rule.status.startswith("active.") or actual[rule.part] == rule.status)
+        and (_reports(rule, levels) if rule.wanted else status != target)
     )
-    return system.rules[holding[-1][1]] if holding and status != target else None
+    return system.rules[holding[-1][1]] if holding else None
 
 
 def reached(model: PlainModel, name: str, above: str) -> set[str]:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from hypothesis import strategies as st
 
 from tests.support.modes.oracle import STUCK, PlainModel, PlainRule, PlainSystem
@@ -61,3 +63,23 @@ def _command(modes: tuple[str, ...], is_system: bool) -> st.SearchStrategy[str]:
 def _status(part: str, parts: dict[str, tuple[str, ...]], systems: tuple[str, ...]) -> st.SearchStrategy[str]:
     states = ("activating", "deactivating", "inactive", "errorprocessing") if part in systems else STUCK
     return st.sampled_from((*states, *(f"active.{mode}" for mode in parts[part])))
+
+
+WANTED = ("warn heat", "warn he*", "stale heat", "warn *", "error heat", "error motor", "stale h*")
+REPORTED = ("heat", "he", "motor")
+"""Names that are enough to let every pattern of WANTED hold without, and with, each other one."""
+
+
+@st.composite
+def diagnosed_models(draw: st.DrawFn) -> PlainModel:
+    """Draw a small model with rules of which some want statuses of nodes on /diagnostics."""
+    plain = draw(plain_models())
+    systems = dict(plain.systems)
+    for name, system in systems.items():
+        rules = []
+        for rule in system.rules:
+            wanted = draw(st.sampled_from(("", *WANTED))) if rule.part in plain.nodes else ""
+            is_error = wanted.startswith("error")
+            rules.append(replace(rule, wanted=wanted, status="errorprocessing" if is_error else rule.status))
+        systems[name] = replace(system, rules=tuple(rules))
+    return replace(plain, systems=systems)
