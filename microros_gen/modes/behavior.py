@@ -52,7 +52,7 @@ _Led = Mapping[Status, frozenset[Status]]
 
 _Seen = tuple[bool, bool, int, int, int, int, int]
 """Error processing, deviates, the index of the rule that holds or -1, that of one with diagnostics; as bits: the modes
-that fit, the rules whose parts are well again, and those whose diagnostics hold."""
+that fit, the rules whose part in `recover_if` is well, and those that the diagnostics of another part keep."""
 
 
 @dataclass(frozen=True)
@@ -204,6 +204,7 @@ def _seen(
     """Return what one part contributes, for each target of its system; `held`: rules whose diagnostics hold."""
     part = model.parts[name]
     answer = dict(zip(map(str, targets_of(model, part)), outcomes, strict=True))
+    lasting = held & sum(1 << i for i, r in enumerate(system.rules) if r.recover_part not in ("", name))
     found: list[_Seen] = []
     for target in model.targets(system):
         command = model.command(system, target, name)
@@ -221,10 +222,10 @@ def _seen(
         undone = sum(
             1 << i
             for i, r in enumerate(system.rules)
-            if r.recover_part == name and any(map(actual.is_same, r.recover_statuses))
+            if r.recover_part == name and not held >> i & 1 and any(map(actual.is_same, r.recover_statuses))
         )
         deviates = not fulfills(actual, command)
-        found.append((actual.state == ERROR, deviates, rule, urgent, modes, undone, held))
+        found.append((actual.state == ERROR, deviates, rule, urgent, modes, undone, lasting))
     return tuple(found)
 
 

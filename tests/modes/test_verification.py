@@ -287,8 +287,10 @@ def test_what_is_too_large_is_not_proven_and_not_refuted() -> None:
     ]
 
 
-def test_five_subsystems_of_six_parts_take_less_than_ten_seconds() -> None:
-    model = model_of(large_model(5, 6))
+@pytest.mark.parametrize("is_diagnosed", [False, True])
+def test_five_subsystems_of_six_parts_take_less_than_ten_seconds(is_diagnosed: bool) -> None:
+    """Also if each node has a rule for its warnings."""
+    model = model_of(large_model(5, 6, is_diagnosed))
     assert len(model.nodes) == 30
     start = time.process_time()
     report = check_model(model)

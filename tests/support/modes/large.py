@@ -6,16 +6,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 
-def large_model(subsystems: int, parts: int) -> str:
+def large_model(subsystems: int, parts: int, is_diagnosed: bool = False) -> str:
     """Return a robot of `subsystems` systems of `parts` nodes each.
 
     Every subsystem goes from FULL to LOW when one of its nodes cannot run, and stops when that is not enough; the
-    robot then goes the same way.
+    robot then goes the same way. `is_diagnosed`: a warning of a node leads to LOW, too.
     """
     lines = [*_system("robot", [f"s{i}" for i in range(subsystems)])]
     for i in range(subsystems):
         names = [f"s{i}n{j}" for j in range(parts)]
         lines += _system(f"s{i}", names)
+        lines += _diagnosed(names) if is_diagnosed else ()
         for j, name in enumerate(names):
             lines += _node(name, 10 * i + j)
     return "\n".join(lines) + "\n"
@@ -39,6 +40,15 @@ def _system(name: str, parts: list[str]) -> Iterator[str]:
         yield "        if_target: active.LOW"
         yield f"        if_part: [{part}, errorprocessing]"
         yield "        new_target: inactive"
+
+
+def _diagnosed(parts: list[str]) -> Iterator[str]:
+    for part in parts:
+        yield f"      warned_{part}:"
+        yield "        if_target: active.FULL"
+        yield f"        if_part: [{part}, active.FULL]"
+        yield "        diagnostics: {level: warn, names: [motor*, heat]}"
+        yield "        new_target: active.LOW"
 
 
 def _node(name: str, number: int) -> Iterator[str]:
