@@ -89,7 +89,7 @@ def all_levels(plain: PlainModel) -> Iterator[dict[str, dict[str, str]]]:
         yield dict(zip(sorted(wanted), chosen, strict=True))
 
 
-@settings(max_examples=examples(25), deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(400), deadline=None, suppress_health_check=list(HealthCheck))
 @given(diagnosed_models())
 def test_the_proof_finds_exactly_the_oscillations_with_diagnostics(plain: PlainModel) -> None:
     """Each combination of levels of all statuses with each of failures, of models with one or two such nodes."""

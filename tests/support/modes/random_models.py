@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from hypothesis import strategies as st
 
-from tests.support.modes.oracle import STUCK, PlainModel, PlainRule, PlainSystem
+from tests.support.modes.oracle import DEFAULT, STUCK, PlainModel, PlainRule, PlainSystem
 
 MODES = ("__DEFAULT__", "A", "B")
 
@@ -72,14 +72,28 @@ REPORTED = ("heat", "he", "motor")
 
 @st.composite
 def diagnosed_models(draw: st.DrawFn) -> PlainModel:
-    """Draw a small model with rules of which some want statuses of nodes on /diagnostics."""
+    """Draw a small model with rules of which most want statuses of nodes, often while these are what is commanded."""
     plain = draw(plain_models())
-    systems = dict(plain.systems)
-    for name, system in systems.items():
-        rules = []
-        for rule in system.rules:
-            wanted = draw(st.sampled_from(("", *WANTED))) if rule.part in plain.nodes else ""
-            is_error = wanted.startswith("error")
-            rules.append(replace(rule, wanted=wanted, status="errorprocessing" if is_error else rule.status))
-        systems[name] = replace(system, rules=tuple(rules))
+    systems = {
+        name: replace(system, rules=tuple(draw(_diagnosed(rule, plain, system)) for rule in system.rules))
+        for name, system in plain.systems.items()
+    }
     return replace(plain, systems=systems)
+
+
+@st.composite
+def _diagnosed(draw: st.DrawFn, rule: PlainRule, plain: PlainModel, system: PlainSystem) -> PlainRule:
+    wanted = draw(st.sampled_from(("", *WANTED))) if rule.part in plain.nodes else ""
+    if not wanted:
+        return rule
+    if wanted.startswith("error"):
+        return replace(rule, wanted=wanted, status="errorprocessing")
+    status = draw(st.sampled_from((rule.status, *[_commanded(system, rule.if_target, rule.part)] * 3)))
+    part = draw(st.sampled_from(sorted(plain.nodes.keys() & system.modes["__DEFAULT__"].keys())))
+    recover = draw(st.sampled_from((rule.recover, f"{part} {_commanded(system, rule.new_target, part)}")))
+    return replace(rule, wanted=wanted, status=status, recover=recover)
+
+
+def _commanded(system: PlainSystem, target: str, part: str) -> str:
+    command = system.modes.get(target.removeprefix("active."), {}).get(part, "inactive")
+    return DEFAULT if command == "active" else command
