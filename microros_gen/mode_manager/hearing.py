@@ -42,8 +42,6 @@ def hear_link(leaf: Leaf, link: Link, serves_parameters: bool = False) -> None:
     leaf.unanswered = 0
     leaf.settle_until = 0.0
     leaf.stale = set() if link is Link.ABSENT else leaf.queries
-    if link is Link.ABSENT:
-        leaf.reported.clear()
 
 
 def hear_state(leaf: Leaf, state: str, now: float, settings: Settings, by_event: bool) -> None:

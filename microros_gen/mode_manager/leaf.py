@@ -17,6 +17,7 @@ from microros_gen.mode_manager.calls import (
     Link,
     Values,
 )
+from microros_gen.mode_manager.reports import Reports
 from microros_gen.modes.inference import fulfills
 from microros_gen.modes.model import (
     ACTIVE,
@@ -92,8 +93,8 @@ class Leaf:
     """The mode that it went to by itself, for an error that is not over yet: rules do not command it the same again."""
     problem: str = ""
     """An error that the part's diagnosis reports."""
-    reported: dict[str, str] = field(default_factory=dict)
-    """The level of each status of it on /diagnostics, for rules."""
+    reports: Reports = field(default_factory=Reports)
+    """What it publishes on /diagnostics, for rules."""
 
     @property
     def name(self) -> str:

@@ -76,7 +76,7 @@ class Orchestrator:
         self._degrading = Degrading(model, self.settings, log)
         self._commander = Commander(self._knowledge, self.progress, self.settings, log)
         self._shown: Mapping[str, Status] = self.statuses()
-        self._reported = {name: leaf.reported for name, leaf in self.leaves.items()}
+        self._reported = {name: leaf.reports.levels for name, leaf in self.leaves.items()}
 
     @property
     def rules(self) -> Mapping[str, str]:
@@ -176,7 +176,7 @@ class Orchestrator:
 
     def hear_level(self, name: str, status: str, level: str) -> None:
         """Note the level of a status of a part on /diagnostics, for rules; `status` is without the name of the part."""
-        self.leaves[name].reported[status] = level
+        self.leaves[name].reports.hear(status, level)
 
     def answer(self, call: Call, success: bool, reason: str = "", **facts: object) -> None:
         """Note a response. `facts` of a query: state, mode, or values."""
@@ -321,6 +321,7 @@ class Orchestrator:
 
     def _expire(self, leaf: Leaf, now: float) -> None:
         call = leaf.call
+        leaf.reports.step(now, leaf.link is Link.ABSENT)
         if leaf.link is Link.ABSENT and now - self._started >= self.settings.start_s:
             leaf.failure = _NOT_THERE
         if call is not None and now >= leaf.late_at:

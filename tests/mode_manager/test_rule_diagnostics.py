@@ -116,7 +116,22 @@ def test_a_rule_waits_for_parts_on_their_way_and_is_not_applied_again_by_itself(
     assert "end       arm active.GENTLE" in text
 
 
-def test_a_node_that_leaves_takes_its_statuses_along() -> None:
+def test_a_node_that_was_away_and_still_has_the_warning_stays_degraded() -> None:
+    """It repeats the status after it got its target: the rule is not over in between."""
+    script = f"""\
+{REQUEST}- {{at: 2 s, diagnose: gripper, level: warn, name: motor}}
+- {{at: 9 s, leave: gripper}}
+- {{at: 20 s, repair: gripper}}
+- {{at: 23 s, diagnose: gripper, level: warn, name: motor}}
+"""
+    text = played(ARM, script).text()
+    assert text.count("rule hot_motor") == 1
+    assert "end       arm active.GENTLE" in text
+    ok = changed(script, "23 s, diagnose: gripper, level: warn", "23 s, diagnose: gripper, level: ok")
+    assert "rule hot_motor is over" in played(ARM, ok).text().partition("23 s")[2]
+
+
+def test_a_status_that_a_node_does_not_repeat_after_it_was_away_is_forgotten() -> None:
     script = f"""\
 {REQUEST}- {{at: 2 s, diagnose: gripper, level: warn, name: motor}}
 - {{at: 9 s, leave: gripper}}
