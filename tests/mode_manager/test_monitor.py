@@ -9,6 +9,7 @@ import re
 import shutil
 import subprocess
 import urllib.request
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -202,7 +203,8 @@ def test_the_page_in_a_browser(tmp_path: Path) -> None:
         pytest.skip("no chromium: apt-get install chromium")
     world = degraded()
     overview = Overview(world.model, lambda: 0.0)
-    overview.hear(array_of(rows_of(world.manager)))
+    arm, *nodes = rows_of(world.manager)
+    overview.hear(array_of([replace(arm, cause="gripper: motor: warn"), *nodes]))
     with served_page("127.0.0.1:0", overview.data) as address:
         run = subprocess.run(
             [
@@ -217,7 +219,12 @@ def test_the_page_in_a_browser(tmp_path: Path) -> None:
     rows = re.findall(r'<tr class="(\w+)" id="part-([\w/]+)">(.*?)</tr>', run.stdout)
     shown = {part: re.findall(r"<td[^>]*>(.*?)</td>", cells) for _, part, cells in rows}
     assert shown == {
-        "arm": ["arm", "active.__DEFAULT__", "active.__DEFAULT__", "ok", " (rule without_gripper_quick)"],
+        "arm": [
+            "arm",
+            *["active.__DEFAULT__"] * 2,
+            "ok",
+            " (rule without_gripper_quick: gripper: motor: warn)",
+        ],
         "gripper": ["gripper", "inactive", "inactive", "ok", ""],
         "joint": ["joint", "active.__DEFAULT__", "active.__DEFAULT__", "ok", ""],
     }
