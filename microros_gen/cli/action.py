@@ -58,6 +58,25 @@ def list_command(show_types: bool, count_actions: bool, **graph: Any) -> None:
         click.echo(f"{name} [{', '.join(types)}]" if show_types else name)
 
 
+@command.command("type")
+@click.argument("action")
+@graph_options
+def type_command(action: str, **graph: Any) -> None:
+    """Print the type of an action.
+
+    \b
+    microros-gen action type /fibonacci
+    """
+    from microros_gen.ros_tools.discovery import absolute, action_names, unknown_action
+
+    name = absolute(action)
+    with on_graph(**graph) as (_, discovery):
+        types = discovery.service_types(f"{name}/_action/send_goal")
+        if types is None:
+            raise unknown_action(name, dict(action_names(discovery.services(hidden=True))))
+    click.echo("\n".join(kind.removesuffix("_SendGoal") for kind in types))
+
+
 @command.command("info")
 @click.argument("action")
 @click.option("-t", "--show-types", is_flag=True, help="With the types.")

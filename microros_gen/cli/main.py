@@ -47,7 +47,7 @@ _COMMANDS = {
     "topic": "List, print, publish, measure and record topics.",
     "service": "List and call services.",
     "action": "List actions and send goals.",
-    "param": "Show and set parameters of nodes.",
+    "param": "Show, set and delete parameters of nodes.",
     "node": "List nodes and show what they have.",
     "lifecycle": "Show and change the states of nodes with a life cycle.",
     "graph": "Draw the nodes of a ROS graph and what they exchange.",

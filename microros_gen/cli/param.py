@@ -24,12 +24,13 @@ _LIST_SERVICE = "/list_parameters"
 
 @click.group(cls=CommandGroup)
 def command() -> None:
-    """Show and set parameters of nodes, as `ros2 param` does. Needs ROS 2 Jazzy, like the agent.
+    """Show, set and delete parameters of nodes, as `ros2 param` does. Needs ROS 2 Jazzy, like the agent.
 
     \b
     microros-gen param list /arm
     microros-gen param get /arm gain
     microros-gen param set /arm gain 2.5
+    microros-gen param delete /arm gain
     microros-gen param dump /arm > arm.yaml
     microros-gen param load /arm arm.yaml
     """
@@ -156,6 +157,31 @@ def set_command(node: str, parameter: str, value: str, **graph: Any) -> int:
         click.echo(f"Set parameter successful{ending}")
         return 0
     click.echo(f"Setting parameter failed{ending}", err=True)
+    return 1
+
+
+@command.command("delete")
+@click.argument("node")
+@click.argument("parameter")
+@graph_options
+def delete_command(node: str, parameter: str, **graph: Any) -> int:
+    """Delete a parameter, which its node must allow: one of dynamic type that is not read-only.
+
+    \b
+    microros-gen param delete /arm gain
+    """
+    from microros_gen.parameter_server.values import NOTHING
+
+    with on_graph(**graph) as (peer, discovery):
+        parameters = _parameters(peer, discovery, node)
+        if parameter not in parameters.names():
+            raise _unknown(parameters, parameter)
+        ((successful, reason),) = parameters.set([(parameter, NOTHING)])
+    ending = f": {reason}" if reason else ""
+    if successful:
+        click.echo(f"Deleted parameter successfully{ending}")
+        return 0
+    click.echo(f"Deleting parameter failed{ending}", err=True)
     return 1
 
 

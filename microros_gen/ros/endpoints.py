@@ -98,6 +98,22 @@ class Subscription(RawSubscription):
         super().__init__(handle, lambda data, _: callback(known.codec.decode(known.name, data)))
 
 
+class LostMessages(_Waited):
+    """Reports messages of a subscription that were lost on their way, as far as DDS knows."""
+
+    kind = "event"
+
+    def __init__(self, handle: Any, callback: Callable[[int, int], object]) -> None:
+        self.handle = handle
+        self._lost = callback
+
+    def look(self) -> None:
+        """Take what was lost, and call back with the number since the last call and in total."""
+        status = self.handle.take_event()
+        if status is not None:
+            self._lost(status.total_count_change, status.total_count)
+
+
 class _ServiceEnd(_Waited):
     """Common part of service clients and servers: takes and sends messages."""
 

@@ -23,6 +23,7 @@ from typing import Any
 from microros_gen.interfaces.types import TypeName
 from microros_gen.ros.endpoints import (
     Client,
+    LostMessages,
     MessageInfo,
     Publisher,
     RawSubscription,
@@ -40,7 +41,7 @@ from microros_gen.ros.names import ServiceName
 from microros_gen.ros.qos import Qos, c_profile
 from microros_gen.ros.raw_types import raw_types
 
-_Waited = RawSubscription | Client | Server | GraphChanges
+_Waited = RawSubscription | LostMessages | Client | Server | GraphChanges
 """What a peer waits for."""
 _WAITED_KINDS = ("subscription", "guard_condition", "timer", "client", "service", "event")
 """In the order of the arguments of rclpy's wait set."""
@@ -133,6 +134,19 @@ class Peer:
         subscription = RawSubscription(handle, callback)
         self._waited.append(subscription)
         return subscription
+
+    def on_lost(self, subscription: RawSubscription, callback: Callable[[int, int], object]) -> None:
+        """Let `spin_once` call `callback` when messages of a subscription were lost: how many since, and in total.
+
+        Best effort loses what the network or a full buffer drops; reliable, what the publisher no longer keeps.
+        """
+        kind = self._handles.rcl_subscription_event_type_t.RCL_SUBSCRIPTION_MESSAGE_LOST
+        try:
+            event = self._handles.EventHandle(subscription.handle, kind)
+        except FAILURES as error:
+            raise RosError(f"lost messages: {first_line(error)}") from error
+        self._entities.append(event)
+        self._waited.append(LostMessages(event, callback))
 
     def client(self, service: str, type_name: str) -> Client:
         """Create a service client. Errors as for `publisher`."""

@@ -96,6 +96,44 @@ def test_a_topic_is_printed(arm: Running) -> None:
     assert yaml.safe_load(once.removesuffix("---\n"))["data"] > 0
 
 
+def test_only_messages_for_which_the_filter_holds_are_printed(arm: Running) -> None:
+    done = call("topic", "echo", "--once", "/count", "--filter", "m.data % 7 == 3", "--clear")
+    assert done.status == 0, done.err
+    assert int(done.out.removeprefix("data: ").removesuffix("\n---\n")) % 7 == 3, (
+        "nothing is cleared in a pipe"
+    )
+    frame = ("/imu", "--field", "header.frame_id", "--filter", "m.startswith('b')")
+    assert call("topic", "echo", "--once", *frame).out == "base\n---\n"
+    silent = call("topic", "echo", "/imu", "--filter", "m.header.frame_id == 'map'", "--timeout", "1")
+    assert (silent.status, silent.out) == (0, "")
+
+
+def test_the_rate_of_what_the_filter_lets_pass(arm: Running) -> None:
+    done = interrupted("topic", "hz", "/count", "--filter", "m.data % 2", after=r"average rate: [456]\.\d{3}")
+    assert done.status == 0
+
+
+def test_lost_messages_are_reported(arm: Running) -> None:
+    """A process that is stopped reads nothing meanwhile: what its publisher no longer keeps is lost."""
+    flood = command(
+        "topic", "pub", "-r", "2000", "-p", "0", "--qos-depth", "1", "/flood", "std_msgs/msg/Int32"
+    )
+    with subprocess.Popen(flood, env=environment(own_domain()), stdout=subprocess.DEVNULL) as publisher:
+        try:
+            with running(own_domain(), "microros_gen", "topic", "echo", "/flood") as echo:
+                echo.wait_for("data: 0")
+                end = deadline(60)
+                while not any(line.startswith("\ttotal count change:") for line in echo.lines):
+                    assert time.monotonic() < end, echo.lines[-5:]
+                    echo.process.send_signal(signal.SIGSTOP)
+                    time.sleep(1)
+                    echo.process.send_signal(signal.SIGCONT)
+                    time.sleep(0.5)
+                    echo.says_match("total count")
+        finally:
+            publisher.send_signal(signal.SIGINT)
+
+
 def test_a_topic_is_printed_until_an_interrupt(arm: Running) -> None:
     done = interrupted("topic", "echo", "/count", "--flow-style", after=r"\{data: \d+\}")
     assert done.status == 0
@@ -112,6 +150,11 @@ def test_a_topic_is_printed_until_an_interrupt(arm: Running) -> None:
         (("param", "get", "/arm", "gian"), "MG-9827", "Did you mean 'gain'?"),
         (("lifecycle", "set", "/gripper", "activate"), "MG-9825", "Available now: configure, shutdown"),
         (("action", "info", "/fibonaci"), "MG-9824", "Did you mean '/fibonacci'?"),
+        (("action", "type", "/fibonaci"), "MG-9824", "Did you mean '/fibonacci'?"),
+        (("param", "delete", "/arm", "gian"), "MG-9827", "Did you mean 'gain'?"),
+        (("topic", "echo", "/count", "--filter", "m.dat > 1"), "MG-9808", "Did you mean 'data'?"),
+        (("topic", "hz", "/count", "--filter", "m.data >"), "MG-9806", "Example: 'm.data > 3"),
+        (("topic", "echo", "/count", "--filter", "m.data / 0"), "MG-9809", "Compare before"),
         (("lifecycle", "get", "/arm"), "MG-9810", ""),
     ],
 )
@@ -210,6 +253,12 @@ def test_parameters_are_set_dumped_and_loaded(arm: Running, tmp_path: Path) -> N
         "  Description: how\n  Constraints:\n    Min value: 0.0\n    Max value: 10.0\n    Step: 0.5\n"
         in described
     )
+    deleted = call("param", "delete", "/arm", "spare")
+    assert (deleted.status, deleted.out) == (0, "Deleted parameter successfully\n")
+    assert "spare" not in call("param", "list", "/arm").out
+    kept = call("param", "delete", "/arm", "gain")
+    assert (kept.status, kept.out) == (1, "")
+    assert kept.err.startswith("Deleting parameter failed: ")
     file = tmp_path / "arm.yaml"
     dumped = yaml.safe_load(call("param", "dump", "/arm").out)
     values = dumped["/arm"]["ros__parameters"]
@@ -231,6 +280,7 @@ def test_a_life_cycle_is_driven(arm: Running) -> None:
 
 def test_a_goal_is_sent_and_canceled(arm: Running) -> None:
     fibonacci = ("/fibonacci", "test_msgs/action/Fibonacci")
+    assert call("action", "type", "fibonacci").out == "test_msgs/action/Fibonacci\n"
     done = call("action", "send-goal", "--feedback", *fibonacci, "order: 4")
     assert done.status == 0, done.err
     assert done.out.count("Feedback:") == 3

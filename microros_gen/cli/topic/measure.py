@@ -35,18 +35,26 @@ def _window_option(default: int) -> Callable[[Any], Any]:
 @click.command()
 @click.argument("topic")
 @_window_option(10_000)
+@click.option(
+    "--filter", "expression", metavar="EXPRESSION", help="Count only messages `m` for which this holds."
+)
 @graph_options
-def hz_command(topic: str, window: int, **graph: Any) -> None:
-    """Print the rate of a topic each second.
+def hz_command(topic: str, window: int, expression: str | None, **graph: Any) -> None:
+    """Print the rate of a topic each second. EXPRESSION is that of `topic echo`.
 
     \b
     microros-gen topic hz /imu
+    microros-gen topic hz --filter 'm.data > 3' /count
     """
     from microros_gen.ros_tools.rates import Intervals
 
     intervals = Intervals(window)
     _measure(
-        topic, graph, lambda data, info, known: intervals.add(time.monotonic_ns()), lambda: intervals.text()
+        topic,
+        graph,
+        lambda data, info, known: intervals.add(time.monotonic_ns()),
+        lambda: intervals.text(),
+        expression=expression,
     )
 
 
@@ -104,9 +112,14 @@ def _measure(
     text: Callable[[], str | None],
     subscribed: bool = False,
     known_type: bool = False,
+    expression: str | None = None,
 ) -> None:
-    """Pass the messages of a topic to `receive`, and print `text()` each second if any have arrived since."""
+    """Pass the messages of a topic to `receive`, and print `text()` each second if any have arrived since.
+
+    `expression`: only those for which it holds. UserError for one that is invalid.
+    """
     from microros_gen.ros_tools.discovery import absolute
+    from microros_gen.ros_tools.expressions import Filter
     from microros_gen.ros_tools.quality import PRESETS
 
     name = absolute(topic)
@@ -115,10 +128,16 @@ def _measure(
         if type_name is None:
             return
         qos = topic_qos(discovery, name, PRESETS["sensor_data"])
-        known = peer.types.message(type_name) if known_type else None
+        filtered = expression is not None
+        known = peer.types.message(type_name) if known_type or filtered else None
+        holds = (
+            Filter(expression or "", known.name, known.interfaces.messages) if known and filtered else None
+        )
         arrived = [0, 0]
 
         def count(data: bytes, info: Mapping[str, Any]) -> None:
+            if known is not None and holds is not None and not holds(known.codec.decode(known.name, data)):
+                return
             arrived[0] += 1
             receive(data, info, known)
 

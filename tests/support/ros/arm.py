@@ -29,6 +29,7 @@ def main() -> None:
     arm.declare_parameter("gain", 1.5, ParameterDescriptor(description="how", floating_point_range=[limits]))
     arm.declare_parameter("names", ["a", "b"])
     arm.declare_parameter("limits.low", 3)
+    arm.declare_parameter("spare", 7, ParameterDescriptor(dynamic_typing=True))
     counter = arm.create_publisher(Int32, "count", 10)
     imu = arm.create_publisher(Imu, "imu", QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT))
     counted = [0]
