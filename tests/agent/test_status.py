@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import os
 import socket
@@ -12,8 +13,8 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -25,9 +26,11 @@ from microros_gen.agent.monitoring import asking, sockets
 from microros_gen.agent.monitoring.asking import NoAnswerError, ask, ask_status
 from microros_gen.agent.monitoring.document import PATH, text_of
 from microros_gen.agent.monitoring.serving import StatusSocket, status_routes
+from microros_gen.agent.monitoring.shape import fault_of
 from microros_gen.agent.monitoring.sockets import SocketError, default_path, known_sockets, listen
 from microros_gen.agent.monitoring.status import AgentStatus, StatusBoard
 from microros_gen.cli.agent.background import in_background
+from microros_gen.cli.agent.status_table import status_table
 from microros_gen.cli.main import cli
 from microros_gen.diagnostics import UserError
 from tests.support.agent.monitored import STATUS, Loop, many, running
@@ -307,6 +310,110 @@ def test_what_is_no_agent(tmp_path: Path, answer: bytes) -> None:
     with pytest.raises(NoAnswerError, match=r"no answer within 0\.1 s"):
         ask(path, PATH, 0.1)
     listener.close()
+
+
+@contextmanager
+def foreign(path: Path, speak: Callable[[socket.socket], object]) -> Iterator[None]:
+    """Let another program than an agent answer the first question at a socket, until nobody listens to it."""
+    listener = listen(path)
+
+    def answer() -> None:
+        connection, _ = listener.accept()
+        with connection, suppress(OSError):
+            connection.recv(1000)
+            speak(connection)
+
+    thread = threading.Thread(target=answer)
+    thread.start()
+    try:
+        yield
+    finally:
+        thread.join()
+        listener.close()
+
+
+def endless(connection: socket.socket) -> None:
+    connection.sendall(b"HTTP/1.0 200 OK\r\n\r\n")
+    while True:
+        connection.sendall(b"[" * 65_536)
+
+
+def slow(connection: socket.socket) -> None:
+    connection.sendall(b"HTTP/1.0 200 OK\r\nX: ")
+    while True:
+        connection.sendall(b"x")
+        time.sleep(0.02)
+
+
+def continued(connection: socket.socket) -> None:
+    while True:
+        connection.sendall(b"HTTP/1.1 100 Continue\r\n\r\n" * 1000)
+
+
+def test_an_answer_without_end_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(asking, "LARGEST_BYTES", 1 << 20)
+    with foreign(tmp_path / "s", endless), pytest.raises(NoAnswerError, match="more than 1 MiB"):
+        ask_status(tmp_path / "s", PATH)
+
+
+@pytest.mark.parametrize("speak", [slow, continued])
+def test_an_answer_that_takes_too_long_is_refused(
+    tmp_path: Path, speak: Callable[[socket.socket], object]
+) -> None:
+    """Each part comes in time, the whole answer never."""
+    with foreign(tmp_path / "s", speak), pytest.raises(NoAnswerError, match=r"no answer within 0\.5 s"):
+        ask_status(tmp_path / "s", PATH, 0.5)
+
+
+def places(value: Any, place: tuple[str | int, ...] = ()) -> Iterator[tuple[str | int, ...]]:
+    """Yield the place of each value in a document."""
+    inner = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, part in inner:
+        yield (*place, key)
+        yield from places(part, (*place, key))
+
+
+def test_an_answer_that_lacks_a_key_or_has_another_value(folder: Path, tmp_path: Path) -> None:
+    """Each value of a real answer is removed and replaced in turn: the command says what is wrong."""
+    with asked_at(tmp_path / "real"):
+        document = ask_status(tmp_path / "real", PATH)
+    assert document["clients"]
+    assert fault_of(document) == ""
+    found = list(places(document))
+    assert len(found) > 40
+    others: tuple[Any, ...] = (None, "1e999", {}, [None], 1 << 90, float("inf"), True)
+    for place in found:
+        for wrong in others:
+            broken = copy.deepcopy(document)
+            holder: Any = broken
+            for step in place[:-1]:
+                holder = holder[step]
+            before, holder[place[-1]] = holder[place[-1]], wrong
+            if not fault_of(broken):
+                assert type(wrong) is type(before) or wrong is None or wrong == {}, place
+                status_table(broken)
+        if isinstance(place[-1], str) and place[:-1] != ("agent", "faults"):
+            holder.pop(place[-1])
+            assert fault_of(broken).startswith("it lacks "), place
+
+
+@pytest.mark.parametrize(
+    ("document", "fault"),
+    [
+        (b'{"version": 1}', "the answer is no status: it lacks agent"),
+        (b'{"version": 1, "agent": [], "clients": []}', "the answer is no status: agent is no object"),
+        (b'{"version": true}', "the answer is no status"),
+        (b"[" * 100_000, "the answer is no status"),
+        (b'{"version": 1, "agent": 1e999, "clients": {}}', "the answer is no status: agent is no object"),
+    ],
+)
+def test_an_answer_of_another_program_is_a_diagnostic(
+    folder: Path, tmp_path: Path, document: bytes, fault: str
+) -> None:
+    path = tmp_path / "s"
+    with foreign(path, lambda c: c.sendall(b"HTTP/1.0 200 OK\r\n\r\n" + document)):
+        ((name, message, _),) = reported(status("--socket", str(path)))
+    assert (name, message) == ("MG-9786", f"the agent at {path} does not answer: {fault}")
 
 
 def test_a_silent_asker_delays_no_other(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Iterator, Sequence
-from typing import Literal
+from typing import BinaryIO, Literal
 
 from microros_gen.records import dataclass
 
@@ -23,7 +23,7 @@ _MAGIC = 0x1A2B3C4D
 _COMMENT, _USER_APPLICATION, _NAME, _DESCRIPTION, _FLAGS, _DROPPED, _RESOLUTION = 1, 4, 2, 3, 2, 4, 9
 _NANOSECONDS = b"\x09"
 _NS = 1_000_000_000
-_HEAD, _PACKET_HEAD = 8, 20
+_HEAD, _PACKET_HEAD, _SHORTEST_BLOCK = 8, 20, 12
 _LARGEST_BLOCK = 1 << 24
 """Bytes; a longer one is taken for damage."""
 
@@ -85,27 +85,28 @@ def packet(
     return _block(_PACKET, head + data + bytes(-size & 3) + _options(options))
 
 
-def read_packets(content: bytes) -> Iterator[Packet]:
-    """Return the packets of a file of either byte order. Raises PcapngError if it is not pcapng, or damaged.
+def read_packets(file: BinaryIO) -> Iterator[Packet]:
+    """Return the packets of a file of either byte order, of which one block at a time is in memory.
 
     An incomplete block at the end is ignored, as a writer that was killed may leave one. Blocks of other kinds are
-    skipped.
+    skipped. Raises PcapngError if it is not pcapng, or damaged; OSError.
     """
     order = ""
     interfaces: list[Interface] = []
     at = 0
-    while at + 12 <= len(content):
-        if content[at : at + 4] == _SECTION.to_bytes(4, "little"):
-            order = _order(content[at + 8 : at + 12])
+    while len(head := file.read(_SHORTEST_BLOCK)) == _SHORTEST_BLOCK:
+        if head[:4] == _SECTION.to_bytes(4, "little"):
+            order = _order(head[8:12])
             interfaces = []
         elif not order:
             raise PcapngError("it does not begin with a section header")
-        kind, size = struct.unpack_from(f"{order}II", content, at)
-        if size < 12 or size & 3 or size > _LARGEST_BLOCK:
+        kind, size = struct.unpack_from(f"{order}II", head)
+        if size < _SHORTEST_BLOCK or size & 3 or size > _LARGEST_BLOCK:
             raise PcapngError(f"the block at byte {at} has a length of {size}")
-        if at + size > len(content):
+        block = head + file.read(size - _SHORTEST_BLOCK)
+        if len(block) < size:
             return
-        body = content[at + _HEAD : at + size - 4]
+        body = block[_HEAD : size - 4]
         if kind == _INTERFACE:
             interfaces.append(_interface(order, body))
         elif kind == _PACKET:

@@ -55,11 +55,14 @@ class Recorder:
     """A file that is being written; one writer at a time."""
 
     def __init__(self, path: Path, log: EventLog, clock: Callable[[], int] = time.time_ns) -> None:
-        """Create or replace the file. `clock` returns ns since 1970. Raises UserError if it cannot be written."""
+        """Open the file for this writer alone; what it holds stays until `begin`. `clock` returns ns since 1970.
+
+        Raises UserError if it cannot be written.
+        """
         self._path = path
         self._log = log
         self._clock = clock
-        self._file = _open(path)
+        self._file, self._is_new = _open(path)
         self._size = 0
         self._interfaces: dict[str, int] = {}
         self._head = pcapng.section(f"microros-gen {__version__}")
@@ -69,7 +72,17 @@ class Recorder:
         """Number of messages in the file."""
         self.lost = 0
         """Number of messages that the file system did not take."""
+
+    def begin(self) -> None:
+        """Replace what the file holds. Call it when nothing else can fail any more, and before the first `write`."""
+        os.ftruncate(self._file, 0)
         self._append(b"")
+
+    def give_up(self) -> None:
+        """Close the file without `begin`: an earlier one stays as it is, and a new one goes."""
+        if self._is_new:
+            self._path.unlink(missing_ok=True)
+        os.close(self._file)
 
     def write(self, transport: Transport, address: Hashable, message: bytes, inbound: bool) -> None:
         """Append a message from (`inbound`) or to the client at an address of `transport`. Never raises."""
@@ -157,10 +170,14 @@ class RecordedTransport(ObservedTransport):
         self._recorder.write(self._inner, address, data, inbound)
 
 
-def _open(path: Path) -> int:
-    """Return the descriptor of an empty file that no other process writes. Raises UserError."""
+def _open(path: Path) -> tuple[int, bool]:
+    """Return the descriptor of a file that no other process writes, and whether it is new. Raises UserError."""
+    wanted = os.O_WRONLY | os.O_NONBLOCK | os.O_CLOEXEC
     try:
-        opened = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_NONBLOCK | os.O_CLOEXEC, 0o644)
+        try:
+            opened, is_new = os.open(path, wanted | os.O_CREAT | os.O_EXCL, 0o644), True
+        except FileExistsError:
+            opened, is_new = os.open(path, wanted | os.O_CREAT, 0o644), False
     except OSError as error:
         raise UserError([_refused(path, error.strerror or str(error))]) from error
     why = ""
@@ -169,7 +186,6 @@ def _open(path: Path) -> int:
     else:
         try:
             fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            os.ftruncate(opened, 0)
         except OSError as error:
             why = (
                 "another agent writes it"
@@ -179,7 +195,7 @@ def _open(path: Path) -> int:
     if why:
         os.close(opened)
         raise UserError([_refused(path, why)])
-    return opened
+    return opened, is_new
 
 
 def _refused(path: Path, why: str) -> Diagnostic:

@@ -3,10 +3,11 @@
 
 from __future__ import annotations
 
-import select
 import time
 from collections.abc import Callable, Hashable, Sequence
 from functools import partial
+from selectors import EVENT_READ, DefaultSelector
+from typing import Any, Protocol
 
 from microros_gen.agent.recording.recorded import opens_session
 from microros_gen.agent.replay.links import Link
@@ -32,12 +33,35 @@ class Clock:
         return self._begin_ns + (now - self._began) * 1e9 * self._speed
 
 
+class _Readable(Protocol):
+    def fileno(self) -> int:
+        """Return the descriptor that is readable when something has arrived; always the same."""
+
+
+class Ends:
+    """The ends of a replay; their number is not limited, as that of select(2) is."""
+
+    def __init__(self, ends: Sequence[_Readable]) -> None:
+        """Watch `ends`, which stay open meanwhile."""
+        self._selector = DefaultSelector()
+        for end in ends:
+            self._selector.register(end, EVENT_READ)
+
+    def readable(self, seconds: float) -> list[Any]:
+        """Return the ends where something has arrived, after at most some seconds."""
+        return [key.fileobj for key, _ in self._selector.select(seconds)]
+
+    def close(self) -> None:
+        """Close the descriptor of the system; the ends stay open."""
+        self._selector.close()
+
+
 class ClientSide:
     """Plays clients towards an agent: a link for each player, or one for all."""
 
     def __init__(self, players: Sequence[Player], links: Sequence[Link], numbers: Sequence[int]) -> None:
         """Take the link of each player, which may be the same; `numbers` are those of clients on a line, else 0."""
-        self._links = list(dict.fromkeys(links))
+        self._ends = Ends(list(dict.fromkeys(links)))
         self._players: dict[tuple[Link, int], Player] = {}
         self._places: list[tuple[Player, Link, int]] = []
         for place, player in enumerate(players):
@@ -47,14 +71,17 @@ class ClientSide:
 
     def wait(self, seconds: float) -> None:
         """Take what arrives within some seconds. Raises OSError if an end is gone."""
-        readable, _, _ = select.select(self._links, [], [], seconds)
-        for link in readable:
+        for link in self._ends.readable(seconds):
             link.receive(partial(self._take, link))
 
     def tick(self, now: float, reached_ns: float) -> None:
         """Send what is due. Raises OSError if an end is gone."""
         for player, link, number in self._places:
             player.tick(now, reached_ns, partial(link.send, number))
+
+    def close(self) -> None:
+        """Stop watching the ends, which stay open."""
+        self._ends.close()
 
     def _take(self, link: Link, number: int, message: bytes) -> None:
         player = self._players.get((link, number))
@@ -67,13 +94,13 @@ class AgentSide:
 
     def __init__(self, players: Sequence[Player], transports: Sequence[Transport]) -> None:
         self._transports = transports
+        self._ends = Ends(transports)
         self._free = list(players)
         self._players: dict[Hashable, tuple[Player, Callable[[bytes], None]]] = {}
 
     def wait(self, seconds: float) -> None:
         """Take what arrives within some seconds."""
-        readable, _, _ = select.select(self._transports, [], [], seconds)
-        for transport in readable:
+        for transport in self._ends.readable(seconds):
             transport.pump(self._take)
 
     def tick(self, now: float, reached_ns: float) -> None:
@@ -82,6 +109,10 @@ class AgentSide:
             transport.tick(now)
         for player, send in self._players.values():
             player.tick(now, reached_ns, send)
+
+    def close(self) -> None:
+        """Stop watching the ends, which stay open."""
+        self._ends.close()
 
     def _take(self, data: bytes, address: Hashable, transport: Transport) -> None:
         if address not in self._players and opens_session(data) and self._free:

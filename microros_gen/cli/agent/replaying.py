@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+import resource
 import sys
 from collections.abc import Sequence
 from contextlib import ExitStack
@@ -34,6 +35,8 @@ from microros_gen.agent.transport.sockets import PROTOCOLS
 from microros_gen.diagnostics import Diagnostic, UserError
 
 _PLACE = re.compile(r"(udp4|udp6|tcp4|tcp6|serial|canfd|pty)[: ](.+)")
+_OTHER_DESCRIPTORS = 64
+"""Descriptors of this process besides its links."""
 DIFFERS = 1
 """Exit status if an answer differs."""
 
@@ -49,10 +52,11 @@ def play(
     baud: int,
 ) -> None:
     """Play a file, print what came of it, and exit with its status; `speed` 0: at once. Raises UserError."""
-    conversations, outside = read_recording(file)
+    wanted = None if client is None else _key(client)
+    conversations, outside = read_recording(file, wanted)
     if outside:
         click.echo(f"{outside} packets are outside of sessions that the file has from their start", err=True)
-    chosen = [each for each in conversations if client is None or each.key == _key(client)]
+    chosen = [each for each in conversations if wanted in (None, each.key)]
     if not chosen:
         known = ", ".join(dict.fromkeys(each.key for each in conversations))
         reason = f"{file} has no client {client}"
@@ -61,11 +65,23 @@ def play(
     log = EventLog(sys.stderr)
     with ExitStack() as stack:
         opened = _as_agent if as_agent else _as_clients
-        run = Replay(players, opened(stack, players, at, baud, log), speed)
+        _allow_descriptors(len(players))
+        side = opened(stack, players, at, baud, log)
+        stack.callback(side.close)
+        run = Replay(players, side, speed)
         with stopped_by_signals(run):
             _run(run)
     differs = [_report(player) for player in players]
     sys.exit(DIFFERS if any(differs) else 0)
+
+
+def _allow_descriptors(links: int) -> None:
+    """Let this process have a link for each player, as far as the system's hard limit goes."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    wanted = links + _OTHER_DESCRIPTORS
+    if soft != resource.RLIM_INFINITY and soft < wanted:
+        most = wanted if hard == resource.RLIM_INFINITY else min(hard, wanted)
+        resource.setrlimit(resource.RLIMIT_NOFILE, (most, hard))
 
 
 def _run(run: Replay) -> None:

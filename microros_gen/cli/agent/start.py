@@ -81,7 +81,7 @@ def serve(options: AgentOptions) -> None:
     try:
         report, wait_s = graph_reporter(log), limits.request_wait_s
         bridge = open_bridge(limits.domains, options.domain, files.hashes, report, wait_s, parameters.on_type)
-        recorder = _recorder(options, log)  # after all that may fail: it replaces a file
+        recorder = _recorder(options, log)
     except UserError:
         _close(transports)
         raise
@@ -124,11 +124,15 @@ def serve(options: AgentOptions) -> None:
             reloaded_by_signal(server, reloading(options, agent, log)),
             stopped_by_signals(server),
         ):
+            if recorder is not None:
+                recorder.begin()  # after all that may fail: it replaces what the file holds
             notify("READY=1")
             server.run(lambda transport: _announce(announcements, transport), time.monotonic)
     except UserError:  # one of the servers cannot start
         agent.close()
         _close(transports)
+        if recorder is not None:
+            recorder.give_up()
         raise
     if recorder is not None:
         recorder.close()

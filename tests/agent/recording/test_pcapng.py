@@ -4,15 +4,21 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Iterator
+from io import BytesIO
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from microros_gen.agent.recording import pcapng
-from microros_gen.agent.recording.pcapng import PcapngError, read_packets
+from microros_gen.agent.recording.pcapng import Packet, PcapngError
 
 START = pcapng.section("tests") + pcapng.interface("udp4 127.0.0.1:8888", "XRCE")
+
+
+def read_packets(content: bytes) -> Iterator[Packet]:
+    return pcapng.read_packets(BytesIO(content))
 
 
 @given(
@@ -82,3 +88,23 @@ def test_any_bytes_are_packets_or_no_pcapng(tail: bytes) -> None:
             assert packet.interface.ticks_per_s > 0
     except PcapngError:
         pass
+
+
+class Watched(BytesIO):
+    """A file that knows the largest number of bytes that was read at once."""
+
+    largest = 0
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        found = super().read(size)
+        self.largest = max(self.largest, len(found))
+        return found
+
+
+def test_a_file_is_read_block_by_block() -> None:
+    file = Watched(START + b"".join(pcapng.packet(0, n, bytes(1000), pcapng.INBOUND) for n in range(100)))
+    packets = pcapng.read_packets(file)
+    assert next(packets).time_ns == 0
+    assert file.tell() < 3000
+    assert len(list(packets)) == 99
+    assert file.largest < 1100

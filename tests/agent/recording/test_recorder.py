@@ -11,6 +11,7 @@ import socket
 import subprocess
 from collections.abc import Iterator
 from contextlib import contextmanager
+from io import BytesIO
 from pathlib import Path
 
 import pytest
@@ -40,7 +41,7 @@ def test_both_directions_with_the_time_and_names(tmp_path: Path) -> None:
     (status,) = bench.tell(CREATE_CLIENT, "127.0.0.1:4000")
     bench.now += 1.5
     bench.tell(bytes.fromhex(node), "127.0.0.1:4000")
-    found = list(pcapng.read_packets(path.read_bytes()))
+    found = list(pcapng.read_packets(BytesIO(path.read_bytes())))
     assert [packet.comment for packet in found[:3]] == [
         "client A1B2C3D4",
         "",
@@ -62,11 +63,12 @@ def test_both_directions_with_the_time_and_names(tmp_path: Path) -> None:
 def test_an_interface_for_each_transport(tmp_path: Path) -> None:
     path = tmp_path / "a.pcapng"
     recorder = Recorder(path, RecordingBench(tmp_path / "other").log)
+    recorder.begin()
     recorder.write(fake("serial /dev/ttyUSB0"), ("serial /dev/ttyUSB0", 3), b"x" * 20, inbound=True)
     recorder.write(fake("canfd can0"), ("canfd can0", 0x1FFF_FFFF), b"y" * 9, inbound=False)
     recorder.write(fake("udp6 [::1]:8888"), "[::2]:99", b"", inbound=True)
     recorder.close()
-    assert [p.interface.name for p in pcapng.read_packets(path.read_bytes())] == [
+    assert [p.interface.name for p in pcapng.read_packets(BytesIO(path.read_bytes()))] == [
         "serial /dev/ttyUSB0",
         "canfd can0",
         "udp6 [::1]:8888",
@@ -99,13 +101,13 @@ def test_a_full_disk_stops_nothing(tmp_path: Path) -> None:
     with largest_file(1000):
         for _ in range(20):
             assert bench.tell(CREATE_CLIENT, "127.0.0.1:4000"), "the agent answers"
-    written = list(pcapng.read_packets(path.read_bytes()))
+    written = list(pcapng.read_packets(BytesIO(path.read_bytes())))
     assert 2 < len(written) == bench.recorder.written < 40
     assert bench.recorder.lost == 40 - len(written)
     assert bench.text.getvalue().count("takes no more") == 1
     assert len(dumped(path)) == len(written)
     bench.tell(CREATE_CLIENT, "127.0.0.1:4000")
-    more = list(pcapng.read_packets(path.read_bytes()))[len(written) :]
+    more = list(pcapng.read_packets(BytesIO(path.read_bytes())))[len(written) :]
     assert [packet.dropped for packet in more] == [40 - len(written), 0]
     bench.recorder.close()
     assert f"{len(written) + 2} messages in {path}; {40 - len(written)} lost" in bench.text.getvalue()
@@ -118,7 +120,7 @@ def test_malformed_messages_are_recorded_too(tmp_path: Path) -> None:
     messages += [CREATE_CLIENT[:size] for size in range(len(CREATE_CLIENT))]
     for message in messages:
         bench.recorder.write(bench.transport, "127.0.0.1:4000", message, inbound=True)
-    found = [decode(packet.data) for packet in pcapng.read_packets(path.read_bytes())]
+    found = [decode(packet.data) for packet in pcapng.read_packets(BytesIO(path.read_bytes()))]
     assert [datagram.message for datagram in found if datagram] == messages
 
 
@@ -127,6 +129,38 @@ def test_a_file_that_cannot_be_written(tmp_path: Path, name: str) -> None:
     os.mkfifo(tmp_path / "pipe")
     with pytest.raises(UserError, match="MG-9793"):
         Recorder(tmp_path / name, RecordingBench(tmp_path / "other").log)
+
+
+def test_a_recording_stays_until_the_next_one_begins(tmp_path: Path) -> None:
+    old, new = tmp_path / "old.pcapng", tmp_path / "new.pcapng"
+    old.write_bytes(b"precious")
+    log = RecordingBench(tmp_path / "other").log
+    for path in (old, new):
+        Recorder(path, log).give_up()
+    assert old.read_bytes() == b"precious"
+    assert not new.exists()
+    recorder = Recorder(old, log)
+    assert old.read_bytes() == b"precious"
+    recorder.begin()
+    recorder.close()
+    assert list(pcapng.read_packets(BytesIO(old.read_bytes()))) == []
+
+
+@pytest.mark.builds
+@pytest.mark.ros
+@pytest.mark.parametrize(
+    "option", ["--metrics", pytest.param("--page", marks=pytest.mark.variant), "--status-socket"]
+)
+def test_an_agent_that_cannot_start_leaves_an_existing_recording(tmp_path: Path, option: str) -> None:
+    path = tmp_path / "a.pcapng"
+    path.write_bytes(b"precious")
+    with socket.create_server(("127.0.0.1", 0)) as busy:
+        port = busy.getsockname()[1]
+        place = str(tmp_path / "no" / "folder") if option == "--status-socket" else str(port)
+        done = run("--record", str(path), option, place, "udp4", "--port", "0")
+    assert done.returncode == 2
+    assert ("[MG-9788]" if option == "--status-socket" else "[MG-9792]") in done.stderr
+    assert path.read_bytes() == b"precious"
 
 
 def test_a_file_of_another_agent_stays(tmp_path: Path) -> None:
@@ -176,7 +210,7 @@ def test_an_agent_of_every_transport_that_is_killed(tmp_path: Path) -> None:
             counts.append(len(dumped(path)))
         agent.stop(signal.SIGKILL)
     assert counts == sorted(set(counts))
-    found = list(pcapng.read_packets(path.read_bytes()))
+    found = list(pcapng.read_packets(BytesIO(path.read_bytes())))
     assert len(dumped(path)) == len(found) >= counts[-1]
     comments = [packet.comment for packet in found if "node" in packet.comment]
     assert comments == [f"client 0000000{key}: node node_{key}" for key in (1, 2, 3, 4)]

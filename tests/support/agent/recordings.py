@@ -40,6 +40,7 @@ class RecordingBench(Bench):
         inner = self.transport
         inner.label = label
         self.recorder = Recorder(path, self.log, clock=lambda: int(self.now * 1e9))
+        self.recorder.begin()
         self.recorded = RecordedTransport(inner, self.recorder)
 
     def tell(self, data: bytes, address: Hashable) -> list[bytes]:
