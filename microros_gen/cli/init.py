@@ -126,8 +126,6 @@ def command(
 
 def _migrate(paths: tuple[Path, ...], dry_run: bool) -> int:
     """Write or print files for the current version; none of them is changed if one has an error."""
-    from difflib import unified_diff
-
     from microros_gen.migrate.current_keys import migrated_file
     from microros_gen.output.tree import write_files
 
@@ -138,9 +136,7 @@ def _migrate(paths: tuple[Path, ...], dry_run: bool) -> int:
         if file is None or file.before == file.after:
             continue
         if dry_run:
-            before, after = file.before.splitlines(keepends=True), file.after.splitlines(keepends=True)
-            lines = unified_diff(before, after, f"a/{file.path}", f"b/{file.path}")
-            click.echo("".join(lines), nl=False)
+            click.echo(file.difference(), nl=False)
         else:
             place = file.path.resolve()  # a link stays one
             mode = place.stat().st_mode

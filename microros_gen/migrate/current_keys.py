@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from difflib import unified_diff
 from pathlib import Path
 from typing import Any
 
@@ -23,21 +24,28 @@ from microros_gen.records import dataclass
 
 _FIRST_KIND = "application"
 _LINE_END = "\r\n|[\n\r\x85\u2028\u2029]"
+_NO_LINE_END = "\\ No newline at end of file"
+_LINE = re.compile(r"[^\n]*\n|[^\n]+")
 """What the loaders of YAML count as the end of a line."""
 
 
 @dataclass(frozen=True)
 class Migrated:
-    """A file before and after, with LF as line end; `crlf`: the file has CR LF."""
+    """A file before and after, with the line ends that each of its lines has."""
 
     path: Path
     before: str
     after: str
-    crlf: bool
 
     def content(self) -> bytes:
         """Return the bytes of the new file."""
-        return (self.after.replace("\n", "\r\n") if self.crlf else self.after).encode()
+        return self.after.encode()
+
+    def difference(self) -> str:
+        """Return what would change, as `git diff` prints it."""
+        before, after = _LINE.findall(self.before), _LINE.findall(self.after)
+        lines = unified_diff(before, after, f"a/{self.path}", f"b/{self.path}")
+        return "".join(line if line.endswith("\n") else f"{line}\n{_NO_LINE_END}\n" for line in lines)
 
 
 @dataclass(frozen=True)
@@ -57,9 +65,8 @@ def migrated_file(path: Path, diagnostics: Diagnostics) -> Migrated | None:
         hint = "Name YAML files in UTF-8"
         diagnostics.error(f"cannot read {path}: {reason_of(error)}", hint=hint, id="MG-9278")
         return None
-    before = text.replace("\r\n", "\n")
-    mark = "\ufeff" if before.startswith("\ufeff") else ""  # YAML counts no column for it
-    source, found = Source(str(path), before.removeprefix(mark)), Diagnostics()
+    mark = "\ufeff" if text.startswith("\ufeff") else ""  # YAML counts no column for it
+    source, found = Source(str(path), text.removeprefix(mark)), Diagnostics()
     tree = parse_yaml(source, found)
     diagnostics.extend(found)
     if tree is None or found.has_errors():
@@ -73,14 +80,15 @@ def migrated_file(path: Path, diagnostics: Diagnostics) -> Migrated | None:
         )
         return None
     after = migrated_text(tree, source, schema, diagnostics)
-    return None if after is None else Migrated(path, before, mark + after, before != text)
+    return None if after is None else Migrated(path, text, mark + after)
 
 
 def migrated_text(tree: YamlNode, source: Source, schema: Schema, diagnostics: Diagnostics) -> str | None:
     """Return the text of `source`, whose tree is `tree`, for the current version; None with errors in `diagnostics`."""
     edits: dict[int, _Edit] = {}  # by place: an alias leads to the keys of its anchor
     found = Diagnostics()
-    for part in deprecated_parts(to_data(tree), schema):
+    parts = list(deprecated_parts(to_data(tree), schema))
+    for part in parts:
         edit = _edit_of(tree, source, part, found)
         if edit is not None:
             edits[edit.begin] = edit
@@ -90,7 +98,33 @@ def migrated_text(tree: YamlNode, source: Source, schema: Schema, diagnostics: D
     text = source.text
     for _, edit in sorted(edits.items(), reverse=True):
         text = text[: edit.begin] + edit.text + text[edit.end :]
+    wanted = to_data(tree)
+    for part in sorted(parts, key=lambda part: len(part.path), reverse=True):  # inner ones first
+        _replace(wanted, part)
+    if _data_of(text) != wanted:
+        entry = _entry_at(tree, parts[0].path)[1]
+        message = f"the deprecated '{path_label(list(parts[0].path))}' cannot be replaced: other places use its text"
+        hint = "Write the anchors and aliases of these keys out"
+        diagnostics.error(message, entry.key_span if entry else tree.span, hint, id="MG-9279")
+        return None
     return _with_version(text, tree, source, schema)
+
+
+def _replace(data: Any, part: Difference) -> None:
+    """Do to plain data what the edit of a part does to the text."""
+    *way, key = part.path
+    for step in way:
+        data = data[step]
+    value = data.pop(key)
+    if "key" in part.schema["x-replacement"]:
+        data[part.schema["x-replacement"]["key"]] = value
+
+
+def _data_of(text: str) -> Any:
+    """Return what a text means; None for one with an error."""
+    found = Diagnostics()
+    tree = parse_yaml(Source("", text), found)
+    return None if tree is None or found.has_errors() else to_data(tree)
 
 
 def _schema_of(tree: YamlNode) -> Schema | None:
@@ -148,8 +182,8 @@ def _removal(source: Source, entry: Entry) -> _Edit | None:
     ):
         return None
     begin, end = _range(source, Span(source, value.span.line, entry.key_span.column, value.span.end_column))
-    line = source.text.rfind("\n", 0, begin) + 1
-    rest = re.compile(r"[ ]*(#[^\n]*)?(\n|$)").match(source.text, end)
+    line = max(start for start in _line_starts(source.text) if start <= begin)
+    rest = re.compile(rf"[ ]*(#[^\n\r\x85\u2028\u2029]*)?({_LINE_END}|$)").match(source.text, end)
     if not source.text[line:begin].strip(" ") and rest is not None:
         return _Edit(line, rest.end(), "")
     comma = re.compile(r"[ ]*,[ ]*").match(source.text, end)
@@ -180,4 +214,5 @@ def _with_version(text: str, tree: YamlNode, source: Source, schema: Schema) -> 
     if first is None or first.key_span.column != 1:
         return text
     place, _ = _range(source, first.key_span)
-    return f"{text[:place]}version: {version}\n{text[place:]}"
+    line_end = re.compile(_LINE_END).search(source.text)
+    return f"{text[:place]}version: {version}{line_end.group() if line_end else chr(10)}{text[place:]}"

@@ -26,12 +26,15 @@ SCHEMA: dict[str, Any] = {
         "gone": {**OLD, "x-replacement": {"remove": True}},
         "by_hand": OLD,
         "lines": {"type": "array", "items": {"$ref": "#/$defs/line"}},
+        "other": {"$ref": "#/$defs/other"},
+        "name": {"type": "string"},
     },
     "$defs": {
         "line": {
             "type": "object",
             "properties": {"old": {**OLD, "x-replacement": {"key": "new"}}, "gone": {"$ref": "#/$defs/gone"}},
         },
+        "other": {"type": "object", "required": ["old"]},
         "gone": {**OLD, "x-replacement": {"remove": True}},
     },
 }
@@ -61,6 +64,14 @@ def migrated(text: str) -> tuple[str | None, list[str]]:
             "version: 1\nlines:\n  - b: 1\n    new:\n      c: 2\n",
         ),
         ("version: 1\nlines: [&a {old: 1}, *a]\n", "version: 1\nlines: [&a {new: 1}, *a]\n"),
+        ("version: 1\r\nbaud: 5 # a\nname: x\r\n", "version: 1\r\nspeed: 5 # a\nname: x\r\n"),
+        ("# a\nbaud: 5\r\nname: x\n", "# a\nversion: 1\nspeed: 5\r\nname: x\n"),
+        ("# a\r\nbaud: 5\nname: x", "# a\r\nversion: 1\r\nspeed: 5\nname: x"),
+        ("version: 1\r\ngone: 3 # x\r\nspeed: 1\n", "version: 1\r\nspeed: 1\n"),
+        ("version: 1\nspeed: 1\r\ngone: 3\r\n", "version: 1\nspeed: 1\r\n"),
+        ("version: 1\rgone: 3\rbaud: 1\r", "version: 1\rspeed: 1\r"),
+        ("version: 1\nlines:\n- &a\n  old: 1\n- *a\n", "version: 1\nlines:\n- &a\n  new: 1\n- *a\n"),
+        ("version: 1\nbaud: &n 3\nlines: [{b: *n}]\n", "version: 1\nspeed: &n 3\nlines: [{b: *n}]\n"),
         ("{version: 1, baud: 2, lines: [{old: 'ä'}]}\n", "{version: 1, speed: 2, lines: [{new: 'ä'}]}\n"),
     ],
 )
@@ -92,6 +103,24 @@ def test_what_cannot_be_replaced_is_refused_at_its_place(text: str, headline: st
     assert found[0].endswith("[MG-9276]" if "speed: 2" in text else "[MG-9275]")
 
 
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("lines: [&a {old: 1}]\nother: *a\n", 1),
+        ("other: &a {old: 1}\nlines: [*a]\n", 1),
+        ("gone: &n 3\nspeed: *n\n", 1),
+        ("name: &k old\nlines: [{*k : 1}]\n", 1),
+        ("lines:\n- &a {gone: 1, b: 2}\nother: {old: *a}\n", 2),
+    ],
+)
+def test_a_key_whose_text_has_another_use_is_refused(text: str, line: int) -> None:
+    after, found = migrated(text)
+    assert after is None
+    (headline,) = found
+    assert headline.startswith(f"f.yaml:{line}:")
+    assert headline.endswith("Write the anchors and aliases of these keys out [MG-9279]")
+
+
 def parts(schema: Any) -> list[dict[str, Any]]:
     inner = schema.values() if isinstance(schema, dict) else schema if isinstance(schema, list) else ()
     return [p for value in inner for p in parts(value)] + ([schema] if isinstance(schema, dict) else [])
@@ -115,6 +144,19 @@ def test_a_file_is_written_once(init: Init, tmp_path: Path) -> None:
     assert init("--migrate", "microros.yaml")[:2] == (0, "microros.yaml: written for this version\n")
     assert path.read_bytes() == b"# mine\r\nversion: 1\r\nprofiles: [pure_sender]  # one\r\n"
     assert init("--migrate", "microros.yaml")[:2] == (0, "")
+
+
+def test_bytes_outside_of_what_is_replaced_stay(init: Init, tmp_path: Path) -> None:
+    """Line ends of both kinds, a mark of UTF-8, no line end at the end."""
+    path = tmp_path / "microros.yaml"
+    before = b"\xef\xbb\xbf# mine\nprofiles:  [pure_sender]  # one\xc2\xa0 two\r\n# end"
+    path.write_bytes(before)
+    status, out, error = init("--migrate", "--dry-run", "microros.yaml")
+    assert (status, error) == (0, "")
+    assert "\n+version: 1\n" in out
+    assert out.endswith("\n # end\n\\ No newline at end of file\n")
+    assert init("--migrate", "microros.yaml")[0] == 0
+    assert path.read_bytes() == before.replace(b"profiles", b"version: 1\nprofiles")
 
 
 def test_no_file_is_changed_if_one_is_wrong(init: Init, tmp_path: Path) -> None:
