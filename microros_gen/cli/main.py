@@ -45,6 +45,7 @@ _COMMANDS = {
     "modes": "Check, simulate, draw and manage systems of nodes with modes.",
     "agent": "Connect XRCE clients to ROS 2.",
     "topic": "List, print, publish, measure and record topics.",
+    "bag": "Play and describe recordings of topics.",
     "service": "List and call services.",
     "action": "List actions and send goals.",
     "param": "Show, set and delete parameters of nodes.",

@@ -40,16 +40,14 @@ UNDISCOVERED_S = 5.0
 """How long a response waits for its client to be discovered: on a busy machine, a request may be faster."""
 
 
-class Publisher:
-    """Publishes dicts on a topic."""
+class RawPublisher:
+    """Publishes messages as they are on the wire: encapsulation and CDR body."""
 
-    def __init__(self, handle: Any, known: KnownType) -> None:
+    def __init__(self, handle: Any) -> None:
         self._handle = handle
-        self._known = known
 
-    def publish(self, value: Mapping[str, Any]) -> None:
-        """Encode and publish a message. Raises CodecError for an invalid value, RosError if DDS refuses it."""
-        data = self._known.codec.encode(self._known.name, value)
+    def publish(self, data: bytes) -> None:
+        """Publish a message. Raises RosError if DDS refuses it."""
         try:
             self._handle.publish_raw(data)
         except FAILURES as error:
@@ -58,6 +56,22 @@ class Publisher:
     def subscriptions(self) -> int:
         """Return the number of matched subscriptions."""
         return int(self._handle.get_subscription_count())
+
+
+class Publisher:
+    """Publishes dicts on a topic."""
+
+    def __init__(self, handle: Any, known: KnownType) -> None:
+        self._raw = RawPublisher(handle)
+        self._known = known
+
+    def publish(self, value: Mapping[str, Any]) -> None:
+        """Encode and publish a message. Raises CodecError for an invalid value, RosError if DDS refuses it."""
+        self._raw.publish(self._known.codec.encode(self._known.name, value))
+
+    def subscriptions(self) -> int:
+        """Return the number of matched subscriptions."""
+        return self._raw.subscriptions()
 
 
 class _Waited:

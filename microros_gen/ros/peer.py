@@ -26,6 +26,7 @@ from microros_gen.ros.endpoints import (
     LostMessages,
     MessageInfo,
     Publisher,
+    RawPublisher,
     RawSubscription,
     Respond,
     Server,
@@ -105,6 +106,13 @@ class Peer:
         known = self._types.message(type_name)
         handle = self._topic(self._handles.Publisher, topic, known, qos)
         return Publisher(handle, known)
+
+    def publisher_raw(
+        self, topic: str, name: TypeName, type_hash: str | None, qos: Qos | None = None
+    ) -> RawPublisher:
+        """Create a publisher of a type that needs no interface file; `type_hash` as for `subscribe_raw`."""
+        raw = self._raw.message_class(name, type_hash)
+        return RawPublisher(self._made(self._handles.Publisher, raw, topic, c_profile(qos or Qos())))
 
     def subscribe(
         self, topic: str, type_name: str, callback: Callable[[Value], object], qos: Qos | None = None

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 from microros_gen.ros.graph import GraphEndpoint
@@ -25,6 +26,14 @@ _DURABILITIES = ("system_default", "transient_local", "volatile", "unknown", "be
 _HISTORIES = ("system_default", "keep_last", "keep_all", "unknown")
 _LIVELINESSES = ("system_default", "automatic", "", "manual_by_topic", "unknown", "best_available")
 """By their numbers in rmw/types.h."""
+_WORDS = MappingProxyType(
+    {
+        "reliability": _RELIABILITIES,
+        "durability": _DURABILITIES,
+        "history": _HISTORIES,
+        "liveliness": _LIVELINESSES,
+    }
+)
 _INFINITE = 9223372036854775807
 """Nanoseconds of RMW_DURATION_INFINITE."""
 
@@ -87,6 +96,11 @@ def recorded(endpoint: GraphEndpoint) -> dict[str, Any]:
         "liveliness_lease_duration": _seconds(endpoint.lease),
         "avoid_ros_namespace_conventions": False,
     }
+
+
+def word_of(policy: str, value: Any) -> str:
+    """Return the word for a policy in a recording: earlier versions of rosbag2 wrote the number."""
+    return _word(_WORDS[policy], value) if isinstance(value, int) else str(value)
 
 
 def _word(words: Sequence[str], number: int) -> str:

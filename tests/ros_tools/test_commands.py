@@ -16,6 +16,9 @@ import pytest
 import yaml
 from rosbags.highlevel import AnyReader
 
+from microros_gen.ros.known_types import KnownTypes
+from microros_gen.ros_tools.mcap import McapWriter, Schema
+from microros_gen.ros_tools.recording import schema_of
 from tests.support.agent.process import environment, own_domain
 from tests.support.patience import deadline, seconds
 from tests.support.ros.running import Running, running
@@ -227,6 +230,93 @@ def test_topics_are_recorded(arm: Running, tmp_path: Path) -> None:
         assert {c.topic for c in reader.connections} == {"/count", "/imu"}
     again = call("topic", "record", "-a", "-o", str(path))
     assert (again.status, "[MG-9822]" in again.err) == (2, True)
+
+
+def recording(path: Path, unknown_type: str = "own_msgs/msg/Odd") -> None:
+    """Write ten numbers, a tenth of a second apart, and two topics of types: one latched, one unknown."""
+    known = KnownTypes().message("std_msgs/msg/Int32")
+    qos = "- {reliability: reliable, durability: %s, history: keep_last, depth: 20}"
+    with path.open("wb") as file:
+        writer = McapWriter(file, "test")
+        schema = schema_of(known.name, known.interfaces)
+        type_hash = known.type_hash(known.name)
+        marks = {"offered_qos_profiles": qos % "volatile", "topic_type_hash": type_hash}
+        numbers = writer.add_channel("/numbers", schema, marks)
+        marks = {"offered_qos_profiles": qos % "transient_local", "topic_type_hash": type_hash}
+        latched = writer.add_channel("/latched", schema, marks)
+        unknown = writer.add_channel("/unknown", Schema(unknown_type, "ros2msg", "int32 a\n"), {})
+        for value in range(10):
+            data = known.codec.encode(known.name, {"data": 700 + value})
+            for channel in (numbers, latched, unknown):
+                writer.add(channel, data, (50 + value) * 100_000_000, 0)
+        writer.close()
+
+
+def test_a_recording_is_played(arm: Running, tmp_path: Path) -> None:
+    path = tmp_path / "x.mcap"
+    recording(path)
+    done = call("bag", "play", str(path), "--rate", "0.5", "--start-offset", "0.45", "--topics", "numbers")
+    assert (done.status, done.out) == (0, "played 5 messages of 1 topics\n")
+    arm.wait_for("number 709")
+    assert [line for line in arm.lines if line.startswith("number 70")] == [
+        f"number 70{value}" for value in range(5, 10)
+    ]
+
+
+def test_a_recording_is_played_again_with_its_qos_until_an_interrupt(arm: Running, tmp_path: Path) -> None:
+    path = tmp_path / "x.mcap"
+    recording(path)
+    with running(own_domain(), "microros_gen", "bag", "play", "-l", "-r", "4", str(path)) as player:
+        shown = call("topic", "info", "-v", "/latched").out
+        assert "  Durability: TRANSIENT_LOCAL\n" in shown
+        assert "  Reliability: RELIABLE\n" in shown
+        end = deadline(60)
+        while arm.count("number 700") < 3:
+            assert time.monotonic() < end, arm.lines[-5:]
+            time.sleep(0.05)
+        player.process.send_signal(signal.SIGINT)
+        assert player.process.wait(seconds(20)) == 0
+
+
+def test_what_was_recorded_is_played(arm: Running, tmp_path: Path) -> None:
+    """The recorder's file, and rosbags as a witness of what is described."""
+    path = tmp_path / "x.mcap"
+    assert call("topic", "record", "/count", "-o", str(path), "-d", "2").status == 0
+    with AnyReader([path]) as reader:
+        wanted = f"Topic: /count | Type: std_msgs/msg/Int32 | Count: {reader.message_count} "
+        start = reader.start_time
+    described = subprocess.run(
+        command("bag", "info", str(path)), capture_output=True, text=True, timeout=seconds(20), check=True
+    ).stdout
+    assert wanted in described
+    assert f"({start // 10**9}.{start % 10**9:09})" in described
+
+
+@pytest.mark.parametrize(
+    ("options", "identity", "hint"),
+    [
+        (("--topics", "/number"), "MG-9800", "Did you mean '/numbers'?"),
+        ((), "MG-9829", "Name the topics to play: --topics TOPIC"),
+        (("--topics", "/x"), "MG-9800", "Available: /latched, /numbers, /unknown"),
+    ],
+)
+def test_a_topic_that_cannot_be_played(
+    tmp_path: Path, options: tuple[str, ...], identity: str, hint: str
+) -> None:
+    path = tmp_path / "x.mcap"
+    recording(path, "Odd")
+    done = call("bag", "play", str(path), *options)
+    assert done.status == 2
+    assert f"[{identity}]" in done.err
+    assert hint in done.err
+
+
+def test_a_file_that_is_no_recording(tmp_path: Path) -> None:
+    path = tmp_path / "x.mcap"
+    path.write_bytes(b"nothing")
+    done = call("bag", "play", str(path))
+    assert (done.status, "cannot be read: it is no MCAP file" in done.err) == (2, True)
+    assert "[MG-9828]" in done.err
 
 
 def test_a_service_is_called(arm: Running) -> None:
