@@ -16,6 +16,8 @@ import pytest
 import yaml
 from rosbags.highlevel import AnyReader
 
+from microros_gen.cli.topic.record import _created
+from microros_gen.diagnostics import UserError
 from microros_gen.ros.known_types import KnownTypes
 from microros_gen.ros_tools.mcap import McapWriter, Schema
 from microros_gen.ros_tools.recording import schema_of
@@ -228,8 +230,15 @@ def test_topics_are_recorded(arm: Running, tmp_path: Path) -> None:
         assert len(numbers) > 5
         assert numbers == sorted(set(numbers))
         assert {c.topic for c in reader.connections} == {"/count", "/imu"}
-    again = call("topic", "record", "-a", "-o", str(path))
-    assert (again.status, "[MG-9822]" in again.err) == (2, True)
+    for place, why in (
+        (path, "it exists already"),
+        (tmp_path / "no" / "x.mcap", "No such file or directory"),
+    ):
+        refused = call("topic", "record", "-a", "-o", str(place))
+        assert refused.status == 2
+        assert (
+            f"{place} cannot be recorded to: {why}. Choose another one: -o x_2.mcap [MG-9822]" in refused.err
+        )
 
 
 def recording(path: Path, unknown_type: str = "own_msgs/msg/Odd") -> None:
@@ -317,6 +326,14 @@ def test_a_file_that_is_no_recording(tmp_path: Path) -> None:
     done = call("bag", "play", str(path))
     assert (done.status, "cannot be read: it is no MCAP file" in done.err) == (2, True)
     assert "[MG-9828]" in done.err
+
+
+def test_a_file_that_appears_before_the_recorder_has_started_stays(tmp_path: Path) -> None:
+    path = tmp_path / "x.mcap"
+    path.write_bytes(b"precious")
+    with pytest.raises(UserError, match="MG-9822"):
+        _created(path)
+    assert path.read_bytes() == b"precious"
 
 
 def test_a_service_is_called(arm: Running) -> None:

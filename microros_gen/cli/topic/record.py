@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import click
 
@@ -68,10 +68,9 @@ def record_command(
     pattern = _pattern(regex)
     path = output or Path(time.strftime("recording_%Y%m%d-%H%M%S.mcap"))
     if path.exists():
-        hint = f"Choose another one: -o {path.with_name(f'{path.stem}_2{path.suffix}')}"
-        raise UserError([Diagnostic(f"{path} exists already", hint=hint, id="MG-9822")])
+        raise _refused(path, "it exists already")
     names = {absolute(topic) for topic in topics}
-    with on_graph(**graph) as (peer, discovery), until_interrupted() as interrupted, path.open("wb") as file:
+    with on_graph(**graph) as (peer, discovery), until_interrupted() as interrupted, _created(path) as file:
         writer = McapWriter(file, f"microros-gen {__version__}")
         recorder = Recorder(peer, writer, lambda line: click.echo(line, err=True))
         click.echo(f"recording to {path}", err=True)
@@ -88,6 +87,21 @@ def record_command(
     click.echo(
         f"recorded {recorder.messages} messages ({recorder.size} bytes) of {len(recorder.topics)} topics"
     )
+
+
+def _created(path: Path) -> BinaryIO:
+    """Return a new file; UserError where there is one, also one that appeared meanwhile, or none can be."""
+    try:
+        return path.open("xb")
+    except FileExistsError as error:
+        raise _refused(path, "it exists already") from error
+    except OSError as error:
+        raise _refused(path, error.strerror or str(error)) from error
+
+
+def _refused(path: Path, why: str) -> UserError:
+    hint = f"Choose another one: -o {path.stem}_2{path.suffix}"
+    return UserError([Diagnostic(f"{path} cannot be recorded to: {why}", hint=hint, id="MG-9822")])
 
 
 def _pattern(regex: str | None) -> re.Pattern[str] | None:
