@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import re
+import subprocess
 import time
 from pathlib import Path
 
@@ -24,7 +25,7 @@ from tests.support.firmware.avr import (
     read_line,
     simulated,
 )
-from tests.support.firmware.board import C_FILES, Builds, Built, build, check, need, target
+from tests.support.firmware.board import C_FILES, Builds, Built, build, check, generate, need, target
 from tests.support.firmware.line import open_raw
 from tests.support.firmware.running import started
 from tests.support.paths import ROOT
@@ -107,6 +108,26 @@ def test_names_of_types_and_descriptions_stay_in_flash(builds: Builds, entities:
         assert words not in data
     assert b"dds_::Int32_" in image
     assert (b"</name><dataType>" in image) == (entities == "xml")
+
+
+@pytest.mark.parametrize("application", [EXCHANGES + "entities: xml\n", ANSWERS], ids=["topics", "services"])
+def test_flash_is_not_read_as_ram(tmp_path: Path, application: str) -> None:
+    """A pointer to flash that becomes one to RAM compiles, and reads another place; a warning tells."""
+    need(MEGA)
+    generate(tmp_path, MEGA, application)
+    out, avr = tmp_path / "out", target(MEGA)
+    sources = [str(out / name) for name in (out / "sources.txt").read_text().split() if name.endswith(".c")]
+    flags = [*avr.c_flags, f"-I{out / 'include'}", "-Waddr-space-convert", "-Werror=addr-space-convert"]
+    check([avr.compilers[0], *flags, "-fsyntax-only", *sources])
+    wrong = tmp_path / "wrong.c"
+    wrong.write_text(
+        '#include "microros/plan.h"\nconst microros_declared_endpoint_t * wrong(void);\n'
+        "const microros_declared_endpoint_t * wrong(void) { return microros_declared_endpoints; }\n"
+    )
+    done = subprocess.run(
+        [avr.compilers[0], *flags, "-fsyntax-only", str(wrong)], capture_output=True, text=True, check=False
+    )
+    assert "addr-space-convert" in done.stderr
 
 
 def test_a_budget_of_the_stack(tmp_path: Path) -> None:
