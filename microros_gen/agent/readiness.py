@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reports the agent's state to a service manager (sd_notify(3)); does nothing without one."""
+"""Reports the agent's state to a service manager (sd_notify(3), sd_watchdog_enabled(3)); does nothing without one."""
 
 from __future__ import annotations
 
 import os
 import socket
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 
 def notify(state: str, environ: Mapping[str, str] = os.environ) -> None:
@@ -20,3 +20,33 @@ def notify(state: str, environ: Mapping[str, str] = os.environ) -> None:
             channel.sendto(state.encode(), place)
     except OSError:
         return
+
+
+def watchdog(
+    environ: Mapping[str, str] = os.environ, send: Callable[[str], None] = notify
+) -> Callable[[float], None]:
+    """Return a function for the main loop that sends `WATCHDOG=1` when a half of WATCHDOG_USEC is over.
+
+    It takes the time in seconds. It does nothing without that variable, with a malformed one, or if WATCHDOG_PID names
+    another process.
+    """
+    period_us, process = environ.get("WATCHDOG_USEC", ""), environ.get("WATCHDOG_PID", "")
+    if not period_us.isdecimal() or int(period_us) == 0 or process not in ("", str(os.getpid())):
+        return _nothing
+    return _Watchdog(int(period_us) / 2e6, send).care
+
+
+class _Watchdog:
+    def __init__(self, period_s: float, send: Callable[[str], None]) -> None:
+        self._period_s = period_s
+        self._send = send
+        self._due = 0.0
+
+    def care(self, now: float) -> None:
+        if now >= self._due:
+            self._due = now + self._period_s
+            self._send("WATCHDOG=1")
+
+
+def _nothing(_now: float) -> None:
+    """Send nothing."""

@@ -28,13 +28,27 @@ TICK_S = 0.1
 Ready = Callable[[Transport], None]
 
 
-class Server:
-    """A server of several transports that runs until `stop`."""
+def _not_watched(_now: float) -> None:
+    """Tell nobody that the loop runs."""
 
-    def __init__(self, agent: Agent, transports: Sequence[Transport], log: EventLog) -> None:
+
+class Server:
+    """A server of several transports that runs until `stop`.
+
+    It calls `alive` with the time about every TICK_S while its loop runs.
+    """
+
+    def __init__(
+        self,
+        agent: Agent,
+        transports: Sequence[Transport],
+        log: EventLog,
+        alive: Callable[[float], None] = _not_watched,
+    ) -> None:
         self._agent = agent
         self._transports = transports
         self._log = log
+        self._alive = alive
         self._waiting = list(transports)
         self._stop = False
         self._calls: deque[Callable[[], object]] = deque()
@@ -101,6 +115,7 @@ class Server:
             self._calls.popleft()()
 
     def _care(self, now: float, ready: Ready) -> None:
+        self._alive(now)
         self._agent.care(now)
         for transport in self._transports:
             transport.tick(now)

@@ -4,17 +4,19 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import shutil
 import signal
 import socket
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 
-from microros_gen.agent.readiness import notify
+from microros_gen.agent.readiness import notify, watchdog
 from microros_gen.agent.transport.discovery import GROUP
 from tests.support.agent.client import XrceClient, int32_body
 from tests.support.agent.command import run
@@ -177,6 +179,57 @@ def test_a_service_manager_is_notified(tmp_path: Path) -> None:
     notify("READY=1", {})
 
 
+def test_the_watchdog_is_told_twice_in_its_period() -> None:
+    sent: list[str] = []
+    care = watchdog({"WATCHDOG_USEC": "2000000", "WATCHDOG_PID": str(os.getpid())}, sent.append)
+    counts = []
+    for tenths in range(1000, 1030):
+        care(tenths / 10)
+        counts.append(len(sent))
+    assert (counts[0], counts[9], counts[10], counts[-1]) == (1, 1, 2, 3)
+    assert set(sent) == {"WATCHDOG=1"}
+
+
+@pytest.mark.parametrize(
+    "environ",
+    [
+        {},
+        {"WATCHDOG_USEC": "0"},
+        {"WATCHDOG_USEC": "1e6"},
+        {"WATCHDOG_USEC": "2000000", "WATCHDOG_PID": "1"},
+    ],
+)
+def test_nobody_is_told_without_a_watchdog(environ: dict[str, str]) -> None:
+    sent: list[str] = []
+    watchdog(environ, sent.append)(1000.0)
+    assert sent == []
+
+
+@pytest.mark.ros
+def test_an_agent_feeds_the_watchdog_of_its_service(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Only while its main loop runs: a stopped process says nothing."""
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager:
+        manager.bind(str(tmp_path / "notify"))
+        manager.settimeout(seconds(10))
+        monkeypatch.setenv("NOTIFY_SOCKET", str(tmp_path / "notify"))
+        monkeypatch.setenv("WATCHDOG_USEC", "400000")
+        with running_agent(DOMAIN) as agent:
+            said = [manager.recv(100) for _ in range(3)]
+            assert said == [b"READY=1", b"WATCHDOG=1", b"WATCHDOG=1"]
+            agent.process.send_signal(signal.SIGSTOP)
+            os.waitpid(agent.process.pid, os.WUNTRACED)  # it stands still
+            manager.setblocking(False)
+            with suppress(BlockingIOError):
+                while manager.recv(100):
+                    pass
+            manager.settimeout(1.0)
+            with pytest.raises(TimeoutError):
+                manager.recv(100)
+            agent.process.send_signal(signal.SIGCONT)
+            manager.settimeout(seconds(10))
+            assert manager.recv(100) == b"WATCHDOG=1"
+
+
 UNIT = ROOT / "examples/agent/microros-agent.service"
 
 
@@ -213,3 +266,5 @@ def test_the_unit_starts_the_agent_with_options_that_there_are() -> None:
     (line,) = re.findall(r"(?m)^ExecStart=\S+ agent (.*)$", UNIT.read_text())
     result = run(*line.replace("/etc/microros/agent.yaml", str(ROOT / "examples/agent/none.yaml")).split())
     assert "none.yaml cannot be read" in result.stderr
+    assert re.search(r"(?m)^Type=notify$", UNIT.read_text())
+    assert re.search(r"(?m)^WatchdogSec=\d+$", UNIT.read_text())

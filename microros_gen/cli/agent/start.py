@@ -32,7 +32,7 @@ from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.memory import MemoryGuard
 from microros_gen.agent.policy.model import Policy
 from microros_gen.agent.preconfigured import Preconfigured
-from microros_gen.agent.readiness import notify
+from microros_gen.agent.readiness import notify, watchdog
 from microros_gen.agent.recording.recorder import RecordedTransport, Recorder
 from microros_gen.agent.representation import References
 from microros_gen.agent.representation.reference_file import read_references
@@ -111,7 +111,7 @@ def serve(options: AgentOptions) -> None:
         transports = [TracedTransport(transport, log) for transport in transports]
     reported = ", ".join(f"{name} {value:.10g}" for name, value in asdict(limits).items())
     log.emit(Level.INFO, "limits", f"limits: {reported}", **asdict(limits))
-    server = Server(agent, transports, log)
+    server = Server(agent, transports, log, watchdog())
     announcements = EventLog(sys.stdout, as_json)
     gc.collect()
     gc.freeze()  # modules and libraries stay: to look through them now and then would stop the agent for 20 ms
