@@ -92,6 +92,13 @@ def test_ros_arguments_are_named(capsys: pytest.CaptureFixture[str]) -> None:
     assert shown.count("[MG-9795]") == 2
 
 
+@pytest.mark.parametrize("words", [["udp4", "--ros-args"], ["--ros-args", "--", "udp4"]])
+def test_no_ros_arguments_are_no_mistake(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    """`ros2 launch` adds the word for each node."""
+    assert translated(words) == ["udp4"]
+    assert capsys.readouterr().err == ""
+
+
 def test_a_refused_option_ends_the_command() -> None:
     done = run("udp4", "-p", "0", "-P", "8889")
     assert (done.returncode, "[MG-9794]" in done.stderr) == (2, True)

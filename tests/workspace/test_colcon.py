@@ -185,7 +185,15 @@ def test_a_mistake_in_the_application_file_is_reported_as_by_the_tool(built: Bui
     assert "src/robot_firmware/microros.yaml:6:39: error: " in done.stdout + done.stderr
 
 
-def test_a_clone_in_a_workspace_brings_its_two_packages(built: Built, tmp_path: Path) -> None:
+def test_a_clone_in_a_workspace_brings_its_packages(built: Built, tmp_path: Path) -> None:
     clone(tmp_path / "src/microros_gen")
     listed = shell(tmp_path, built.environment, "colcon list --names-only")
-    assert listed.stdout.split() == ["ament_cmake_microros", "rosidl_generator_microros"], listed.stderr
+    names = ["ament_cmake_microros", "microros_gen_agent", "rosidl_generator_microros"]
+    assert listed.stdout.split() == names, listed.stderr
+    done = shell(tmp_path, built.environment, f"{BUILD} --packages-select microros_gen_agent")
+    assert done.returncode == 0, done.stdout + done.stderr
+    program = tmp_path / "install/microros_gen_agent/lib/microros_gen_agent/micro_ros_agent"
+    shown = shell(
+        tmp_path, built.environment, f". install/local_setup.sh\n{shlex.quote(str(program))} --help"
+    )
+    assert shown.stdout.startswith("Usage: "), shown.stderr

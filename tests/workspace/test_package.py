@@ -98,6 +98,19 @@ def test_cmake_finds_it_where_its_program_is_on_the_path(installed: Installed, t
     assert f"MICROROS_GEN_PROGRAM:FILEPATH={installed.program}\n" in cache
 
 
+def test_its_ament_package_starts_its_agent(installed: Installed, tmp_path: Path) -> None:
+    """Without the program in the PATH, as `ros2 run microros_gen_agent agent` starts it."""
+    environment = installed.program.parents[1]
+    assert (environment / "share/microros_gen_agent/launch/agent.launch.py").is_file()
+    assert (environment / "share/ament_index/resource_index/packages/microros_gen_agent").is_file()
+    for name in ("agent", "micro_ros_agent"):
+        program = environment / "lib/microros_gen_agent" / name
+        done = subprocess.run(
+            [program, "upd4"], cwd=tmp_path, env=clean_environ(), text=True, capture_output=True, check=False
+        )
+        assert "unknown transport 'upd4'" in done.stderr
+
+
 @pytest.mark.long
 def test_an_editable_installation_has_the_files_of_cmake(tmp_path: Path) -> None:
     environment_with_dependencies(tmp_path / "environment")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The two ament packages without colcon and without ROS's other generators: built from a clone, used by CMake alone.
+"""The ament packages without colcon and without ROS's other generators: built from a clone, used by CMake alone.
 
 What is in the run by default; the whole, with everything that ROS 2 generates next to it, is in test_colcon.py.
 """
@@ -9,14 +9,20 @@ from __future__ import annotations
 import importlib.metadata
 import os
 import re
+import runpy
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
+from types import ModuleType
+from typing import Any
 
 import pytest
 
 from microros_gen import __version__
+from tests.support.agent.process import own_domain, running_agent
 from tests.support.environments import clean_environ
 from tests.support.paths import ROOT
 from tests.support.workspace.ros_environments import WORKSPACE
@@ -92,6 +98,92 @@ def test_the_wheel_brings_what_a_workspace_would_install(name: str) -> None:
     assert [
         f'/{extra}")' in (prefix / name / f"cmake/{name}Config.cmake").read_text() for extra in extras
     ] == [True]
+
+
+AGENT = AMENT / "microros_gen_agent"
+PROGRAMS = ("agent", "micro_ros_agent")
+
+
+def test_the_wheel_brings_the_agents_package() -> None:
+    """Its files, executable, where `ros2 run` and `ros2 launch` look, and the entries of the index."""
+    manifest = ElementTree.parse(AGENT / "package.xml")
+    assert (manifest.findtext("name"), manifest.findtext("version")) == (AGENT.name, __version__)
+    project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    for path, place in (
+        ("package.xml", "share/microros_gen_agent/package.xml"),
+        ("launch", "share/microros_gen_agent/launch"),
+        ("programs", "lib/microros_gen_agent"),
+    ):
+        assert f'"cmake/ament/microros_gen_agent/{path}" = "{place}"\n' in project
+    index = AMENT / "prefix/ament_index/resource_index"
+    assert (index / "packages/microros_gen_agent").read_bytes() == b""
+    needed = sorted(str(element.text) for element in manifest.iter("exec_depend"))
+    assert (index / "package_run_dependencies/microros_gen_agent").read_text().split(";") == needed
+    assert sorted(path.name for path in (AGENT / "programs").iterdir()) == sorted(PROGRAMS)
+
+
+@pytest.mark.ros
+def test_a_workspace_with_a_clone_runs_the_agent(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By the path that `ros2 run` takes: the prefix of the index, lib, the package, the name of the program."""
+    from ament_index_python import get_package_prefix, get_package_share_directory
+
+    prefix = tmp_path / "a prefix"
+    cmake(AGENT, prefix)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(prefix))
+    folder = Path(get_package_prefix(AGENT.name)) / "lib" / AGENT.name
+    assert (Path(get_package_share_directory(AGENT.name)) / "launch/agent.launch.py").is_file()
+    for name in PROGRAMS:
+        program = [str(folder / name), "upd4", "--port", "8888", "--ros-args"]
+        environment = clean_environ(MICROROS_GEN_PYTHON=sys.executable)
+        done = subprocess.run(program, env=environment, text=True, capture_output=True, check=False)
+        assert done.returncode == 2
+        assert "unknown transport 'upd4'. Did you mean 'udp4'?" in done.stderr
+    monkeypatch.setenv("MICROROS_GEN_PYTHON", sys.executable)
+    with running_agent(own_domain(), program=[str(folder / "agent")]) as agent:
+        assert agent.stop() == 0
+
+
+@dataclass(frozen=True)
+class Action:
+    """An action of a launch file, and what it was made with."""
+
+    kind: str
+    words: tuple[Any, ...]
+    given: dict[str, Any]
+
+    def perform(self, arguments: dict[str, str]) -> str:
+        """Return the argument of the launch file that a LaunchConfiguration names."""
+        return arguments[self.words[0]]
+
+
+def of_kind(kind: str) -> Callable[..., Action]:
+    return lambda *words, **given: Action(kind, words, given)
+
+
+def test_the_launch_file_starts_the_agent_with_its_arguments(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With stand-ins for `launch` and `launch_ros`, of which there are no wheels."""
+    for module, names in (
+        ("launch", ("LaunchContext", "LaunchDescription")),
+        ("launch.actions", ("DeclareLaunchArgument", "OpaqueFunction")),
+        ("launch.substitutions", ("LaunchConfiguration",)),
+        ("launch_ros", ()),
+        ("launch_ros.actions", ("Node",)),
+    ):
+        stand_in = ModuleType(module)
+        for name in names:
+            setattr(stand_in, name, of_kind(name))
+        monkeypatch.setitem(sys.modules, module, stand_in)
+    file = runpy.run_path(str(AGENT / "launch/agent.launch.py"))
+    (actions,) = file["generate_launch_description"]().words
+    *declared, function = actions
+    arguments = {action.words[0]: action.given["default_value"] for action in declared}
+    (node,) = function.given["function"](arguments)
+    assert (node.given["package"], node.given["executable"]) == (AGENT.name, "agent")
+    assert node.given["arguments"] == ["udp4", "--port", "8888"]
+    arguments["arguments"] = "--config '/etc/a file.yaml'"
+    (node,) = function.given["function"](arguments)
+    assert node.given["arguments"] == ["--config", "/etc/a file.yaml"]
+    assert (node.given["respawn"], node.given["respawn_delay"]) == (True, 2.0)
 
 
 @pytest.mark.ros

@@ -78,11 +78,14 @@ def _check(word: str, short: str, value: str) -> None:
 
 
 def _without_ros(words: Sequence[str]) -> list[str]:
-    """Return the words without `--ros-args … --`, which `ros2 launch` adds; a warning names them."""
+    """Return the words without `--ros-args … --`, which `ros2 launch` adds; a warning names them if there are any."""
     if "--ros-args" not in words:
         return list(words)
     begin = words.index("--ros-args")
     end = words.index("--", begin) if "--" in words[begin:] else len(words)
+    rest = [*words[:begin], *words[end + 1 :]]
+    if end == begin + 1:
+        return rest
     left_out = " ".join(words[begin : min(end + 1, len(words))])
     warning = Diagnostic(
         f"{left_out} is ignored: the agent has the nodes of its clients, with their names",
@@ -90,4 +93,4 @@ def _without_ros(words: Sequence[str]) -> list[str]:
         id="MG-9795",
     )
     echo_found(f"{warning.render()}\n")
-    return [*words[:begin], *words[end + 1 :]]
+    return rest

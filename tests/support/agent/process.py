@@ -97,12 +97,19 @@ UDP = ("udp4", "--port", "0")
 
 @contextmanager
 def running_agent(
-    domain: int, *options: str, command: Sequence[str] = (), transport: Sequence[str] = UDP
+    domain: int,
+    *options: str,
+    command: Sequence[str] = (),
+    transport: Sequence[str] = UDP,
+    program: Sequence[str] = (),
 ) -> Iterator[AgentProcess]:
-    """Start `microros-gen agent TRANSPORT OPTIONS`, wait until it is ready, end it afterwards."""
-    start = list(command) or [sys.executable, "-m", "microros_gen"]
+    """Start `microros-gen agent TRANSPORT OPTIONS`, wait until it is ready, end it afterwards.
+
+    `command` stands for `microros-gen`, `program` for `microros-gen agent`.
+    """
+    start = list(program) or [*(list(command) or [sys.executable, "-m", "microros_gen"]), "agent"]
     process = subprocess.Popen(
-        [*start, "agent", *transport, *options],
+        [*start, *transport, *options],
         env=environment(domain),
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
