@@ -23,6 +23,7 @@ ELSEWHERE = {
     "howto/check.md": "tests/docs/test_init_pages.py",
     "howto/cmake.md": "tests/workspace/test_example.py",
     "howto/idl.md": "tests/docs/test_init_pages.py",
+    "howto/secure_links.md": "tests/docs/test_secure_links.py",
     "verification/proof.md": "tests/proof/test_proof.py",
     "howto/ros_build.md": "tests/support/workspace/ros_environments.py",
 }
