@@ -179,7 +179,7 @@ def test_a_service_manager_is_notified(tmp_path: Path) -> None:
     notify("READY=1", {})
 
 
-def test_the_watchdog_is_told_twice_in_its_period() -> None:
+def test_the_watchdog_is_fed_twice_in_its_period() -> None:
     sent: list[str] = []
     care = watchdog({"WATCHDOG_USEC": "2000000", "WATCHDOG_PID": str(os.getpid())}, sent.append)
     counts = []
@@ -199,7 +199,7 @@ def test_the_watchdog_is_told_twice_in_its_period() -> None:
         {"WATCHDOG_USEC": "2000000", "WATCHDOG_PID": "1"},
     ],
 )
-def test_nobody_is_told_without_a_watchdog(environ: dict[str, str]) -> None:
+def test_nothing_is_sent_without_a_watchdog(environ: dict[str, str]) -> None:
     sent: list[str] = []
     watchdog(environ, sent.append)(1000.0)
     assert sent == []
@@ -214,8 +214,8 @@ def test_an_agent_feeds_the_watchdog_of_its_service(tmp_path: Path, monkeypatch:
         monkeypatch.setenv("NOTIFY_SOCKET", str(tmp_path / "notify"))
         monkeypatch.setenv("WATCHDOG_USEC", "400000")
         with running_agent(DOMAIN) as agent:
-            said = [manager.recv(100) for _ in range(3)]
-            assert said == [b"READY=1", b"WATCHDOG=1", b"WATCHDOG=1"]
+            reported = [manager.recv(100) for _ in range(3)]
+            assert reported == [b"READY=1", b"WATCHDOG=1", b"WATCHDOG=1"]
             agent.process.send_signal(signal.SIGSTOP)
             os.waitpid(agent.process.pid, os.WUNTRACED)  # it stands still
             manager.setblocking(False)

@@ -149,7 +149,7 @@ class Action:
 
     kind: str
     words: tuple[Any, ...]
-    given: dict[str, Any]
+    options: dict[str, Any]
 
     def perform(self, arguments: dict[str, str]) -> str:
         """Return the argument of the launch file that a LaunchConfiguration names."""
@@ -157,7 +157,7 @@ class Action:
 
 
 def of_kind(kind: str) -> Callable[..., Action]:
-    return lambda *words, **given: Action(kind, words, given)
+    return lambda *words, **options: Action(kind, words, options)
 
 
 def test_the_launch_file_starts_the_agent_with_its_arguments(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -176,14 +176,14 @@ def test_the_launch_file_starts_the_agent_with_its_arguments(monkeypatch: pytest
     file = runpy.run_path(str(AGENT / "launch/agent.launch.py"))
     (actions,) = file["generate_launch_description"]().words
     *declared, function = actions
-    arguments = {action.words[0]: action.given["default_value"] for action in declared}
-    (node,) = function.given["function"](arguments)
-    assert (node.given["package"], node.given["executable"]) == (AGENT.name, "agent")
-    assert node.given["arguments"] == ["udp4", "--port", "8888"]
+    arguments = {action.words[0]: action.options["default_value"] for action in declared}
+    (node,) = function.options["function"](arguments)
+    assert (node.options["package"], node.options["executable"]) == (AGENT.name, "agent")
+    assert node.options["arguments"] == ["udp4", "--port", "8888"]
     arguments["arguments"] = "--config '/etc/a file.yaml'"
-    (node,) = function.given["function"](arguments)
-    assert node.given["arguments"] == ["--config", "/etc/a file.yaml"]
-    assert (node.given["respawn"], node.given["respawn_delay"]) == (True, 2.0)
+    (node,) = function.options["function"](arguments)
+    assert node.options["arguments"] == ["--config", "/etc/a file.yaml"]
+    assert (node.options["respawn"], node.options["respawn_delay"]) == (True, 2.0)
 
 
 @pytest.mark.ros

@@ -105,7 +105,7 @@ def running_agent(
 ) -> Iterator[AgentProcess]:
     """Start `microros-gen agent TRANSPORT OPTIONS`, wait until it is ready, end it afterwards.
 
-    `command` stands for `microros-gen`, `program` for `microros-gen agent`.
+    `command` replaces `microros-gen`, `program` replaces `microros-gen agent`.
     """
     start = list(program) or [*(list(command) or [sys.executable, "-m", "microros_gen"]), "agent"]
     process = subprocess.Popen(
