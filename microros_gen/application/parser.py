@@ -76,6 +76,7 @@ _ONLY_FOR = {
     "framing": ("custom",),
     "read_polls": ("custom",),
     "mtu": ("udp", "tcp", "serial", "custom"),
+    "seal": ("udp",),
 }
 
 
@@ -235,6 +236,7 @@ def _transport(node: YamlNode | None, diagnostics: Diagnostics) -> Transport:
         else Transport().can_device,
         can_id=int_of(child(node, "id")),
         bitrate=int_of(child(node, "bitrate")),
+        seal=text_of(child(node, "seal")) or "",
         baud=int_of(child(node, "baud")) or Transport().baud,
         framing=bool_of(framing),
         read_polls=bool_of(read_polls) or False,

@@ -88,6 +88,8 @@ def _of_keys(application: Application) -> Iterator[tuple[str, str, Span | None]]
         yield "liveliness_hard", f"session: {{hard_liveliness}}{at(place)}", place
     if transport.discover is not None:
         yield "discovery", "transport: {agent: discover}", transport.agent_span
+    if transport.seal:
+        yield "seal", "transport: {seal}", application.spans.get("transport.seal")
     if transport.agents or transport.devices:
         yield "agents", "transport: {agents}", transport.agent_span
 

@@ -44,6 +44,7 @@ NOTHING = {
     "references": (),
     "entities": (),
     "policy": None,
+    "psk_file": None,
     "check": False,
     "manifest": (),
     "interface_path": (),
@@ -68,6 +69,7 @@ limits: {clients: 3, client_timeout_s: 1.5, message_bytes: 1000}
 references: [refs.xml]
 entities: [a.json, /b.json]
 policy: policy.yaml
+psk_file: keys
 manifests: [m.json, 0x1=n.json]
 interface_paths: [idl]
 record: all.pcapng
@@ -100,6 +102,7 @@ def test_everything_that_a_file_can_say(tmp_path: Path) -> None:
         references=(tmp_path / "refs.xml",),
         entities=(tmp_path / "a.json", Path("/b.json")),
         policy=tmp_path / "policy.yaml",
+        psk_file=tmp_path / "keys",
         manifests=(ManifestOf(tmp_path / "m.json"), ManifestOf(tmp_path / "n.json", "0x1")),
         interface_paths=(tmp_path / "idl",),
         record=tmp_path / "all.pcapng",

@@ -165,7 +165,7 @@ def test_every_kind_of_fault_is_there() -> None:
                 if isinstance(n, ast.Constant) and str(n.value)[:4] == "tcp_"
             }
     found = {kind for kind in found if re.fullmatch(r"[a-z]+(_[a-z]+)*", kind)}
-    found |= {"frame_too_large", "frame_empty", "log_lost", "client_STATUS", "internal_ERROR"}
+    found |= {"frame_too_large", "frame_empty", "log_lost", "client_STATUS", "internal_ERROR", "seal_KIND"}
     found |= {"no_server", "no_client", str(inspect.signature(Processor._stop).parameters["kind"].default)}
     assert '"history_full" if isinstance(error, HistoryFullError) else "publish"' in (
         AGENT / "operations.py"
@@ -193,3 +193,12 @@ def test_the_entities_file_has_every_kind_of_object() -> None:
 def test_linked_files_exist() -> None:
     for link in re.findall(r"\]\(([^)#]+)[^)]*\)", PAGE):
         assert (ROOT / "docs/howto" / link).exists(), link
+
+
+def test_every_kind_of_refused_datagram_is_on_its_page() -> None:
+    sources = [*(AGENT / "seal").glob("*.py"), AGENT / "transport" / "sealed.py"]
+    kinds = {
+        kind for path in sources for kind in re.findall(r'"(seal_[a-z_]+)"', path.read_text(encoding="utf-8"))
+    }
+    page = (ROOT / "docs/howto/seal.md").read_text(encoding="utf-8").partition("### What the agent counts")[2]
+    assert kinds == set(re.findall(r"`(seal_[a-z_]+)`", page.partition("## ")[0]))

@@ -40,7 +40,9 @@ def called(component: Component) -> set[str]:
     """Return the port_* functions that the files of a component call."""
     files = (path for path in component.folder.rglob("*.*") if path.suffix in (".c", ".h", ".j2"))
     text = "".join(_COMMENT.sub("", path.read_text()) for path in files if path.name != "port.h")
-    return set(re.findall(r"\b(port_[a-z_]+)\(", text)) | _OF_THE_PLAN.get(component.name, set())
+    return set(re.findall(r"\b((?:port|microros_seal)_[a-z_]+)\(", text)) | _OF_THE_PLAN.get(
+        component.name, set()
+    )
 
 
 @pytest.mark.parametrize("name", [n for n, c in CATALOGUE.items() if c.layer != "port"])

@@ -110,6 +110,7 @@ MENTIONS = {
     "parameters_held": 1,
     "publish": 6,
     "read": 1,
+    "seal": 2,
     "services": 5,
     "session_state": 1,
     "sleep_cycles": 2,
@@ -204,7 +205,7 @@ def test_a_file_that_names_a_component_is_found(tmp_path: Path) -> None:
 
 
 def test_most_components_are_named_by_few() -> None:
-    assert sum(MENTIONS.values()) <= 61
+    assert sum(MENTIONS.values()) <= 63
     assert max(MENTIONS.values()) <= 6
 
 

@@ -31,6 +31,7 @@ NEEDED = {
     "arduino-builder": "arduino-builder",
     "/usr/share/arduino/hardware/arduino/avr/boards.txt": "arduino-core-avr",
     "/usr/include/libelf.h": "libelf-dev",
+    "/usr/include/psa/crypto.h": "libmbedtls-dev",
     "make": "make",
     "zsh": "zsh",
     "fish": "fish",

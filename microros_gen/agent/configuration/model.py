@@ -82,6 +82,7 @@ class AgentFile:
     references: tuple[NamedPath, ...] = ()
     entities: tuple[NamedPath, ...] = ()
     policy: NamedPath | None = None
+    psk_file: NamedPath | None = None
     manifests: tuple[NamedPath, ...] = ()
     interface_paths: tuple[NamedPath, ...] = ()
     record: NamedPath | None = None

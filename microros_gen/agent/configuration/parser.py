@@ -64,6 +64,7 @@ def parse_agent_file(source: Source, diagnostics: Diagnostics) -> AgentFile:
         references=_paths(child(tree, "references")),
         entities=_paths(child(tree, "entities")),
         policy=_path(child(tree, "policy")),
+        psk_file=_path(child(tree, "psk_file")),
         manifests=_paths(child(tree, "manifests")),
         interface_paths=_paths(child(tree, "interface_paths")),
         record=_path(child(tree, "record")),

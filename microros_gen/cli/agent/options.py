@@ -155,6 +155,13 @@ _COMMON = (
         " it, all may use everything. SIGHUP reloads the file.",
     ),
     click.option(
+        "--psk-file",
+        type=click.Path(path_type=Path, dir_okay=False),
+        metavar="FILE",
+        help="Seal all datagrams with a key that each client shares with the agent, and refuse others (UDP alone). In"
+        " each line of FILE: client key, and 64 hexadecimal digits; only its owner may read it.",
+    ),
+    click.option(
         "--check",
         is_flag=True,
         help="Check the files and end: status 2 if one has a fault. Needs no transport.",
@@ -225,6 +232,7 @@ class AgentOptions:
     references: tuple[Path, ...] = ()
     entities: tuple[Path, ...] = ()
     policy: Path | None = None
+    psk_file: Path | None = None
     check: bool = False
     manifests: tuple[ManifestOf, ...] = ()
     interface_paths: tuple[Path, ...] = ()
@@ -273,6 +281,7 @@ class AgentOptions:
             references=_paths(folder, file.references, options["references"]),
             entities=_paths(folder, file.entities, options["entities"]),
             policy=options["policy"] or (None if file.policy is None else folder / file.policy.path),
+            psk_file=options["psk_file"] or (None if file.psk_file is None else folder / file.psk_file.path),
             check=options["check"],
             manifests=(
                 *(ManifestOf.of(named.path, folder, named.span) for named in file.manifests),
@@ -326,8 +335,8 @@ def _read_file(path: Path | None) -> tuple[AgentFile, Path]:
 
 def _named(file: AgentFile) -> tuple[NamedPath, ...]:
     policy = () if file.policy is None else (file.policy,)
-    recorded = () if file.record is None else (file.record,)
-    return (*file.references, *file.entities, *policy, *file.interface_paths, *recorded)
+    others = tuple(named for named in (file.record, file.psk_file) if named is not None)
+    return (*file.references, *file.entities, *policy, *file.interface_paths, *others)
 
 
 def read_sources(

@@ -7,7 +7,7 @@ import gc
 import resource
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -48,6 +48,7 @@ from microros_gen.cli.agent.monitoring import checked_places, monitoring
 from microros_gen.cli.agent.options import AgentOptions, read_sources
 from microros_gen.cli.agent.parameters import ParametersOnDemand
 from microros_gen.cli.agent.policy import read_policy, reloading, report_policy
+from microros_gen.cli.agent.seal import read_psk_file, sealed
 from microros_gen.cli.agent.types import ClientTypes, HashOf, TypeHashes, read_manifests
 from microros_gen.cli.terminal import echo_found
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
@@ -85,6 +86,7 @@ def serve(options: AgentOptions) -> None:
     except UserError:
         _close(transports)
         raise
+    transports = sealed(transports, files.keys, log)
     if recorder is not None:
         transports = [RecordedTransport(transport, recorder) for transport in transports]
     manifests = Manifests(files.clients.by_client)
@@ -290,6 +292,7 @@ class _Files:
     clients: ClientTypes
     hashes: TypeHashes
     policy: Policy | None
+    keys: Mapping[int, bytes] | None
 
 
 def _files(options: AgentOptions) -> _Files:
@@ -299,7 +302,7 @@ def _files(options: AgentOptions) -> _Files:
     places = options.places
     profiles = read_sources(options.references, diagnostics, places)
     entities = read_sources(options.entities, diagnostics, places)
-    policy = read_policy(options, diagnostics)
+    policy, keys = read_policy(options, diagnostics), read_psk_file(options, diagnostics)
     clients = read_manifests(options.manifests, diagnostics)
     of_files: HashOf = _no_hash
     try:
@@ -319,7 +322,7 @@ def _files(options: AgentOptions) -> _Files:
     diagnostics.check()
     for diagnostic in diagnostics:  # warnings
         echo_found(f"{diagnostic.render()}\n")
-    return _Files(references, preconfigured, clients, TypeHashes(of_files, clients.common), policy)
+    return _Files(references, preconfigured, clients, TypeHashes(of_files, clients.common), policy, keys)
 
 
 def _no_hash(_type_name: str) -> None:

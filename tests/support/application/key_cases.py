@@ -378,6 +378,14 @@ _TOP = {
         "1:40",
         "'transport.send_buffer' must be a whole number between 64 and 1048576; it is 8",
     ),
+    "transport.seal": KeyCase(
+        "transport: {seal: psa}",
+        lambda a: a.transport.seal,
+        "psa",
+        "transport: {seal: aes}",
+        "1:19",
+        "'transport.seal' must be psa or application; it is the text 'aes'",
+    ),
     "transport.framing": KeyCase(
         "transport: {type: custom, framing: false}",
         lambda a: a.transport.framing,

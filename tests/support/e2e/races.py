@@ -171,6 +171,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
 
 ELSEWHERE: Mapping[str, str] = MappingProxyType(
     {
+        "seal": "needs Mbed TLS; called with the lock of the library, as every transport is: tests/e2e/test_seal.py",
         "discovery": "in place of addresses of agents; not run under ThreadSanitizer",
         "entities_preconfigured": "in place of entities_xml and _binary; not run under ThreadSanitizer",
         "entities_reference": "in place of entities_xml and _binary; not run under ThreadSanitizer",

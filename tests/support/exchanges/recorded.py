@@ -20,11 +20,12 @@ SAME = GOLDEN / "same.txt"
 DURATION_MS = 2000
 _LEFT_OUT = ("timers_ticked",)
 """The application itself drives its hardware timer."""
-_ELSEWHERE = ("target:", "{type: custom", "{type: canfd", "system:", "tasks:", "time_source")
+_ELSEWHERE = ("target:", "{type: custom", "{type: canfd", "system:", "tasks:", "time_source", "seal:")
 """Images of boards, those whose transport is functions of the application, those on a bus, whose frames
 tests/e2e/test_canfd.py sees, those with links to other boards, whose messages tests/runtime/test_peer.py sees, those
-with tasks, whose order is the scheduler's, and those that ask for the time, which the scripted agent does not tell and
-tests/runtime/c/unit_time_source.c simulates.
+with tasks, whose order is the scheduler's, those that ask for the time, which the scripted agent does not tell and
+tests/runtime/c/unit_time_source.c simulates, and those with a seal, whose
+messages are random (tests/runtime/test_seal.py).
 """
 
 

@@ -5,6 +5,7 @@
 #include "microros/lock.h"
 #include "microros/port.h"
 #include "microros/rmw_client.h"
+#include "microros/rmw_init_reason.h"
 #include "microros/rmw_open.h"
 #include "microros/rmw_transport.h"
 #include "microros/xrce_client.h"
@@ -41,6 +42,10 @@ static rmw_ret_t init_report(const xrce_client_t * client)
 
   if (session->refusal != 0u) {
     microros_error_set(microros_error_agent_refused, name, NULL, session->refusal, port);
+    return RMW_RET_ERROR;
+  }
+  /* cppcheck-suppress knownConditionTrueFalse ; a constant unless a component replaces the header */
+  if (rmw_init_reason(client)) {
     return RMW_RET_ERROR;
   }
   if (!session->transport_open) {

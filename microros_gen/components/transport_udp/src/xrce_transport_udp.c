@@ -4,20 +4,20 @@
 
 bool xrce_transport_open(xrce_transport_t * transport)
 {
-  return port_udp_open(&transport->udp, transport->host, transport->port);
+  return xrce_datagrams_open(&transport->udp, transport->host, transport->port);
 }
 
 void xrce_transport_close(xrce_transport_t * transport)
 {
-  port_udp_close(&transport->udp);
+  xrce_datagrams_close(&transport->udp);
 }
 
 bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, size_t size)
 {
-  return port_udp_send(&transport->udp, message, size);
+  return xrce_datagrams_send(&transport->udp, message, size);
 }
 
 int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity)
 {
-  return port_udp_receive(&transport->udp, buffer, capacity);
+  return xrce_datagrams_receive(&transport->udp, buffer, capacity);
 }

@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "microros/port.h"
+#include "microros/xrce_datagrams.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -20,7 +20,7 @@ extern "C" {
 #define XRCE_PLACE_M "%s:%m"
 
 typedef struct xrce_transport_t {
-  port_udp_t udp;
+  xrce_datagrams_t udp;
   const char * host; /* the caller's, or the plan's */
   uint16_t port;
 } xrce_transport_t;
@@ -38,7 +38,7 @@ static inline uint16_t xrce_transport_port(const xrce_transport_t * transport)
 /* Returns the handle for port_wait. */
 static inline intptr_t xrce_transport_handle(const xrce_transport_t * transport)
 {
-  return transport->udp.handle;
+  return xrce_datagrams_handle(&transport->udp);
 }
 
 /* Returns whether two transports share one line: sockets never do. */

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A transport of datagrams around which all messages are sealed; others are refused and counted.
+
+An address of it is that of the transport within and the client key, which the handshake has proved. So no client can
+send in the session of another one, whatever address it pretends to have.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Hashable, Mapping
+from typing import Any
+
+from microros_gen.agent.log import EventLog
+from microros_gen.agent.seal.handshakes import Handshakes
+from microros_gen.agent.seal.session import Kind, RecordError
+from microros_gen.agent.transport.base import Receive, Transport
+from microros_gen.agent.transport.observed import ObservedTransport
+from microros_gen.agent.wire.constants import STREAM_NONE, Status, SubmessageId
+from microros_gen.agent.wire.errors import MalformedError
+from microros_gen.agent.wire.message import Header, header_size, split
+from microros_gen.agent.wire.session_messages import CreateClient, StatusAgent
+from microros_gen.agent.wire.submessages import decode, encode
+
+
+class SealedTransport(ObservedTransport):
+    """A UDP transport whose clients share a key with the agent."""
+
+    def __init__(
+        self,
+        inner: Transport,
+        keys: Mapping[int, bytes],
+        log: EventLog,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """Wrap `inner`; `keys` has the pre-shared key of each client key. `clock`: seconds, monotonic."""
+        super().__init__(inner)
+        self.forgeable = False  # who sends a record has received the second message of a handshake
+        self._handshakes = Handshakes(keys)
+        self._log = log
+        self._clock = clock
+
+    def _observe(self, data: bytes, address: Hashable, inbound: bool) -> None:
+        """See ObservedTransport: `pump` and `send` do all."""
+
+    def pump(self, receive: Receive) -> None:
+        """See Transport."""
+
+        def opened(data: bytes, address: Hashable, _transport: Transport) -> None:
+            try:
+                message, client_key = self._open(data, address)
+            except RecordError as error:
+                self._count(str(error), address)
+                return
+            if message:
+                receive(message, (*_parts(address), client_key), self)
+
+        self._inner.pump(opened)
+
+    def send(self, data: bytes, address: Hashable) -> None:
+        """See Transport."""
+        *within, client_key = _parts(address)
+        record = self._handshakes.seal(data, client_key, tuple(within))
+        if record is not None:
+            self._inner.send(record, tuple(within))
+
+    def _open(self, data: bytes, address: Hashable) -> tuple[bytes, int]:
+        """Return the message in a datagram, empty for a handshake, and its client key. Raises RecordError."""
+        kind = data[0] if data else 0
+        if kind == Kind.FIRST:
+            answer, fault = self._handshakes.answer(data, address, self._clock())
+            self._inner.send(answer, address)
+            if fault:
+                raise RecordError(fault)
+            return b"", 0
+        if kind != Kind.RECORD:
+            self._deny(data, address)
+            raise RecordError("seal_missing")
+        message, session = self._handshakes.open(data, address)
+        if not _is_from(message, session.client_key):
+            denial = _denial(message)
+            record = denial and session.seal(denial)
+            if record:
+                self._inner.send(record, address)
+            raise RecordError("seal_other_client")
+        return message, session.client_key
+
+    def _deny(self, data: bytes, address: Hashable) -> None:
+        """Tell a client without a seal that it may not connect."""
+        answer = _denial(data)
+        if answer:
+            self._inner.send(answer, address)
+
+    def _count(self, kind: str, address: Hashable) -> None:
+        self._log.count(kind, "a datagram from {peer} was refused", peer=self.name_of(address))
+
+
+def _parts(address: Hashable) -> tuple[Any, ...]:
+    assert isinstance(address, tuple)
+    return address
+
+
+def _is_from(message: bytes, client_key: int) -> bool:
+    """Return whether the client keys in a message are `client_key`."""
+    own = client_key.to_bytes(4, "big")
+    if len(message) >= 8 and message[0] < 0x80 and message[4:8] != own:
+        return False
+    created = _created(message)
+    return created is None or created.key == own
+
+
+def _created(message: bytes) -> CreateClient | None:
+    """Return the CREATE_CLIENT with which a message begins; None: it begins with none."""
+    try:
+        start = header_size(message)
+        if message[start : start + 1] != bytes([SubmessageId.CREATE_CLIENT]):
+            return None
+        for identifier, flags, at, end in split(message, start)[:1]:
+            found = decode(identifier, flags, message, at, end)
+            return found if isinstance(found, CreateClient) else None
+    except MalformedError:
+        return None
+    return None
+
+
+def _denial(message: bytes) -> bytes:
+    """Return the answer DENIED to a CREATE_CLIENT, shorter than that; empty for other messages."""
+    created = _created(message)
+    if created is None:
+        return b""
+    header = Header.decode(message)
+    return Header(header.session, STREAM_NONE, 0, header.key).encode() + encode(StatusAgent(Status.DENIED))

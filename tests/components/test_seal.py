@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Sealed datagrams in an application file: what is selected, and what they exclude."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from microros_gen import compiler
+from microros_gen.diagnostics import UserError
+from microros_gen.interfaces.find import shipped_folder
+from tests.support.components.rendered import planned
+
+POOLS = "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\n"
+KEY, PING = "session: {key: 7}\n", "liveliness: ping\n"
+PSA = "transport: {seal: psa}\n"
+
+
+@pytest.mark.parametrize("provider", ["psa", "application"])
+def test_files_of_each_provider(tmp_path: Path, provider: str) -> None:
+    config, out = tmp_path / "microros.yaml", tmp_path / "out"
+    config.write_text(POOLS + KEY + PING + PSA.replace("psa", provider))
+    compiler.generate(compiler.Options(config=config, interface_paths=(shipped_folder(),)), out)
+    sources = (out / "sources.txt").read_text().split()
+    assert ("src/seal/seal_psa.c" in sources) == (provider == "psa")
+    assert "src/seal/xrce_noise.c" in sources
+    assert json.loads((out / "manifest.json").read_text())["features"]["seal"]["values"]["seal"] == provider
+    readme = (out / "README.md").read_text()
+    assert "bool microros_seal_psk(" in readme
+    assert ("bool microros_seal_agree(" in readme) == (provider == "application")
+
+
+def test_without_seal_nothing_of_it_is_in_the_output(tmp_path: Path) -> None:
+    config, out = tmp_path / "microros.yaml", tmp_path / "out"
+    config.write_text(POOLS)
+    compiler.generate(compiler.Options(config=config, interface_paths=(shipped_folder(),)), out)
+    assert "seal/" not in (out / "sources.txt").read_text()
+
+
+@pytest.mark.parametrize(
+    ("application", "identifier"),
+    [
+        (POOLS + KEY + PING + "components: [+seal]\n", "MG-3260"),
+        (POOLS + PING + PSA, "MG-3261"),
+        (POOLS + "session: {key: device}\n" + PING + PSA, "MG-3261"),
+        (POOLS + KEY + "liveliness: none\n" + PSA, "MG-3262"),
+        (POOLS + KEY + PING + PSA + "components: [+sleep_cycles]\n", "MG-3263"),
+        (POOLS + KEY + PING + "transport: {seal: psa, agent: discover}\n", "MG-3263"),
+        (POOLS + KEY + PING + PSA + "target: qemu-mps2-an386\n", "MG-4037"),
+        (POOLS + KEY + PING + "transport: {type: tcp, seal: psa}\n", "MG-3014"),
+        (POOLS + KEY + PING + "transport: {mtu: 65500, seal: psa}\n", "MG-3270"),
+        (POOLS + KEY + PING + "transport: {seal: aes}\n", None),
+    ],
+)
+def test_what_contradicts_sealed_datagrams(tmp_path: Path, application: str, identifier: str | None) -> None:
+    with pytest.raises(UserError) as caught:
+        planned(tmp_path, application)
+    found = [diagnostic.id for diagnostic in caught.value.diagnostics]
+    assert identifier in found if identifier else found
