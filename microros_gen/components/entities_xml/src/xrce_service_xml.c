@@ -10,38 +10,37 @@
 uint8_t * xrce_describe_service(
   const xrce_client_t * client, uint16_t place, uint8_t * blob, uint8_t * format)
 {
-  static const MICROROS_FLASH char depth[] = "<topic><historyQos><depth>10</depth></historyQos></topic>";
+  static const char depth[] = "<topic><historyQos><depth>10</depth></historyQos></topic>";
   const char * name = client->endpoints[place - MICROROS_NODES_MAX].name;
-  const MICROROS_FLASH char * type = client->services[place - XRCE_REPLIERS_AT].type->dds_type_name;
-  const MICROROS_FLASH char * kind =
-    place < XRCE_REQUESTERS_AT ? MICROROS_FLASH_TEXT("replier") : MICROROS_FLASH_TEXT("requester");
-  const MICROROS_ANYWHERE char * const texts[] = {
-    MICROROS_FLASH_TEXT("<dds><"),
+  const char * type = client->services[place - XRCE_REPLIERS_AT].type->dds_type_name;
+  const char * kind = place < XRCE_REQUESTERS_AT ? "replier" : "requester";
+  const char * const texts[] = {
+    "<dds><",
     kind,
-    MICROROS_FLASH_TEXT(" profile_name=\""),
+    " profile_name=\"",
     name,
-    MICROROS_FLASH_TEXT("\" service_name=\""),
+    "\" service_name=\"",
     name,
-    MICROROS_FLASH_TEXT("\" request_type=\""),
+    "\" request_type=\"",
     type,
-    MICROROS_FLASH_TEXT("Request_\" reply_type=\""),
+    "Request_\" reply_type=\"",
     type,
-    MICROROS_FLASH_TEXT("Response_\"><request_topic_name>rq"),
+    "Response_\"><request_topic_name>rq",
     name,
-    MICROROS_FLASH_TEXT("Request</request_topic_name><reply_topic_name>rr"),
+    "Request</request_topic_name><reply_topic_name>rr",
     name,
-    MICROROS_FLASH_TEXT("Reply</reply_topic_name><publisher>"),
+    "Reply</reply_topic_name><publisher>",
     depth,
-    MICROROS_FLASH_TEXT("</publisher><subscriber>"),
+    "</publisher><subscriber>",
     depth,
-    MICROROS_FLASH_TEXT("</subscriber></"),
+    "</subscriber></",
     kind,
-    MICROROS_FLASH_TEXT("></dds>"),
+    "></dds>",
     NULL};
   uint8_t * end = blob;
 
   *format = XRCE_FORMAT_XML;
-  for (const MICROROS_ANYWHERE char * const * text = texts; *text != NULL; ++text) {
+  for (const char * const * text = texts; *text != NULL; ++text) {
     end = xrce_describe_text(end, *text);
   }
   *end++ = 0;

@@ -3,7 +3,6 @@
 
 #include "microros/cdr.h"
 #include "microros/error.h"
-#include "microros/text.h"
 
 #include <string.h>
 
@@ -19,7 +18,7 @@ const microros_type_members_t * utilities_type(const rosidl_message_type_support
   }
   type = type_support->data;
   for (const microros_type_members_t * const * at = microros_type_tables; *at != NULL; ++at) {
-    if (microros_text_equals((*at)->dds_type_name, type->dds_type_name)) {
+    if (strcmp((*at)->dds_type_name, type->dds_type_name) == 0) {
       return *at;
     }
   }
