@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -101,6 +102,8 @@ def play_command(
     microros-gen bag play drive.mcap
     microros-gen bag play --loop --rate 0.5 --topics /odom --topics /scan --start-offset 10 drive.mcap
     """
+    if not math.isfinite(rate) or not math.isfinite(start_offset):
+        raise click.BadParameter("it must be finite", param_hint="'--rate' and '--start-offset'")
     reader = _read(file)
     chosen = _chosen(reader, topics)
     begin = reader.first + round(start_offset * _NS)

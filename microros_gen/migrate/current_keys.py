@@ -24,9 +24,9 @@ from microros_gen.records import dataclass
 
 _FIRST_KIND = "application"
 _LINE_END = "\r\n|[\n\r\x85\u2028\u2029]"
+"""What the loaders of YAML count as the end of a line."""
 _NO_LINE_END = "\\ No newline at end of file"
 _LINE = re.compile(r"[^\n]*\n|[^\n]+")
-"""What the loaders of YAML count as the end of a line."""
 
 
 @dataclass(frozen=True)
@@ -151,7 +151,10 @@ def _edit_of(tree: YamlNode, source: Source, part: Difference, diagnostics: Diag
             return None
         begin, end = _range(source, entry.key_span)
         return _Edit(begin, end, replacement["key"])
-    edit = _removal(source, entry) if entry is not None and replacement.get("remove") else None
+    edit = None
+    if entry is not None and mapping is not None and replacement.get("remove"):
+        # Without another entry nothing would be left of the mapping, which means null.
+        edit = _removal(source, entry) if len(mapping.entries) > 1 else None
     if edit is None:
         span = entry.key_span if entry is not None else tree.span
         hint = part.schema["deprecationMessage"]

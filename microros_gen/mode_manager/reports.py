@@ -22,7 +22,8 @@ class Reports:
 
     def hear(self, name: str, level: str) -> None:
         """Note a status."""
-        self.levels[name] = level
+        if level or name in self.levels:  # one that is always OK says nothing to a rule
+            self.levels[name] = level
         self._unconfirmed.discard(name)
 
     def step(self, now: float, is_absent: bool) -> None:

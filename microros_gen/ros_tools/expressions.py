@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import ast
 import operator
+import re
 import warnings
 from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
@@ -65,6 +66,10 @@ _COMPARED: Mapping[type[ast.cmpop], Callable[[Any, Any], Any]] = MappingProxyTyp
     }
 )
 _MOST_DIGITS = 300
+_MOST_BITS = 2048
+"""Of a whole number; a float64 that is one has up to 1024."""
+_MOST_LOOPS = 3
+"""`for` within one another, in every place."""
 
 
 def _rounded(value: float, digits: int = 0) -> float:
@@ -109,7 +114,7 @@ class _Translator:
         self._indent = len(text) - len(self._text)
         self._kinds: dict[str, Kind] = {MESSAGE: kind}
         self._messages = messages
-        self._depth = 0
+        self._depth = self._loops = 0
 
     def whole(self) -> _Value:
         if len(self._text) > LONGEST:
@@ -131,7 +136,7 @@ class _Translator:
 
     def _span(self, node: ast.expr) -> Span:
         """Return the place of a node: Python counts bytes of UTF-8."""
-        line = self._text.split("\n")[node.lineno - 1].encode()
+        line = re.split("\r\n|[\r\n]", self._text)[node.lineno - 1].encode()
         begin = len(line[: node.col_offset].decode()) + 1
         in_line = node.end_lineno == node.lineno and node.end_col_offset is not None
         end = len(line[: node.end_col_offset].decode()) + 1 if in_line else None
@@ -247,7 +252,10 @@ class _Translator:
             operands = left(names), right(names)
             if not all(isinstance(each, int | float) for each in operands):
                 raise TypeError("arithmetic is that of numbers")
-            return apply(*operands)
+            result = apply(*operands)
+            if isinstance(result, int) and result.bit_length() > _MOST_BITS:
+                raise OverflowError("the number is too large")
+            return result
 
         return _Part(self._checked(node, value))
 
@@ -307,6 +315,9 @@ class _Translator:
             self._refuse(node, "more than one `for NAME in …`")
         if loop.target.id in self._kinds:
             self._refuse(loop.target, f"'{loop.target.id}' twice", "Choose another name")
+        self._loops += 1
+        if self._loops > _MOST_LOOPS:
+            self._refuse(node, f"more than {_MOST_LOOPS} times `for`")
         many, name = self._part(loop.iter), loop.target.id
         self._kinds[name] = _element_of(many.kind)
         conditions = [self._part(each).value for each in loop.ifs]

@@ -29,7 +29,7 @@ def offered_qos(channel: Channel) -> tuple[Qos, bool]:
     """
     try:
         listed = yaml.safe_load(channel.metadata.get("offered_qos_profiles", "")) or []
-    except (yaml.YAMLError, ValueError, RecursionError):
+    except (yaml.YAMLError, ValueError, LookupError, AttributeError, RecursionError):
         listed = []
     profiles = [_qos(each) for each in listed if isinstance(each, dict)] if isinstance(listed, list) else []
     if not profiles:

@@ -29,6 +29,7 @@ NEEDED = {
     "DTLS": {"socat": "socat", "openssl": "openssl"},
     "SSH": {"/usr/sbin/sshd": "openssh-server", "ssh": "openssh-client"},
 }
+ALLOWED = 'restrict,port-forwarding,permitopen="127.0.0.1:8888",permitlisten="127.0.0.1:1",command="false"'
 SSH_CONFIG = """\
 Host robot
   HostName 192.168.7.1
@@ -261,8 +262,8 @@ def test_ssh(tmp_path: Path) -> None:
             f'#!/bin/sh\nexec {shutil.which("ssh")} -F {tmp_path}/ssh_config "$@"\n'
         )
         (tmp_path / "ssh").chmod(0o755)
-        allowed = f'restrict,port-forwarding,permitopen="127.0.0.1:8888" {(tmp_path / "id.pub").read_text()}'
-        assert allowed.partition(" ")[0] in PAGE.read_text(encoding="utf-8")
+        allowed = f"{ALLOWED} {(tmp_path / 'id.pub').read_text()}"
+        assert ALLOWED in PAGE.read_text(encoding="utf-8")
         (tmp_path / "authorized_keys").write_text(allowed)
         Path("/run/sshd").mkdir(exist_ok=True)
         options = (
@@ -292,6 +293,10 @@ def test_ssh(tmp_path: Path) -> None:
         both.site.do(site)
         both.site.listens("tcp", 8888)
         check_tunnel(both, "tcp")
+        assert both.site.start(["ssh", "robot", "echo", SECRET]).wait(timeout=seconds(20)) == 1
+        assert SECRET not in both.site.output()
+        listening = ["ssh", "-N", "-o", "ExitOnForwardFailure=yes", "-R", "22990:127.0.0.1:22", "robot"]
+        assert both.site.start(listening).wait(timeout=seconds(20)) == 255
         check_call("ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", str(tmp_path / "stranger"))
         config = (tmp_path / "ssh_config").read_text().replace(f"{tmp_path}/id", f"{tmp_path}/stranger")
         (tmp_path / "ssh_config").write_text(config)

@@ -61,18 +61,20 @@ def ask(path: Path, question: str, timeout_s: float = ANSWER_S) -> tuple[int, by
     """
     connection = _LocalConnection(path, timeout_s)
     late = threading.Event()
+    # HTTPConnection forgets its socket before an answer without a length is read.
+    opened: list[socket.socket] = []
 
     def give_up() -> None:
         late.set()
-        with suppress(OSError, AttributeError):
-            connection.sock.shutdown(
-                socket.SHUT_RDWR
-            )  # reads end at once; the time-out of each is no limit for all
+        with suppress(OSError):
+            # Reads end at once; the time-out of each is no limit for all.
+            opened[0].shutdown(socket.SHUT_RDWR)
 
     watch = threading.Timer(timeout_s, give_up)
     watch.daemon = True
     try:
         connection.connect()
+        opened.append(connection.sock)
         watch.start()
         connection.request("GET", question)
         response = connection.getresponse()

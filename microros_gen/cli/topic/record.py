@@ -100,7 +100,8 @@ def _created(path: Path) -> BinaryIO:
 
 
 def _refused(path: Path, why: str) -> UserError:
-    hint = f"Choose another one: -o {path.stem}_2{path.suffix}"
+    other = path.with_name(f"{path.stem}_2{path.suffix}")
+    hint = f"Choose another one: -o {other if path.parent.is_dir() else other.name}"
     return UserError([Diagnostic(f"{path} cannot be recorded to: {why}", hint=hint, id="MG-9822")])
 
 
