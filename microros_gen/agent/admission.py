@@ -27,6 +27,7 @@ from microros_gen.agent.ros.bridge import Bridge
 from microros_gen.agent.steps import Steps
 from microros_gen.agent.streams_out import Link
 from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.transport.observed import ObservedTransport
 from microros_gen.agent.turns import Turns
 from microros_gen.agent.wire.constants import (
     SESSION_NONE_WITH_KEY,
@@ -348,7 +349,8 @@ class Admission:
         else:
             writer, fits = submessage.object, not is_reliable(header.stream)
         known = [*self._never_adopted, *(client.session.link.key for client in self._clients)]
-        key = self._held.preconfigured.to_adopt(header.key, writer, known)
+        proved = transport.proved_key(address) if isinstance(transport, ObservedTransport) else b""
+        key = self._held.preconfigured.to_adopt(header.key or proved, writer, known)
         if key is None or not fits or self._clients.at(address) or header.session in OUT_OF_SESSION:
             raise MalformedError("no_session", f"{submessage.ID.name} without a session")
         access = self.gatekeeper.decide(key, transport, address)

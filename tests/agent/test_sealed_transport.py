@@ -11,6 +11,7 @@ import pytest
 from noise.connection import NoiseConnection
 
 from microros_gen.agent.configuration.model import SocketChoice
+from microros_gen.agent.fairness import Account
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.seal.keys import read_keys
 from microros_gen.agent.seal.noise import NAME
@@ -114,6 +115,25 @@ def test_plain_client_is_denied_and_counted(link: Link) -> None:
     assert link.log.counters["seal_missing"] == 3
 
 
+def test_an_address_proves_a_client_key(link: Link) -> None:
+    """Of a message without a key in its header the agent adopts entities for no other client."""
+    link.connect()
+    link.deliver(link.record(b"\x81\x00\x00\x00"))
+    ((_, address),) = link.received
+    assert link.sealed.proved_key(address) == KEY.to_bytes(4, "big")
+
+
+def test_refused_datagrams_are_charged_to_strangers() -> None:
+    strangers, times = Account(), iter(range(100))
+    inner = Datagrams()
+    sealed = SealedTransport(
+        inner, {KEY: PSK}, EventLog(io.StringIO()), clock=lambda: float(next(times)), strangers=strangers
+    )
+    inner.arriving.append(bytes(40))
+    sealed.pump(lambda *_: None)
+    assert strangers.used > 0
+
+
 def test_client_key_of_another_is_denied(link: Link) -> None:
     link.connect()
     (record,) = link.deliver(link.record(CREATE_CLIENT % b"\x00\x00\x00\x01"))
@@ -139,7 +159,7 @@ def found(tmp_path: Path, text: bytes, mode: int = 0o600) -> tuple[dict[int, byt
     file.chmod(mode)
     diagnostics = Diagnostics()
     keys = read_keys(file, diagnostics)
-    assert all(PSK.hex() not in d.render() for d in diagnostics)
+    assert all(PSK.hex()[:8] not in d.render() and PSK.hex(":")[:8] not in d.render() for d in diagnostics)
     return dict(keys), [d.id or "" for d in diagnostics]
 
 
@@ -153,6 +173,9 @@ def test_file_of_keys(tmp_path: Path) -> None:
     assert found(tmp_path, f"{line}\n{line}\n".encode())[1] == ["MG-3267"]
     for wrong in (line[:-2], line + "0", f"0 {PSK.hex()}", f"4294967296 {PSK.hex()}", PSK.hex()):
         assert found(tmp_path, wrong.encode())[1] == ["MG-3266"]
+    for wrong in (f"7 {PSK.hex(':')}", f"0xA1B2C3D4 {PSK.hex(' ', 2)}", PSK.hex(":")):
+        assert found(tmp_path, wrong.encode())[1] == ["MG-3266"]
+    assert found(tmp_path, b"\xef\xbb\xbf" + line.encode())[0] == {KEY: PSK}
     assert found(tmp_path, b"# none")[1] == ["MG-3272"]
     assert found(tmp_path, b"1 " + b"00" * 32)[1] == ["MG-3268"]
     assert found(tmp_path, b"\xff\xfe")[1] == ["MG-3274"]

@@ -377,6 +377,7 @@ ELSEWHERE = {
     "parameters_held": "test_parameters_held.py: notices over the wrap; ages have 64 bits",
     "peer": "test_peer.py: both streams over the wrap",
     "port_bare": "tests/firmware/c/unit_bare.c, unit_bare_timers.c and unit_console.c",
+    "seal": "tests/runtime/test_seal.py: repetitions of a handshake, and a new one, over the wrap",
     "qos_events": "unit_qos_events.c: deadlines over the wrap",
     "service_call": "unit_service_call.c: a call over the wrap",
     "time_source": "unit_time_source.c: questions over the wrap; the time has 64 bits",

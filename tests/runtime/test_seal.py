@@ -197,17 +197,72 @@ def test_first_message_that_is_sent_again_ends_no_session(device: Device) -> Non
         agent.answer(first, PEER, 0.0)
     assert agent.open(from_device(device, b"up"), PEER)[0] == b"up"
     assert device.arrives(from_agent(agent, b"down")) == b"down"
-    assert len(agent._by_index) == 1 + UNCONFIRMED
+    assert len(agent._by_index) == 2, "a repeated message gets the same answer"
+    for port in range(3 * UNCONFIRMED):
+        agent.answer(first, ("agent", ("192.0.2.2", port)), 0.0)
+    assert len(agent._by_index) == len(agent._answers) + 1 == 1 + UNCONFIRMED
+    assert agent.open(from_device(device, b"up"), PEER)[0] == b"up"
 
 
 def test_too_many_handshakes_get_no_answer(device: Device) -> None:
     agent = Handshakes({CLIENT_KEY: PSK})
     first = first_of(device)
-    for _ in range(10 * HANDSHAKES_PER_SECOND):
-        agent.answer(first, PEER, 0.0)
+    for port in range(10 * HANDSHAKES_PER_SECOND):
+        agent.answer(first, ("agent", ("192.0.2.2", port)), 0.0)
     with pytest.raises(RecordError, match="too_many"):
         agent.answer(first, PEER, 0.0)
     assert agent.answer(first, PEER, 1.0)[1] == ""
+
+
+def test_handshakes_of_strangers_take_nothing_from_the_rate(device: Device) -> None:
+    agent = Handshakes({CLIENT_KEY: PSK})
+    first = first_of(device)
+    forged = first[: FIRST.size] + bytes(range(1, 49))
+    for _ in range(20 * HANDSHAKES_PER_SECOND):
+        assert agent.answer(forged, PEER, 0.0)[1] == "seal_other_key"
+    assert agent.answer(first, PEER, 0.0)[1] == ""
+
+
+@pytest.mark.parametrize("start", [0, 0xFFFF_F000])
+def test_agent_that_restarts_within_the_handshake(device: Device, start: int) -> None:
+    """The device has the answer, and the agent that restarted does not know the session."""
+    device.clock(start)
+    (first,) = (first_of(device),)
+    device.arrives(Handshakes({CLIENT_KEY: PSK}).answer(first, PEER, 0.0)[0])
+    restarted = Handshakes({CLIENT_KEY: PSK})
+    for ms in range(0, 60_000, 1_000):
+        device.clock((start + ms) % 2**32)
+        device.send(b"CREATE_CLIENT")
+        for datagram in device.sent():
+            if datagram[0] == Kind.FIRST:
+                device.arrives(restarted.answer(datagram, PEER, ms / 1000)[0])
+                device.send(b"CREATE_CLIENT")
+                assert restarted.open(device.sent()[-1], PEER)[0] == b"CREATE_CLIENT"
+                return
+    pytest.fail("no new handshake within a minute")
+
+
+@pytest.mark.parametrize("delay_ms", [600, 2_000])
+def test_slow_line(device: Device, delay_ms: int) -> None:
+    """The device repeats its first message before the answer arrives, and uses the first answer."""
+    agent, up, down = Handshakes({CLIENT_KEY: PSK}), [], []
+    assert device.open()
+    for ms in range(0, 20_000, 20):
+        device.clock(ms)
+        if ms % 200 == 0:
+            device.send(b"CREATE_CLIENT")
+        up += [(ms + delay_ms, datagram) for datagram in device.sent()]
+        while up and up[0][0] <= ms:
+            datagram = up.pop(0)[1]
+            if datagram[0] == Kind.FIRST:
+                down.append((ms + delay_ms, agent.answer(datagram, PEER, ms / 1000)[0]))
+            else:
+                assert agent.open(datagram, PEER)[0] == b"CREATE_CLIENT"
+                assert device.refused == 0, "the answer to a repetition is no fault"
+                return
+        while down and down[0][0] <= ms:
+            device.arrives(down.pop(0)[1])
+    pytest.fail("no session within 20 s")
 
 
 def test_record_of_an_earlier_session_is_refused(device: Device) -> None:
@@ -275,7 +330,7 @@ def test_points_of_small_order_are_refused(device: Device, point: bytes) -> None
     assert device.arrives(head + point + bytes(16)) == -1
     assert not device.is_ready
     with pytest.raises(HandshakeError):
-        respond(PSK, b"", point + bytes(16))
+        respond(PSK, b"", point + bytes(16), lambda: None)
 
 
 def test_plain_message_is_refused(device: Device) -> None:

@@ -41,6 +41,8 @@ class Handshakes:
         self._rate = Rate(HANDSHAKES_PER_SECOND)
         self._current: dict[int, tuple[Session, Peer]] = {}
         self._unconfirmed: dict[int, list[tuple[Session, Peer]]] = {}
+        self._answers: dict[int, tuple[bytes, bytes]] = {}
+        """First and second message of each unconfirmed session, by its index."""
         self._by_index: dict[int, tuple[Session, Peer]] = {}
 
     def answer(self, data: bytes, peer: Peer, now: float) -> tuple[bytes, str]:
@@ -57,16 +59,25 @@ class Handshakes:
         psk = self._keys.get(client_key)
         if psk is None:
             return _refusal(index, Reason.UNKNOWN_KEY), "seal_unknown_key"
-        if not self._rate.take(now):
-            raise RecordError("seal_too_many")
+
+        def pay() -> None:  # only by the owner of the key, or who repeats what it sent
+            if not self._rate.take(now):
+                raise RecordError("seal_too_many")
+
+        for waiting, at in self._unconfirmed.get(client_key, ()):
+            first, answer = self._answers[waiting.own]
+            if at == peer and first == data:  # repeated: the client uses the answer that arrives first
+                return answer, ""
         try:
-            second, keys = respond(psk, LABEL + data[: FIRST.size], data[FIRST.size :])
+            second, keys = respond(psk, LABEL + data[: FIRST.size], data[FIRST.size :], pay)
         except HandshakeError:
             return _refusal(index, Reason.OTHER_KEY), "seal_other_key"
         own = self._new_index()
         session = Session(keys, client_key, own, index)
+        answer = FIRST.pack(Kind.SECOND, VERSION, 0, own, index) + second
+        self._answers[own] = (data, answer)
         self._add(session, peer)
-        return FIRST.pack(Kind.SECOND, VERSION, 0, own, index) + second, ""
+        return answer, ""
 
     def open(self, data: bytes, peer: Peer) -> tuple[bytes, Session]:
         """Return the message of a record from `peer`, and its session. Raises RecordError."""
@@ -100,12 +111,16 @@ class Handshakes:
         waiting.append((session, peer))
         self._by_index[session.own] = (session, peer)
         if len(waiting) > UNCONFIRMED:
-            del self._by_index[waiting.pop(0)[0].own]
+            oldest = waiting.pop(0)[0].own
+            del self._by_index[oldest], self._answers[oldest]
 
     def _confirm(self, session: Session, peer: Peer) -> None:
         """Make a session the only one of its client."""
         current = self._current.get(session.client_key)
-        for old, _ in (*self._unconfirmed.pop(session.client_key, ()), *((current,) if current else ())):
+        unconfirmed = self._unconfirmed.pop(session.client_key, ())
+        for old, _ in unconfirmed:
+            del self._answers[old.own]
+        for old, _ in (*unconfirmed, *((current,) if current else ())):
             if old is not session:
                 del self._by_index[old.own]
         self._current[session.client_key] = (session, peer)

@@ -27,7 +27,7 @@ def read_keys(path: Path, diagnostics: Diagnostics, span: Span | None = None) ->
                 f"{path} is no regular file of at most 1 MiB", span, "Name a file of keys", id="MG-3264"
             )
             return {}
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it is no text"
         diagnostics.error(f"{path} cannot be read: {reason}", span, "Name a file of keys", id="MG-3274")
@@ -68,4 +68,5 @@ def _parse(name: str, text: str, diagnostics: Diagnostics) -> Mapping[int, bytes
 
 def _hide(line: str) -> str:
     """Return a line without what may be a part of a key."""
-    return re.sub(r"[0-9a-fA-F]{11,}", "…", line)
+    begin = re.match(r"\s*(?:0[xX][0-9a-fA-F]{1,8}|[0-9]{1,10})(?=\s)", line)
+    return f"{begin.group()} …" if begin else "…"

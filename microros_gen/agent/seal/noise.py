@@ -8,6 +8,7 @@ Section numbers are those of The Noise Protocol Framework, revision 34. The prim
 from __future__ import annotations
 
 import hmac
+from collections.abc import Callable
 from hashlib import sha256
 
 from cryptography.exceptions import InvalidTag
@@ -36,9 +37,12 @@ class SessionKeys:
     sending: bytes
 
 
-def respond(psk: bytes, prologue: bytes, message: bytes) -> tuple[bytes, SessionKeys]:
+def respond(
+    psk: bytes, prologue: bytes, message: bytes, verified: Callable[[], object]
+) -> tuple[bytes, SessionKeys]:
     """Return the second message of the handshake that `message` (48 bytes) begins, and the session's keys.
 
+    `verified` is called when the message is known to be made with the key, before the expensive part.
     Raises HandshakeError if it was made with another key or prologue, or has a point of small order.
     """
     state = _State(prologue)
@@ -49,6 +53,7 @@ def respond(psk: bytes, prologue: bytes, message: bytes) -> tuple[bytes, Session
         state.open(message[KEY_BYTES:])
     except InvalidTag:
         raise HandshakeError("another key") from None
+    verified()
     secret = X25519PrivateKey.generate()
     local = secret.public_key().public_bytes_raw()
     state.mix_ephemeral(local)

@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable, Hashable, Mapping
 from typing import Any
 
+from microros_gen.agent.fairness import Account
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.seal.handshakes import Handshakes
 from microros_gen.agent.seal.session import Kind, RecordError
@@ -32,13 +33,19 @@ class SealedTransport(ObservedTransport):
         keys: Mapping[int, bytes],
         log: EventLog,
         clock: Callable[[], float] = time.monotonic,
+        strangers: Account | None = None,
     ) -> None:
-        """Wrap `inner`; `keys` has the pre-shared key of each client key. `clock`: seconds, monotonic."""
+        """Wrap `inner`; `keys` has the pre-shared key of each client key. `clock`: seconds, monotonic.
+
+        The account `strangers`, which is the agent's, is charged for handshakes and for what is refused.
+        """
         super().__init__(inner)
         self.forgeable = False  # who sends a record has received the second message of a handshake
         self._handshakes = Handshakes(keys)
         self._log = log
         self._clock = clock
+        self._strangers = strangers or Account()
+        self.proved_key = _proved_key
 
     def _observe(self, data: bytes, address: Hashable, inbound: bool) -> None:
         """See ObservedTransport: `pump` and `send` do all."""
@@ -47,13 +54,17 @@ class SealedTransport(ObservedTransport):
         """See Transport."""
 
         def opened(data: bytes, address: Hashable, _transport: Transport) -> None:
+            began = self._clock()
             try:
                 message, client_key = self._open(data, address)
             except RecordError as error:
                 self._count(str(error), address)
-                return
+                message, client_key = b"", 0
             if message:
                 receive(message, (*_parts(address), client_key), self)
+            else:
+                now = self._clock()
+                self._strangers.bill(now - began, now)
 
         self._inner.pump(opened)
 
@@ -93,6 +104,10 @@ class SealedTransport(ObservedTransport):
 
     def _count(self, kind: str, address: Hashable) -> None:
         self._log.count(kind, "a datagram from {peer} was refused", peer=self.name_of(address))
+
+
+def _proved_key(address: Hashable) -> bytes:
+    return int(_parts(address)[-1]).to_bytes(4, "big")
 
 
 def _parts(address: Hashable) -> tuple[Any, ...]:

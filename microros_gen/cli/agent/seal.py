@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from importlib.util import find_spec
 
 from microros_gen.agent.configuration.model import SocketChoice, TransportChoice
+from microros_gen.agent.fairness import Account
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.seal.keys import read_keys
 from microros_gen.agent.transport.base import Transport
@@ -34,7 +35,7 @@ def read_psk_file(options: AgentOptions, diagnostics: Diagnostics) -> Mapping[in
 
 
 def sealed(
-    transports: Sequence[Transport], keys: Mapping[int, bytes] | None, log: EventLog
+    transports: Sequence[Transport], keys: Mapping[int, bytes] | None, log: EventLog, strangers: Account
 ) -> list[Transport]:
     """Return the transports, sealed where there are keys."""
     if keys is None:
@@ -43,7 +44,7 @@ def sealed(
 
     text = "sealed: keys of {clients} clients; others are refused"
     log.emit(Level.INFO, "sealed", text, clients=len(keys))
-    return [SealedTransport(transport, keys, log) for transport in transports]
+    return [SealedTransport(transport, keys, log, strangers=strangers) for transport in transports]
 
 
 def _is_datagram(choice: TransportChoice) -> bool:

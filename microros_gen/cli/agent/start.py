@@ -86,7 +86,7 @@ def serve(options: AgentOptions) -> None:
     except UserError:
         _close(transports)
         raise
-    transports = sealed(transports, files.keys, log)
+    transports = sealed(transports, files.keys, log, shared.strangers)
     if recorder is not None:
         transports = [RecordedTransport(transport, recorder) for transport in transports]
     manifests = Manifests(files.clients.by_client)

@@ -20,7 +20,7 @@ typedef struct datagram_t {
   uint8_t bytes[DATAGRAM];
 } datagram_t;
 
-static datagram_t datagrams[QUEUE];
+static datagram_t queued[QUEUE];
 static size_t queue_first;
 static size_t queue_count;
 static size_t read_already; /* bytes of the first one, where they are read as such */
@@ -48,7 +48,7 @@ static void take_datagram(const char * hex)
   if (queue_count == QUEUE) {
     abort();
   }
-  read_hex(&datagrams[(queue_first + queue_count) % QUEUE], hex);
+  read_hex(&queued[(queue_first + queue_count) % QUEUE], hex);
   ++queue_count;
 }
 
@@ -202,7 +202,7 @@ static void check_buffer(const uint8_t * buffer, size_t capacity)
 
 size_t fake_read(uint8_t * buffer, size_t capacity)
 {
-  const datagram_t * datagram = &datagrams[queue_first];
+  const datagram_t * datagram = &queued[queue_first];
   size_t size;
 
   check_buffer(buffer, capacity);
@@ -265,7 +265,7 @@ bool port_udp_send(port_udp_t * udp, const uint8_t * data, size_t size)
 int32_t port_udp_receive(port_udp_t * udp, uint8_t * buffer, size_t capacity)
 {
   (void)udp;
-  if (queue_count != 0u && datagrams[queue_first].size > capacity) {
+  if (queue_count != 0u && queued[queue_first].size > capacity) {
     drop_first();
     return -1;
   }

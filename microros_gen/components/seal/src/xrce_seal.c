@@ -65,6 +65,7 @@ static bool seal_hello(xrce_datagrams_t * datagrams)
 
   datagrams->fault = (uint8_t)XRCE_SEAL_NO_KEY;
   if (!microros_seal_psk(MICROROS_CLIENT_KEY, psk)) {
+    xrce_noise_wipe(psk, sizeof(psk)); /* it may have a part of the key */
     return false;
   }
   datagrams->fault = (uint8_t)XRCE_SEAL_NO_CRYPTO;
@@ -168,8 +169,18 @@ static bool seal_keep(xrce_datagrams_t * datagrams, const uint8_t * message, siz
   return true;
 }
 
+/* Returns whether the agent has answered nothing since the handshake: it may have restarted, and forgotten the session. */
+static bool seal_is_unanswered(const xrce_datagrams_t * datagrams)
+{
+  return datagrams->newest == 0u && xrce_is_due(port_time_ms(), datagrams->due_ms);
+}
+
 bool xrce_datagrams_send(xrce_datagrams_t * datagrams, const uint8_t * message, size_t size)
 {
+  if (datagrams->is_ready && seal_is_unanswered(datagrams)) {
+    datagrams->is_ready = false;
+    datagrams->fault = (uint8_t)XRCE_SEAL_FINE; /* begins below */
+  }
   if (datagrams->is_ready && datagrams->next < LAST_RECORD && datagrams->newest < LAST_RECORD) {
     return seal_send_record(datagrams, message, size);
   }
@@ -189,10 +200,11 @@ static int32_t seal_refuse(xrce_datagrams_t * datagrams)
 /* The second message of the handshake: the session begins. */
 static int32_t seal_on_second(xrce_datagrams_t * datagrams, size_t size)
 {
-  if (
-    datagrams->is_ready || size != (size_t)XRCE_SEAL_FIRST ||
-    seal_get_32(&seal_record[8]) != datagrams->own) {
-    return seal_refuse(datagrams); /* also the answer to a repetition */
+  if (size != (size_t)XRCE_SEAL_FIRST || seal_get_32(&seal_record[8]) != datagrams->own) {
+    return seal_refuse(datagrams);
+  }
+  if (datagrams->is_ready) {
+    return 0; /* the answer to a repetition */
   }
   if (!xrce_noise_finish(
         &datagrams->noise, &seal_record[XRCE_SEAL_HELLO], datagrams->sending, datagrams->receiving)) {
@@ -205,6 +217,7 @@ static int32_t seal_on_second(xrce_datagrams_t * datagrams, size_t size)
   datagrams->newest = 0;
   datagrams->window = 0;
   datagrams->is_ready = true;
+  datagrams->due_ms = port_time_ms() + 2u * (uint32_t)MICROROS_RETRY_MOST_MS;
   datagrams->fault = (uint8_t)XRCE_SEAL_FINE;
   if (datagrams->waiting_size > 0u) {
     const size_t waiting = datagrams->waiting_size;

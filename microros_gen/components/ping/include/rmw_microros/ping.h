@@ -21,8 +21,9 @@ extern "C" {
  */
 rmw_ret_t rmw_uros_ping_agent(const int timeout_ms, const uint8_t attempts);
 
-/* Same for the agent that the options name: over the session's transport if they name its serial line or
- * its functions of a custom transport, otherwise over a separate one. RMW_RET_INVALID_ARGUMENT for NULL. */
+/* Same for the agent that the options name: over the session's transport if they name its serial line,
+ * its functions of a custom transport or, with `seal`, its agent, otherwise over a separate one.
+ * RMW_RET_INVALID_ARGUMENT for NULL. */
 rmw_ret_t rmw_uros_ping_agent_options(
   const int timeout_ms, const uint8_t attempts, rmw_init_options_t * rmw_options);
 

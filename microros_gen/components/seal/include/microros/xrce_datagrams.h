@@ -23,6 +23,9 @@ enum {
   XRCE_SEAL_WAITING = 64 /* bytes of the message that waits for the handshake: CREATE_CLIENT, GET_INFO */
 };
 
+/* The agent has one session of a client: that of the handshake that was confirmed last. */
+#define XRCE_DATAGRAMS_ONE_SOCKET true
+
 /* Why there is no session, in the order of what `xrce_datagrams_open` needs. */
 typedef enum xrce_seal_fault_t {
   XRCE_SEAL_FINE,
@@ -72,7 +75,8 @@ void xrce_datagrams_close(xrce_datagrams_t * datagrams);
  * the latest message of up to XRCE_SEAL_WAITING bytes for the end of the handshake; it refuses larger ones. */
 bool xrce_datagrams_send(xrce_datagrams_t * datagrams, const uint8_t * message, size_t size);
 
-/* Receives one message. Returns its size, 0 if none has arrived or the handshake went on, -1 for a discarded one. */
+/* Receives one message. Returns its size, 0 if none has arrived or the handshake went on (more may
+ * be waiting), -1 for a discarded one. */
 int32_t xrce_datagrams_receive(xrce_datagrams_t * datagrams, uint8_t * buffer, size_t capacity);
 
 #ifdef __cplusplus

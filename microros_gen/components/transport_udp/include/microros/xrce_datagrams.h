@@ -9,6 +9,9 @@
 
 #include "microros/port.h"
 
+/* Whether an agent ends what it has with one socket of a client when another one is used. */
+#define XRCE_DATAGRAMS_ONE_SOCKET false
+
 typedef port_udp_t xrce_datagrams_t;
 
 /* Returns the handle for port_wait. */

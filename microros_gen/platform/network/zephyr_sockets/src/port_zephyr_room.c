@@ -5,14 +5,17 @@
 
 enum { AGAIN_MS = 1 };
 
-static int full_handle = -1; /* the session has one connection at a time */
-static bool lacks_memory;    /* the connection may count as ready to send meanwhile */
+/* The first that was full: an inquiry has another connection for a moment, and does not wait here. */
+static int full_handle = -1;
+static bool lacks_memory; /* the connection may count as ready to send meanwhile */
 
 void port_zephyr_room_note(int handle, bool is_full, bool is_memory)
 {
   if (is_full) {
-    full_handle = handle;
-    lacks_memory = is_memory;
+    if (full_handle < 0 || full_handle == handle) {
+      full_handle = handle;
+      lacks_memory = is_memory;
+    }
   } else if (full_handle == handle) {
     full_handle = -1;
   } else {

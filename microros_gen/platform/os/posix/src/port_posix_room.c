@@ -4,12 +4,15 @@
 
 #include "microros/lock.h"
 
-static int full_handle = -1; /* the session has one connection at a time */
+/* The first that was full: an inquiry has another connection for a moment, and does not wait here. */
+static int full_handle = -1;
 
 void port_posix_room_note(int handle, bool is_full)
 {
   if (is_full) {
-    full_handle = handle;
+    if (full_handle < 0 || full_handle == handle) {
+      full_handle = handle;
+    }
   } else if (full_handle == handle) {
     full_handle = -1;
   } else {

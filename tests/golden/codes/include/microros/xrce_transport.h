@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "microros/xrce_datagrams.h"
 
@@ -41,12 +42,10 @@ static inline intptr_t xrce_transport_handle(const xrce_transport_t * transport)
   return xrce_datagrams_handle(&transport->udp);
 }
 
-/* Returns whether two transports share one line: sockets never do. */
+/* Returns whether two transports cannot be open at once: two sockets can, if their agent keeps a session with each. */
 static inline bool xrce_transport_is_same_line(const xrce_transport_t * a, const xrce_transport_t * b)
 {
-  (void)a;
-  (void)b;
-  return false;
+  return XRCE_DATAGRAMS_ONE_SOCKET && a->port == b->port && strcmp(a->host, b->host) == 0;
 }
 
 /* Called at the start of a pump. */

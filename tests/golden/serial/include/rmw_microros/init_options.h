@@ -25,7 +25,8 @@ rmw_ret_t rmw_uros_options_set_serial_device(const char * dev, rmw_init_options_
 #define rmw_uros_options_set_tcp_address rmw_uros_options_set_tcp_address__needs__transport_type_tcp
 #define rmw_uros_options_set_udp_address rmw_uros_options_set_udp_address__needs__transport_type_udp
 
-/* Two clients with the same key take over each other's session. 0 is refused, as agents do. */
+/* Two clients with the same key take over each other's session. 0 is refused, as agents do. With `seal`, the handshake
+ * proves the key of the plan: the agent denies any other. */
 rmw_ret_t rmw_uros_options_set_client_key(uint32_t client_key, rmw_init_options_t * rmw_options);
 
 #ifdef __cplusplus
