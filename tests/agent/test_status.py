@@ -501,3 +501,16 @@ def test_the_thread_ends_at_once_without_a_question(tmp_path: Path) -> None:
     with asked_at(tmp_path / "s"):
         pass
     assert time.monotonic() < end
+
+
+def test_an_answer_without_a_length_that_does_not_end(tmp_path: Path) -> None:
+    def drip(connection: socket.socket) -> None:
+        connection.sendall(b"HTTP/1.0 200 OK\r\n\r\n")
+        while True:  # until the asker closes the connection
+            connection.sendall(b" ")
+            time.sleep(0.02)
+
+    began = time.monotonic()
+    with foreign(tmp_path / "s", drip), pytest.raises(NoAnswerError):
+        ask(tmp_path / "s", PATH, 0.2)
+    assert time.monotonic() - began < seconds(10)

@@ -16,6 +16,7 @@ from microros_gen.documents.shipped import COMPONENTS
 from microros_gen.mode_manager.diagnosis import TOPIC, TYPE, PartStatus, array_of, read_rows, rows_of
 from microros_gen.mode_manager.monitor import Overview
 from microros_gen.mode_manager.problems import Problems
+from microros_gen.mode_manager.reports import Reports
 from microros_gen.mode_manager.simulation import Played, simulate
 from microros_gen.modes import Report, check
 from microros_gen.modes.model import active
@@ -292,3 +293,13 @@ def test_a_warning_on_diagnostics_applies_the_rule_and_its_end_undoes_it(
     publisher.publish({"status": [{"name": "gripper: motor left", "level": 0, "message": ""}]})
     managing.wait_for("arm: rule hot_motor is over: active.QUICK")
     asking.until_row("arm", "active.QUICK")
+
+
+def test_statuses_that_are_always_fine_take_no_memory() -> None:
+    reports = Reports()
+    for number in range(100):
+        reports.hear(f"status {number}", "")
+    assert reports.levels == {}
+    reports.hear("motor", "warn")
+    reports.hear("motor", "")
+    assert reports.levels == {"motor": ""}

@@ -320,6 +320,16 @@ def test_a_topic_that_cannot_be_played(
     assert hint in done.err
 
 
+@pytest.mark.parametrize("option", ["--rate", "--start-offset"])
+@pytest.mark.parametrize("number", ["nan", "inf"])
+def test_a_rate_or_offset_that_is_not_finite(tmp_path: Path, option: str, number: str) -> None:
+    path = tmp_path / "x.mcap"
+    recording(path)
+    done = call("bag", "play", str(path), option, number)
+    assert done.status == 2
+    assert "it must be finite" in done.err
+
+
 def test_a_file_that_is_no_recording(tmp_path: Path) -> None:
     path = tmp_path / "x.mcap"
     path.write_bytes(b"nothing")

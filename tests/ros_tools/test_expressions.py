@@ -152,3 +152,22 @@ def test_an_expression_in_lines_has_its_place_in_the_second() -> None:
 
 def test_digits_are_limited() -> None:
     assert scan(f"round(m.header.stamp.sec, -{10**12}) == 0")
+
+
+def test_a_filter_with_a_carriage_return_is_refused_at_its_place() -> None:
+    assert "foo" in refusal("(m\r> 3 and foo)")
+
+
+def test_loops_within_loops_are_refused() -> None:
+    text = "m.ranges"
+    for _ in range(3):
+        text = f"[x for x in {text}]"
+    assert scan(f"len({text}) == 3")
+    assert "more than 3 times `for`" in refusal(f"len([x for x in {text}]) == 3")
+
+
+def test_products_of_products_end() -> None:
+    factor = "m.header.stamp.sec"
+    for _ in range(8):
+        factor = f"({factor} * {'9' * 100})"
+    assert "the number is too large" in refusal(f"{factor} > 0")

@@ -184,6 +184,7 @@ def test_a_damaged_file_is_refused(tmp_path: Path) -> None:
         ),
         ("[1, {", (Qos(), False)),
         ("7", (Qos(), False)),
+        *((text, (Qos(), False)) for text in ("!!timestamp 'abc'", "!!int ''", "!!bool x")),
     ],
 )
 def test_the_qos_of_a_recording(text: str, expected: tuple[Qos, bool]) -> None:
