@@ -6,18 +6,17 @@ from __future__ import annotations
 from contextlib import ExitStack
 from itertools import product
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.mode_manager.diagnosis import TOPIC, TYPE, read_statuses
+from microros_gen.mode_manager.diagnosis import read_statuses
 from microros_gen.mode_manager.simulation import simulate
 from microros_gen.modes import check, parse_model
 from microros_gen.modes.leaflets import parts_of
 from microros_gen.modes.script import parse_script
 from microros_gen.modes.verification import read_applications
-from tests.support.mode_manager.arm import start
+from tests.support.mode_manager.arm import start_diagnosed
 from tests.support.modes.models import changed, model_of, model_text
 
 ARM = changed(
@@ -120,15 +119,7 @@ def test_a_warning_on_diagnostics_degrades_the_arm(stack: ExitStack, domain: int
     path = tmp_path / "arm.yaml"
     text = changed(ARM, GRIPPER, f"{GRIPPER}    diagnostics: {{level: warn, names: [motor]}}\n")
     path.write_text(text, encoding="utf-8")
-    values: dict[str, dict[str, Any]] = {
-        "gripper": {"force": 0.5},
-        "joint": {"speed": 0.1, "law": "TORQUE"},
-    }
-    asking, managing = start(stack, domain, str(path), **values)
-    publisher = asking.peer.publisher(TOPIC, TYPE)
-    assert asking.change_mode("arm", "QUICK")
-    asking.until_row("arm", "active.QUICK")
-    asking.until(lambda: publisher.subscriptions() == 2)
+    _, managing, publisher = start_diagnosed(stack, domain, path)
     publisher.publish({"status": [{"name": "gripper: heat", "level": 1, "message": "warm"}]})
     publisher.publish({"status": [{"name": "gripper: motor", "level": 1, "message": "slow"}]})
     managing.wait_for("arm: rule without_gripper_quick: active.__DEFAULT__")

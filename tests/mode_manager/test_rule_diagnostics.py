@@ -6,14 +6,13 @@ from __future__ import annotations
 import re
 from contextlib import ExitStack
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from microros_gen.components import diagnosis
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.documents.shipped import COMPONENTS
-from microros_gen.mode_manager.diagnosis import TOPIC, TYPE, PartStatus, array_of, read_rows, rows_of
+from microros_gen.mode_manager.diagnosis import PartStatus, array_of, read_rows, rows_of
 from microros_gen.mode_manager.monitor import Overview
 from microros_gen.mode_manager.problems import Problems
 from microros_gen.mode_manager.reports import Reports
@@ -22,7 +21,7 @@ from microros_gen.modes import Report, check
 from microros_gen.modes.model import active
 from microros_gen.modes.published import LIBRARY_STATUSES
 from microros_gen.modes.script import parse_script
-from tests.support.mode_manager.arm import start
+from tests.support.mode_manager.arm import start_diagnosed
 from tests.support.mode_manager.world import Node, World
 from tests.support.modes.models import changed, model_of, model_text
 
@@ -277,15 +276,7 @@ def test_a_warning_on_diagnostics_applies_the_rule_and_its_end_undoes_it(
 ) -> None:
     path = tmp_path / "arm.yaml"
     path.write_text(ARM, encoding="utf-8")
-    values: dict[str, dict[str, Any]] = {
-        "gripper": {"force": 0.5},
-        "joint": {"speed": 0.1, "law": "TORQUE"},
-    }
-    asking, managing = start(stack, domain, str(path), **values)
-    publisher = asking.peer.publisher(TOPIC, TYPE)
-    assert asking.change_mode("arm", "QUICK")
-    asking.until_row("arm", "active.QUICK")
-    asking.until(lambda: publisher.subscriptions() == 2)
+    asking, managing, publisher = start_diagnosed(stack, domain, path)
     publisher.publish({"status": [{"name": "gripper: motor left", "level": 1, "message": "warm"}]})
     managing.wait_for("arm: rule hot_motor: active.GENTLE (gripper: motor left: warn)")
     asking.until_row("arm", "active.GENTLE")

@@ -56,7 +56,7 @@ int main(void)
   while (!done) {
     (void)rclc_executor_spin_some(&executor, RCL_MS_TO_NS(PERIOD_MS));
     if (rcl_publish(&publisher, &next, NULL) == RCL_RET_OK) {
-      ++next.data; /* otherwise the same number again: the stream is full, or there is no session */
+      ++next.data; /* a full stream, or no session: the next attempt sends the same number */
     }
     rcl_reset_error();
     rclc_sleep_ms(PERIOD_MS);
