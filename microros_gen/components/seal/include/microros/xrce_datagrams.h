@@ -63,8 +63,8 @@ static inline intptr_t xrce_datagrams_handle(const xrce_datagrams_t * datagrams)
   return datagrams->socket.handle;
 }
 
-/* Opens the socket and begins a handshake, whose first message the first call of send transmits. Returns false, with
- * `fault` set, if there is no key or a function of microros/seal.h failed. */
+/* Opens the socket and begins a handshake, whose first message the first call of send transmits. Without a key, or
+ * if a function of microros/seal.h fails, it sets `fault` and returns false. */
 bool xrce_datagrams_open(xrce_datagrams_t * datagrams, const char * host, uint16_t port);
 
 /* Closes the socket and wipes all keys. */
