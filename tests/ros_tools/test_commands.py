@@ -230,15 +230,14 @@ def test_topics_are_recorded(arm: Running, tmp_path: Path) -> None:
         assert len(numbers) > 5
         assert numbers == sorted(set(numbers))
         assert {c.topic for c in reader.connections} == {"/count", "/imu"}
-    for place, why in (
-        (path, "it exists already"),
-        (tmp_path / "no" / "x.mcap", "No such file or directory"),
+    for place, why, other in (
+        (path, "it exists already", tmp_path / "x_2.mcap"),
+        (tmp_path / "no" / "x.mcap", "No such file or directory", "x_2.mcap"),
     ):
         refused = call("topic", "record", "-a", "-o", str(place))
         assert refused.status == 2
-        assert (
-            f"{place} cannot be recorded to: {why}. Choose another one: -o x_2.mcap [MG-9822]" in refused.err
-        )
+        reason = f"{place} cannot be recorded to: {why}. Choose another one: -o {other} [MG-9822]"
+        assert reason in refused.err
 
 
 def recording(path: Path, unknown_type: str = "own_msgs/msg/Odd") -> None:

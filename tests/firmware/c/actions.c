@@ -79,7 +79,9 @@ static void step(walk_t * walk)
     message.feedback.sequence.data = walk->numbers;
     message.feedback.sequence.size = walk->count;
     message.feedback.sequence.capacity = NUMBERS;
-    (void)rclc_action_publish_feedback(walk->goal, &message);
+    if (rclc_action_publish_feedback(walk->goal, &message) != RCL_RET_OK) {
+      --walk->count; /* the stream is full: again in the next round */
+    }
   }
 }
 
