@@ -14,7 +14,7 @@ from microros_gen.application.limit_rule import LimitRule as LimitRule
 from microros_gen.application.log_decl import LogWriter
 from microros_gen.application.mode_decl import ModeDecl
 from microros_gen.application.silence import SilenceDecl
-from microros_gen.application.system_decl import Link, SystemRef
+from microros_gen.application.system_decl import BusSender, Link, SystemRef
 from microros_gen.application.task_decl import TaskDecl
 from microros_gen.application.time_source import TimeSourceDecl
 from microros_gen.application.transport_decl import Transport
@@ -348,7 +348,8 @@ class Application:
     their endpoints), `endpoints` what the file changes of those. `spans` holds the places of top-level keys and of
     the keys of `pools` (as `pools.history`), for later steps. `exact_float64`: what would
     round a float64 is an error. `links` are those of this board in its `system`, `chip` the image that has the other
-    core there. `bus_files`: read for boards of the same CAN bus that exchange nothing with this one.
+    core there. `bus_senders`: what others send on its CAN buses; `bus_files`: read for boards of the same bus that
+    exchange nothing with this one, and for what they send.
     """
 
     distro: str = DISTRIBUTIONS[0]
@@ -382,6 +383,7 @@ class Application:
     system: SystemRef | None = None
     links: tuple[Link, ...] = ()
     bus_files: tuple[Path, ...] = ()
+    bus_senders: tuple[BusSender, ...] = ()
     tasks: tuple[TaskDecl, ...] = ()
     chip: ChipImage | None = None
     spans: Mapping[str, Span] = field(default_factory=dict)

@@ -60,8 +60,13 @@ def identifier(link: LinkDecl, sender: CanEnd, receiver: CanEnd) -> int:
 
 def bus_identifiers(links: Sequence[LinkDecl], board: str, device: str) -> dict[int, str]:
     """Return the identifiers on the bus at a controller of a board, and which boards exchange frames with each."""
-    bus = next((b for b in _buses(links) if any(_is_at(link, board, device) for link in b)), ())
+    bus = bus_links(links, board, device)
     return {number: f"{s.board} to {r.board}" for link in bus for number, s, r in _frames(link)}
+
+
+def bus_links(links: Sequence[LinkDecl], board: str, device: str) -> Sequence[LinkDecl]:
+    """Return the links of the bus at a controller of a board, those of other boards among them."""
+    return next((b for b in _buses(links) if any(_is_at(link, board, device) for link in b)), ())
 
 
 def check_end(board: str, end: Named, position: int, diagnostics: Diagnostics) -> None:

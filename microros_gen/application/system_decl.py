@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
 from pathlib import Path
 
 from microros_gen.application.limit_rule import LimitRule
 from microros_gen.diagnostics import Span
 from microros_gen.documents.named import Named
+from microros_gen.interfaces.types import Message, TypeName
 from microros_gen.records import dataclass
 
 
@@ -26,7 +28,7 @@ class PeerEnd:
 
     `type_hash` is what its own interface files give; None: they are looked for where those of this board are. `limits`
     are its own. `queue`: requests or replies that wait; None: as many as without the key. `interval_us`: a publisher
-    publishes at most once in that time.
+    publishes at most once in that time, as `rate_span` says.
     """
 
     kind: str
@@ -40,6 +42,7 @@ class PeerEnd:
     limits: tuple[LimitRule, ...] = ()
     queue: int | None = None
     interval_us: Fraction | None = None
+    rate_span: Span | None = None
 
 
 @dataclass(frozen=True)
@@ -97,3 +100,22 @@ class Link:
     round_trip: int | None = None
     heartbeat: int | None = None
     can: CanFrames | None = None
+
+
+@dataclass(frozen=True)
+class BusSender:
+    """What `board` sends on a CAN bus at the controller `device` of this board, and not to this board.
+
+    `receiver`: another board; None: its agent. `publishers` are those with a rate, `messages` their types with all that
+    these contain. `mtu`: largest message, bytes. `limits`, `round_trip` and `heartbeat` as those of a link.
+    """
+
+    device: str
+    board: str
+    receiver: str | None
+    publishers: tuple[PeerEnd, ...]
+    messages: Mapping[TypeName, Message]
+    mtu: int
+    limits: tuple[LimitRule, ...]
+    round_trip: int | None
+    heartbeat: int | None

@@ -84,7 +84,7 @@ def read_board(board: str, system: SystemFile, path: Path, diagnostics: Diagnost
 
     An application that does not name this system and its board is an error, too.
     """
-    found = _other(board, system, path, diagnostics)
+    found = other_board(board, system, path, diagnostics)
     return None if found is None else found[0]
 
 
@@ -105,7 +105,7 @@ def peer_ends(application: Application) -> Iterator[tuple[int, EndpointDecl, Pee
         declared = [(node, e) for node in application.nodes for e in node.endpoints if e.kind == kind]
         for index, (node, endpoint) in enumerate(declared):
             if endpoint.peer != "never":
-                yield index, endpoint, _end(node, endpoint)
+                yield index, endpoint, end_of(node, endpoint)
 
 
 def exchanged(name: TypeName) -> tuple[TypeName, ...]:
@@ -113,7 +113,8 @@ def exchanged(name: TypeName) -> tuple[TypeName, ...]:
     return tuple(derived_name(name, part) for part in SERVICE_PARTS) if name.kind == "srv" else (name,)
 
 
-def _end(node: NodeDecl, endpoint: EndpointDecl) -> PeerEnd:
+def end_of(node: NodeDecl, endpoint: EndpointDecl) -> PeerEnd:
+    """Return an endpoint of a node as another board sees it."""
     type_name = split_type_name(endpoint.type, KIND[endpoint.kind].type_kind)
     return PeerEnd(
         kind=endpoint.kind,
@@ -126,6 +127,7 @@ def _end(node: NodeDecl, endpoint: EndpointDecl) -> PeerEnd:
         limits=endpoint.limits,
         queue=endpoint.queue,
         interval_us=endpoint.interval_us,
+        rate_span=endpoint.rate_span,
     )
 
 
@@ -184,7 +186,7 @@ def _link(
     """Return the link between the ends `pair`, of which the first is that of this board."""
     own, at = pair
     board = link.ends[at][0]
-    found = _other(board, place.system, place.path, diagnostics)
+    found = other_board(board, place.system, place.path, diagnostics)
     if found is None:
         return None
     other, source, file = found
@@ -265,10 +267,10 @@ def _check_client_ids(
         diagnostics.error(message, application.spans.get("transport.id"), hint, id="MG-3252")
 
 
-def _other(
+def other_board(
     board: str, system: SystemFile, path: Path, diagnostics: Diagnostics
 ) -> tuple[Application, Source, Path] | None:
-    """Return the application of another board, and its file."""
+    """Return the application of another board, its text, and its path; None where `diagnostics` got errors."""
     named = system.boards[board]
     file = path.parent / named.name
     source = _read(file, "application file", named.span, diagnostics)
@@ -288,11 +290,11 @@ def _image(
         return None
     position = chip.index(board)
     name = chip[1 - position]
-    found = _other(name, system, path, diagnostics)
+    found = other_board(name, system, path, diagnostics)
     if found is None:
         return None
     other, source, file = found
-    ends = tuple(_end(node, e) for node in other.nodes for e in node.endpoints if e.local == "chip")
+    ends = tuple(end_of(node, e) for node in other.nodes for e in node.endpoints if e.local == "chip")
     hashes, files = _hashes(other, ends, file.parent, diagnostics)
     return ChipImage(name, position, other, hashes, (file, *files)), source
 

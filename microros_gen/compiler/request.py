@@ -19,6 +19,7 @@ from microros_gen.application.image_files import with_image_files
 from microros_gen.application.model import Application, component_change
 from microros_gen.application.parameter_find import with_parameter_files
 from microros_gen.application.parser import parse_application
+from microros_gen.application.system_bus import with_bus_senders
 from microros_gen.application.system_find import with_system
 from microros_gen.application.transport_decl import Transport
 from microros_gen.compiler.options import Options
@@ -81,7 +82,9 @@ def request_of(source: Source | None, near: Path, options: Options, diagnostics:
     inputs |= of_image
     application, system_files = with_system(application, options.config, near, diagnostics)
     diagnostics.check()
-    inputs |= {f"system {name}": file.text.encode() for name, file in system_files.items()}
+    application, bus_files = with_bus_senders(application, near, options.interface_paths, diagnostics)
+    diagnostics.check()
+    inputs |= {f"system {name}": file.text.encode() for name, file in {**system_files, **bus_files}.items()}
     application, of_file = take_extensions(application, near, diagnostics)
     application = _with_options(application, options, diagnostics)
     application, of_options = take_extensions(application, Path(), diagnostics)

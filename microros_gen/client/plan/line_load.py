@@ -18,7 +18,7 @@ from microros_gen.client.plan.creation import MESSAGE_HEADER, SUBMESSAGE_HEADER
 from microros_gen.client.plan.declared import declarations, full_name
 from microros_gen.client.plan.line_media import MOST_RATE, Medium
 from microros_gen.client.plan.streams import FRAGMENT_HEADER, OBJECT_PREFIX, WRITE_DATA_OVERHEAD, Written
-from microros_gen.diagnostics import Diagnostics
+from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.records import dataclass
 
 HEARTBEAT_SIZE = 13
@@ -31,13 +31,14 @@ class RatedPublisher:
     """A publisher with a rate: at most one sample in `interval_us`.
 
     `messages`: sizes of the messages of the session that carry one sample, several where it goes in fragments.
+    `rate_span`: where the rate is written.
     """
 
     topic: str
     reliable: bool
     interval_us: Fraction
     messages: tuple[int, ...]
-    endpoint: EndpointDecl
+    rate_span: Span | None
 
     def sample(self, medium: Medium) -> int:
         """Return what one sample takes, with the ACKNACK messages of the agent where they count."""
@@ -150,7 +151,9 @@ def plan_line_load(
                 )
             continue
         sizes = message_sizes(message.max_encoded_size, mtu)
-        publishers.append(RatedPublisher(topic, message.reliable, endpoint.interval_us, sizes, endpoint))
+        publishers.append(
+            RatedPublisher(topic, message.reliable, endpoint.interval_us, sizes, endpoint.rate_span)
+        )
     if not publishers:
         if application.transport.bitrate is not None and not application.links:
             diagnostics.warning(
@@ -204,7 +207,7 @@ def _check_capacity(
     diagnostics.error(
         f"the publishers with a rate need {math.ceil(load.load)} {medium.unit}, and the line carries"
         f" {math.floor(medium.capacity)} with `{medium.key}: {medium.rate}` ({load.parts})",
-        largest.endpoint.rate_span,
+        largest.rate_span,
         _hint(load, largest, fitting_rate_of_line(load, heartbeat_ms)),
         id="MG-7130",
     )

@@ -6,8 +6,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from microros_gen.application.kinds import KIND
+from microros_gen.application.limit_rule import LimitRule
 from microros_gen.application.model import Application, EndpointDecl
-from microros_gen.application.system_decl import Link, PeerEnd
+from microros_gen.application.system_decl import BusSender, Link, PeerEnd
 from microros_gen.application.system_find import client_key
 from microros_gen.client.plan.declared import type_name
 from microros_gen.client.plan.features import PlanContext
@@ -52,7 +53,7 @@ def check_limits(ends: LimitedEnds, context: PlanContext, diagnostics: Diagnosti
     end, kind = ends.end, ends.endpoint.kind
     messages = {known: plan.message for known, plan in context.types.items()}
     own = context.types[ends.message].limits_of(kind, ends.index)
-    other = _limits_of(end, ends.link, ends.message, messages, _ANY if ends.sends else _NONE)
+    other = _limits_of(end, ends.link.limits, ends.message, messages, _ANY if ends.sends else _NONE)
     sent, taken = (own, other) if ends.sends else (other, own)
     for longer in _longer(ends.message, sent, taken, messages, ""):
         place = f" ({end.span.source.name}:{end.span.line})" if end.span else ""
@@ -82,20 +83,30 @@ def check_client_keys(application: Application, diagnostics: Diagnostics) -> Non
 
 def sent_body(end: PeerEnd, link: Link, name: TypeName, messages: dict[TypeName, Message]) -> int:
     """Return the bytes of the largest body of a message that an endpoint of the board of `link` sends."""
-    return WireSizes(messages).largest(name, _limits_of(end, link, name, messages, _NONE))
+    return WireSizes(messages).largest(name, _limits_of(end, link.limits, name, messages, _NONE))
+
+
+def bus_body(end: PeerEnd, sender: BusSender) -> int:
+    """Return the bytes of the largest body of a message that a publisher of `sender` sends."""
+    name, messages = type_name(end.type), dict(sender.messages)
+    return WireSizes(messages).largest(name, _limits_of(end, sender.limits, name, messages, _NONE))
 
 
 def _limits_of(
-    end: PeerEnd, link: Link, name: TypeName, messages: dict[TypeName, Message], defaults: Defaults
+    end: PeerEnd,
+    limits: tuple[LimitRule, ...],
+    name: TypeName,
+    messages: dict[TypeName, Message],
+    defaults: Defaults,
 ) -> TypeLimits | None:
     """Return the limits of an endpoint of the other board; faults of its application are reported where it is built.
 
-    `defaults`: for what has no limit there.
+    `limits`: those of its application; `defaults`: for what has no limit there.
     """
     rules = end.limits
     if KIND[end.kind].service_type:
         rules = part_rules(rules, type_name(end.type, "srv"), name.name.rpartition("_")[2], messages)
-    found = plan_capacities(messages, (Root(name, rules),), link.limits, defaults, Diagnostics())
+    found = plan_capacities(messages, (Root(name, rules),), limits, defaults, Diagnostics())
     return found.limits[name]
 
 

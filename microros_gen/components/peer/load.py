@@ -68,7 +68,8 @@ def _load(link: Link, context: PlanContext, ends: tuple[OwnEnd, ...]) -> tuple[L
             others += 1
             continue
         sizes, reliable = sent_messages(own.sent_size(context), link), own.end.reliability == "reliable"
-        rated.append(RatedPublisher(own.end.topic, reliable, own.endpoint.interval_us, sizes, own.endpoint))
+        interval, span = own.endpoint.interval_us, own.endpoint.rate_span
+        rated.append(RatedPublisher(own.end.topic, reliable, interval, sizes, span))
     baud = context.application.transport.baud if link.kind == "serial" else None
     medium = Medium(link.kind, baud, stuffed=True)
     answers = _answers(link, context, ends)
@@ -117,7 +118,7 @@ def _check_capacity(
     diagnostics.error(
         f"the messages with a rate need {math.ceil(load.load)} bytes/s on the line to the board '{link.board}', and it"
         f" carries {math.floor(load.medium.capacity)} with `baud: {load.medium.rate}` ({load.parts})",
-        largest.endpoint.rate_span if largest is not None else link.span,
+        largest.rate_span if largest is not None else link.span,
         f"Write {' or '.join(ways)}, or lower the limits of the messages" if ways else "Lower several rates",
         id="MG-7208",
     )
