@@ -9,7 +9,9 @@ from __future__ import annotations
 import random
 import signal
 import subprocess
+import tempfile
 from collections.abc import Iterator
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
@@ -116,6 +118,36 @@ def test_two_clients_of_a_bus_and_frames_of_others(
         assert values == list(range(values[0], ends[topic]["last"] + 1))
         assert (ends[topic]["malformed"], ends[topic]["reconnects"]) == (0, 0)
     assert bus.identifiers() >= {0x11, 0x12, 0x99}
+
+
+@pytest.mark.system
+def test_a_bus_that_goes_away_and_returns(observer: Observer, domain: int, talker: Path) -> None:
+    """As an interface that goes down: the agent opens it again, and the client goes on in its order."""
+    samples: dict[str, list[int]] = {"/gone": []}
+    observer.subscribe("/gone", "std_msgs/msg/Int32")
+    with tempfile.TemporaryDirectory() as short:  # a socket has a path of at most 107 bytes
+        path = Path(short) / "bus"
+        device = f"unix:{path}"
+        with ExitStack() as stack:
+            first = stack.enter_context(ExitStack())
+            first.enter_context(CanBus(path))
+            where = ("canfd", "--dev", device)
+            agent = stack.enter_context(running_agent(domain, "--domain", str(domain), transport=where))
+            running = stack.enter_context(started(talker, device, "0x21", "0x21", "gone"))
+            collect(observer, samples, {"/gone": ENOUGH})
+            for _ in range(2):
+                path.unlink()
+                first.close()
+                agent.wait_for(f"canfd {device} is gone")
+                first.enter_context(CanBus(path))
+                agent.wait_for(f"canfd {device} is back")
+                collect(observer, samples, {"/gone": samples["/gone"][-1] + ENOUGH})
+            counted = end(running)
+            collect(observer, samples, {"/gone": counted["last"]})
+            assert agent.stop() == 0
+            assert any("2 faults of input" in line for line in agent.rest())
+    values = samples["/gone"]
+    assert values == sorted(set(values))
 
 
 def test_an_agent_that_restarts(observer: Observer, domain: int, bus: CanBus, talker: Path) -> None:

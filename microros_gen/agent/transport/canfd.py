@@ -9,6 +9,7 @@ reached at `unix:PATH` (SOCK_SEQPACKET); it exchanges the same records, struct c
 from __future__ import annotations
 
 import errno
+import fcntl
 import os
 import select
 import socket
@@ -43,9 +44,14 @@ _CLASSIC_SIZE = 16
 _EXTENDED = 0x8000_0000
 _IDENTIFIER = 0x1FFF_FFFF
 _RAW_FD_FRAMES = 5
+_GET_MTU = 0x8921  # SIOCGIFMTU of linux/sockios.h
+_REQUEST = struct.Struct("=16si20x")
+"""A struct ifreq of linux/if.h with ifr_mtu."""
 _SOL_CAN_RAW = 101
 _LENGTHS = (*range(9), 12, 16, 20, 24, 32, 48, 64)
-_ABSENT = (errno.ENODEV, errno.ENXIO, errno.ENOENT, errno.ECONNREFUSED, errno.ENETDOWN)
+_NO_FD = errno.EPROTONOSUPPORT
+"""An interface with classic frames alone; `ip link set can0 type can fd on` changes that."""
+_ABSENT = (errno.ENODEV, errno.ENXIO, errno.ENOENT, errno.ECONNREFUSED, errno.ENETDOWN, _NO_FD)
 _FULL = (errno.EAGAIN, errno.ENOBUFS)
 
 
@@ -68,7 +74,10 @@ def decode(record: bytes) -> tuple[int, bytes] | None:
 
 
 class CanFd:
-    """One bus; `device` is its network interface. While that is missing or down, it keeps trying to open it."""
+    """One bus; `device` is its network interface. While that is missing, down or without CAN FD, it tries to open it.
+
+    What waits for the bus is lost with it: clients send again what is reliable.
+    """
 
     def __init__(self, device: str, log: EventLog) -> None:
         """Open the device if it exists. Raises UserError if it can never be opened."""
@@ -80,6 +89,7 @@ class CanFd:
         self._samples = 0
         self._retry_at = 0.0
         self._was_open = False
+        self._reported = ""
         self._watches_room = False
         try:
             self._start()
@@ -87,7 +97,7 @@ class CanFd:
             if error.errno not in _ABSENT:
                 self.close()
                 raise UserError([_explain(error, device)]) from error
-            self._report("device_waiting", "canfd {device} cannot be opened ({why}); waiting for it", error)
+            self._wait(error)
 
     @property
     def label(self) -> str:
@@ -196,7 +206,9 @@ class CanFd:
         known = self._was_open
         try:
             self._start()
-        except OSError:
+        except OSError as error:
+            if _why(error) != self._reported:
+                self._wait(error)
             return
         text = "canfd {device} is back" if known else "canfd {device} is available"
         self._report("device_back", text)
@@ -219,6 +231,11 @@ class CanFd:
         self._socket = _open(self._device)
         self._epoll.register(self._socket, select.EPOLLIN)
         self._was_open = True
+        self._reported = ""
+
+    def _wait(self, error: OSError) -> None:
+        self._reported = _why(error)
+        self._report("device_waiting", "canfd {device} cannot be opened ({why}); waiting for it", error)
 
     def _give_back(self) -> None:
         if self._socket is not None:
@@ -231,10 +248,12 @@ class CanFd:
 
     def _lose(self, error: OSError) -> None:
         self._give_back()
+        self._log.counters["bus_lost"] += 1
+        self._reported = _why(error)
         self._report("device_lost", "canfd {device} is gone ({why}); waiting for it", error)
 
     def _report(self, event: str, text: str, error: OSError | None = None) -> None:
-        why = (error.strerror or str(error)) if error else ""
+        why = _why(error) if error else ""
         self._log.emit(Level.INFO, event, text, device=self._device, why=why)
 
 
@@ -256,10 +275,23 @@ def _open(device: str) -> socket.socket:
             down = opened.getsockopt(socket.SOL_SOCKET, socket.SO_ERROR)
             if down:  # such an interface can be bound
                 raise OSError(down, os.strerror(down))
+            _check_mtu(opened, device)
     except OSError:
         opened.close()
         raise
     return opened
+
+
+def _check_mtu(opened: socket.socket, device: str) -> None:
+    """Raise OSError if an interface has no CAN FD: it can be bound as well, and refuses each frame that is sent."""
+    answer = fcntl.ioctl(opened, _GET_MTU, _REQUEST.pack(device.encode(), 0))
+    mtu = _REQUEST.unpack(answer)[1]
+    if mtu < _FRAME.size:
+        raise OSError(_NO_FD, f"no CAN FD: its MTU is {mtu}, not {_FRAME.size}")
+
+
+def _why(error: OSError) -> str:
+    return error.strerror or str(error)
 
 
 def _explain(error: OSError, device: str) -> Diagnostic:
