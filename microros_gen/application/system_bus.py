@@ -10,7 +10,7 @@ from pathlib import Path
 
 from microros_gen.application.kinds import TOPIC_KINDS
 from microros_gen.application.model import Application
-from microros_gen.application.system_can import CANFD_LINK_MTU, bus_links, can_ends
+from microros_gen.application.system_can import CANFD_LINK_MTU, bus_boards, bus_links, can_ends
 from microros_gen.application.system_decl import BusSender, PeerEnd
 from microros_gen.application.system_file import SystemFile
 from microros_gen.application.system_find import end_of, has_agent, other_board, peer_ends, read_system
@@ -49,7 +49,7 @@ def with_bus_senders(
     if found is None:
         return application, {}
     system, own = found[0], application.system.board.name
-    boards = _boards(own, tuple(devices), system, path, diagnostics)
+    boards = _boards(own, system, path, diagnostics)
     senders: list[BusSender] = []
     files: list[Path] = []
     for sender in (sender for device in devices for sender in _senders(own, device, system, boards)):
@@ -63,18 +63,10 @@ def with_bus_senders(
     return application, {f"{name}: {Path(b.source.name).name}": b.source for name, b in boards.items()}
 
 
-def _boards(
-    own: str, devices: tuple[str, ...], system: SystemFile, path: Path, diagnostics: Diagnostics
-) -> Mapping[str, _Board]:
+def _boards(own: str, system: SystemFile, path: Path, diagnostics: Diagnostics) -> Mapping[str, _Board]:
     """Return all other boards of the buses; faults of those that no link joins with this one are reported here."""
     known = {board for link in system.links for board, _ in link.ends if own in dict(link.ends)}
-    names = dict.fromkeys(
-        end.board
-        for device in devices
-        for link in bus_links(system.links, own, device)
-        for end in can_ends(link)
-        if end.board != own
-    )
+    names = bus_boards(system.links, own)
     boards: dict[str, _Board] = {}
     for name in names:
         found = other_board(name, system, path, Diagnostics() if name in known else diagnostics)

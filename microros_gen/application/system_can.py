@@ -69,6 +69,14 @@ def bus_links(links: Sequence[LinkDecl], board: str, device: str) -> Sequence[Li
     return next((b for b in _buses(links) if any(_is_at(link, board, device) for link in b)), ())
 
 
+def bus_boards(links: Sequence[LinkDecl], board: str) -> tuple[str, ...]:
+    """Return the other boards of all buses of a board, in the order of the links."""
+    devices = dict.fromkeys(end.device for link in links for end in can_ends(link) if end.board == board)
+    buses = (bus_links(links, board, device) for device in devices)
+    found = dict.fromkeys(end.board for bus in buses for link in bus for end in can_ends(link))
+    return tuple(name for name in found if name != board)
+
+
 def check_end(board: str, end: Named, position: int, diagnostics: Diagnostics) -> None:
     """Report an end that is no controller with a number."""
     if can_end(board, end.name, position) is None:

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
+from microros_gen.application.system_can import bus_boards
 from microros_gen.application.system_file import SystemFile
 from microros_gen.application.system_find import read_board, read_system
 from microros_gen.client.views.presence import report_rows
@@ -103,8 +104,8 @@ class CheckedSystem:
 def check_system(path: Path, interface_paths: tuple[Path, ...] = ()) -> CheckedSystem:
     """Return what a build of each board of a system file would report, of all boards together. Writes nothing.
 
-    A board whose application cannot be read is not planned, and neither are the boards that are linked with it: their
-    result is `not compared`. `interface_paths` are those of the option of the same name.
+    A board whose application cannot be read is not planned, and neither are the boards that are linked with it or on
+    the same CAN bus: their result is `not compared`. `interface_paths` are those of the option of the same name.
     """
     diagnostics = Diagnostics()
     found = read_system(path, None, diagnostics)
@@ -118,7 +119,8 @@ def check_system(path: Path, interface_paths: tuple[Path, ...] = ()) -> CheckedS
     for name, named in system.boards.items():
         config = Path(os.path.normpath(path.parent / named.name))
         neighbors = tuple(_neighbors(name, system))
-        missing = tuple(dict.fromkeys(each.board for each in neighbors if each.board in unread))
+        read_with = (*(each.board for each in neighbors), *bus_boards(system.links, name))
+        missing = tuple(dict.fromkeys(board for board in read_with if board in unread))
         errors = unread.get(name, 0)
         rows: tuple[tuple[str, str], ...] = ()
         if not errors and not missing:

@@ -183,3 +183,14 @@ def test_the_check_of_the_system_names_every_board(tmp_path: Path) -> None:
     sums = {found[1] for text in shown if (found := re.search(r"can\d (\d+) bit/s of 125000", text))}
     assert len(shown) == len(BOARDS)
     assert len(sums) == 1
+
+
+def test_a_board_of_the_bus_that_cannot_be_read(tmp_path: Path) -> None:
+    """Its fault is reported once; no board of the bus is compared, though one is not linked with it."""
+    folder = system(tmp_path, links=TWO_LINKS)
+    text = (folder / "arm" / "microros.yaml").read_text()
+    (folder / "arm" / "microros.yaml").write_text(text.replace("profiles", "profile"))
+    checked = compiler.check_system(folder / "system.yaml")
+    assert [d.id for d in checked.diagnostics] == ["MG-1002"]
+    assert [board.result for board in checked.boards] == ["not compared", "not compared", "differs"]
+    assert "arm/microros.yaml:2:1: error: unknown key 'profile'" in refused(folder, "sensor")
