@@ -276,6 +276,14 @@ def test_a_clock_that_wraps_meanwhile_passes(program: Path) -> None:
     all_pass(program, "wraps")
 
 
+def test_a_clock_of_whole_ticks_is_no_second_processor(program: Path) -> None:
+    """The middle task begins in the tick in which the low one ends: seen on FreeRTOS without a finer clock."""
+    found = results(all_pass(program, "task_time_ticks", one_processor=True))
+    assert "processors" not in found["lock_inheritance"][1]
+    if has_priorities(program):
+        assert found["lock_inheritance"][0] == "PASS"
+
+
 def test_each_check_fails_where_the_port_has_the_fault(program: Path) -> None:
     faults = dict(HOST_FAULTS)
     if not has_priorities(program):

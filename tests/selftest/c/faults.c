@@ -444,6 +444,9 @@ WRAP(uint32_t, port_task_time_us, (void))
   if (IS("task_time_back")) {
     return ++calls % 50u == 0u ? now - 100000u : now;
   }
+  if (IS("task_time_ticks")) {
+    return now / 5000u * 5000u;
+  }
   return IS("task_time_slow") ? now / 2u : IS("task_time_coarse") ? now / 50000u * 50000u : now;
 }
 
