@@ -235,6 +235,24 @@ def test_a_task_of_freertos_is_deleted_when_its_processor_has_left_it(folder: Pa
         assert (done.returncode, done.stderr) == (0, "")
 
 
+@pytest.mark.builds
+def test_freertos_with_a_timer_releases_at_each_tick(folder: Path, run: Runner) -> None:
+    """Wherever between two ticks the tasks start; seen in QEMU: a grid shortly after the ticks missed releases."""
+    (folder / "microros.yaml").write_text(application(PAIRS[0], VARIANTS[1]))
+    assert run("generate", "-o", "out").status == 0
+    sources = [folder / "out" / "src" / "port_freertos" / "port_freertos_tasks.c", UNITS / "freertos_clock.c"]
+    folders = [f"-I{path}" for path in (folder / "out" / "include", KERNELS / "freertos", UNITS)]
+    program = folder / "clock"
+    timer = "-DPORT_FREERTOS_TIME_US=kernel_time_us"
+    subprocess.run(["gcc", "-std=gnu99", timer, *folders, *sources, "-o", program], check=True)
+    for phase in (0, 1, 20, 500, 985, 999):
+        for shown in (0, 77, 2**32 - 1500):
+            done = subprocess.run(
+                [program, str(phase), str(shown)], capture_output=True, text=True, check=False
+            )
+            assert (phase, shown, done.returncode, done.stderr) == (phase, shown, 0, "")
+
+
 def test_every_port_to_a_kernel_is_checked() -> None:
     assert set(builtin_parts("os")) - {"bare", "posix"} == {os for os, _ in PAIRS}
     assert set(builtin_parts("network")) == {network for _, network in PAIRS}

@@ -131,6 +131,11 @@ uint32_t port_task_time_us(void)
   return port_time_ms() * 1000u;
 }
 
+uint32_t port_task_first_release_us(void)
+{
+  return port_task_time_us();
+}
+
 void port_task_sleep_until(uint32_t time_us)
 {
   (void)time_us;

@@ -92,6 +92,11 @@ uint32_t port_task_time_us(void)
   return clock_us;
 }
 
+uint32_t port_task_first_release_us(void)
+{
+  return clock_us;
+}
+
 void port_task_sleep_until(uint32_t time_us)
 {
   const uint32_t left_us = time_us - clock_us;

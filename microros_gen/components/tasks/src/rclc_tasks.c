@@ -141,7 +141,7 @@ static void task_prepare(uint8_t task)
 {
   rclc_task_state_t * state = &rclc_task_states[task];
 
-  state->next_us = port_task_time_us();
+  state->next_us = port_task_first_release_us();
   state->stack_peak = 0;
   state->has_run = false;
   state->is_in_round = false;

@@ -53,6 +53,11 @@ void port_task_wait(uint8_t task, uint32_t timeout_ms);
 /* Returns microseconds since an arbitrary start; monotonic, wraps to 0 after 2^32 - 1. From any task. */
 uint32_t port_task_time_us(void);
 
+/* Returns the time of the first release of a task that begins now, from which its period counts: port_task_time_us, or the
+ * time of the next tick where a sleep ends at ticks of the system that are coarser than that clock. A grid shortly after
+ * the ticks would have each release a tick late, or some of them. From any task. */
+uint32_t port_task_first_release_us(void);
+
 /* Sleeps until port_task_time_us has reached `time_us`, at most 2^31 - 1 microseconds; returns at once if it has. */
 void port_task_sleep_until(uint32_t time_us);
 

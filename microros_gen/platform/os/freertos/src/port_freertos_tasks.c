@@ -143,20 +143,60 @@ void port_task_wait(uint8_t task, uint32_t timeout_ms)
     kernel_tasks[task].event, port_freertos_ticks(timeout_ms)); /* false: the time has passed */
 }
 
+/* Returns microseconds at a tick, which wrap. */
+static uint32_t tick_time_us(uint64_t ticks)
+{
+  const uint64_t hz = (uint64_t)configTICK_RATE_HZ;
+
+  return (uint32_t)((ticks / hz * us_per_s + ticks % hz * us_per_s / hz) & UINT32_MAX);
+}
+
 #ifdef PORT_FREERTOS_TIME_US
-/* The application counts microseconds with a timer of the hardware. */
+/* What the timer of the application showed at a tick, less the time of the tick: the least that was seen, because it is
+ * read after the tick. Written while no other task runs. */
+static uint32_t timer_lead_us;
+static bool timer_is_known;
+
+/* Returns the microseconds since the tick at `tick_us`, less than a tick. They begin anew if the timer is far ahead. */
+static uint32_t since_tick_us(uint32_t tick_us, uint32_t timer_us)
+{
+  const uint32_t most_us = (uint32_t)(us_per_s / (uint64_t)configTICK_RATE_HZ) - 1u;
+  uint32_t since_us = timer_us - tick_us - timer_lead_us;
+
+  if (!timer_is_known || since_us > most_us + most_us) { /* behind the tick, too: it wraps */
+    timer_is_known = true;
+    timer_lead_us = timer_us - tick_us;
+    since_us = 0;
+  }
+  return since_us < most_us ? since_us : most_us;
+}
+
+/* The timer counts between the ticks. Each tick is at its own time, so that a sleep until then ends with the tick. */
 uint32_t port_task_time_us(void)
 {
-  return PORT_FREERTOS_TIME_US();
+  uint32_t time_us;
+
+  vTaskSuspendAll();
+  time_us = tick_time_us(port_freertos_now());
+  time_us += since_tick_us(time_us, PORT_FREERTOS_TIME_US());
+  (void)xTaskResumeAll();
+  return time_us;
+}
+
+uint32_t port_task_first_release_us(void)
+{
+  return tick_time_us(port_freertos_now() + 1u);
 }
 #else
 /* Counts whole ticks. */
 uint32_t port_task_time_us(void)
 {
-  const uint64_t hz = (uint64_t)configTICK_RATE_HZ;
-  const uint64_t ticks = port_freertos_now();
+  return tick_time_us(port_freertos_now());
+}
 
-  return (uint32_t)((ticks / hz * us_per_s + ticks % hz * us_per_s / hz) & UINT32_MAX);
+uint32_t port_task_first_release_us(void)
+{
+  return port_task_time_us();
 }
 #endif
 

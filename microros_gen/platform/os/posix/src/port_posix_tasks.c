@@ -196,6 +196,11 @@ uint32_t port_task_time_us(void)
   return microseconds_of(&now);
 }
 
+uint32_t port_task_first_release_us(void)
+{
+  return port_task_time_us();
+}
+
 /* An absolute time of the system's clock: what passes until it sleeps is no part of the sleep. */
 void port_task_sleep_until(uint32_t time_us)
 {

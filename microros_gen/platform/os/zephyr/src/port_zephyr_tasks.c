@@ -99,6 +99,11 @@ uint32_t port_task_time_us(void)
   return (uint32_t)(((uint64_t)port_time_steady_ns() / ns_per_us) & UINT32_MAX);
 }
 
+uint32_t port_task_first_release_us(void)
+{
+  return port_task_time_us();
+}
+
 /* The kernel counts from a tick that was read before the time, so nothing that passes meanwhile makes the sleep longer.
  * Where cycles count, the first sleep can end within the last tick before the time. */
 void port_task_sleep_until(uint32_t time_us)

@@ -31,7 +31,8 @@ extern "C" {
 #endif
 
 /* FreeRTOSConfig.h may define PORT_FREERTOS_TIME_US as the name of a function that returns microseconds as a uint32_t, from
- * any task: tasks of the application file then measure their runs with it. Without it they count whole ticks. */
+ * any task: tasks of the application file then measure their runs with it. It counts between the ticks, so it must run at
+ * their rate. Without it they count whole ticks. */
 
 /* Returns the ticks since the scheduler started; does not wrap. */
 uint64_t port_freertos_now(void);
