@@ -157,7 +157,7 @@ static uint32_t tick_time_us(uint64_t ticks)
 static uint32_t timer_lead_us;
 static bool timer_is_known;
 
-/* Returns the microseconds since the tick at `tick_us`, less than a tick. They begin anew if the timer is far ahead. */
+/* Returns the microseconds since the tick at `tick_us`, less than a tick. If the timer is far ahead, they begin again at 0. */
 static uint32_t since_tick_us(uint32_t tick_us, uint32_t timer_us)
 {
   const uint32_t most_us = (uint32_t)(us_per_s / (uint64_t)configTICK_RATE_HZ) - 1u;
