@@ -17,7 +17,7 @@ def note_reaction(leaf: Leaf, before: Status, after: Status, was_settled: bool) 
     """
     if leaf.link is not Link.MODES or leaf.is_settled(after) or after.state != ACTIVE or not after.mode:
         return ""
-    is_reaction = after.mode in leaf.part.contingencies or bool(leaf.problem)
+    is_reaction = after.mode in leaf.part.contingencies or leaf.has_new_problem
     is_new = after != before or not leaf.failure
     if not (is_reaction and is_new and (leaf.has_reached or was_settled or leaf.reaction)):
         return ""
@@ -28,6 +28,10 @@ def note_reaction(leaf: Leaf, before: Status, after: Status, was_settled: bool) 
 
 def await_reaction(leaf: Leaf, after: Status, now: float, settings: Settings) -> None:
     """Let a node that may be reconfiguring itself arrive in a mode before anything is commanded."""
-    if leaf.link is Link.MODES and after.state != ACTIVE and (leaf.part.contingencies or leaf.problem):
+    if (
+        leaf.link is Link.MODES
+        and after.state != ACTIVE
+        and (leaf.part.contingencies or leaf.has_new_problem)
+    ):
         leaf.stale |= leaf.queries
         leaf.wait_until = now + settings.grace_s

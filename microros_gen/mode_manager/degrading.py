@@ -45,8 +45,7 @@ class Degrading:
             self.oscillating.add(system.name)
             self._log(f"{system.name}: its rules oscillate, and are not applied until the next request")
             return None
-        status = rule.cause(reported)
-        cause = f"{rule.if_part}: {status}" if status else ""
+        cause = rule.cause(reported)
         self._log(f"{system.name}: rule {rule.name}: {rule.new_target}{f' ({cause})' if cause else ''}")
         self.rules[system.name] = rule.name
         self._causes[system.name, rule.name] = cause
@@ -54,7 +53,7 @@ class Degrading:
         return rule.new_target
 
     def cause(self, system: str) -> str:
-        """Return why the rule of a system that was applied last was: `node: status: level`; empty: not for a status."""
+        """Return the status for which the last rule of a system was applied, as RuleDiagnostics.first; empty: none."""
         return self._causes.get((system, self.rules.get(system, "")), "")
 
     def command(self, system: str) -> None:

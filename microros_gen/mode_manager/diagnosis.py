@@ -11,18 +11,18 @@ from microros_gen.mode_manager.orchestrator import Orchestrator
 from microros_gen.modes.model import (
     ERROR,
     ERROR_LEVEL,
+    MANAGER_HARDWARE,
     STALE_LEVEL,
     UNKNOWN,
     WARN_LEVEL,
     DiagnosticLevels,
     Status,
+    part_of,
 )
 from microros_gen.records import dataclass
 
 TOPIC = "/diagnostics"
 TYPE = "diagnostic_msgs/msg/DiagnosticArray"
-HARDWARE = "mode manager"
-"""`hardware_id` of the messages of managers."""
 PREFIX = "modes: "
 OK, WARN, FAILED, STALE = range(4)
 """Levels of diagnostic_msgs/msg/DiagnosticStatus."""
@@ -102,7 +102,7 @@ def array_of(rows: Collection[Row]) -> dict[str, Any]:
                 "level": row.level,
                 "name": f"{PREFIX}{row.part}",
                 "message": row.message or LEVELS[OK],
-                "hardware_id": HARDWARE,
+                "hardware_id": MANAGER_HARDWARE,
                 "values": [
                     {"key": key, "value": str(value)}
                     for key, value in (
@@ -123,7 +123,7 @@ def array_of(rows: Collection[Row]) -> dict[str, Any]:
 def read_rows(message: Mapping[str, Any]) -> Iterator[Row]:
     """Yield the rows of a message of a manager; what others publish is passed over."""
     for status in message["status"]:
-        if status["hardware_id"] != HARDWARE or not status["name"].startswith(PREFIX):
+        if status["hardware_id"] != MANAGER_HARDWARE or not status["name"].startswith(PREFIX):
             continue
         values = {pair["key"]: pair["value"] for pair in status["values"]}
         retries = values.get("retries", "")
@@ -150,18 +150,33 @@ class PartStatus:
     error: str
 
 
+@dataclass(frozen=True)
+class OtherStatus:
+    """A status of no part, with its whole name; `level` is empty: it is OK."""
+
+    hardware: str
+    name: str
+    level: str
+
+
+def read_others(message: Mapping[str, Any], parts: Collection[str]) -> Iterator[OtherStatus]:
+    """Yield each status of a message that belongs to none of the parts of a model, and not to a mode manager."""
+    for status in message["status"]:
+        if not part_of(status["name"], parts) and status["hardware_id"] != MANAGER_HARDWARE:
+            level = _NAMES.get(int(status["level"]), "")
+            yield OtherStatus(status["hardware_id"], status["name"], level)
+
+
 def read_statuses(message: Mapping[str, Any], levels: Mapping[str, DiagnosticLevels]) -> Iterator[PartStatus]:
     """Yield each status of a message that belongs to one of the parts.
 
-    A status belongs to a part if its name is that of the node, or begins with it and a colon, as diagnostic_updater
-    writes it. `levels` says for each part which levels are errors.
+    `levels` says for each part which levels are errors.
     """
     for status in message["status"]:
-        name = status["name"].lstrip("/")
-        part = next((p for p in levels if name == p or name.startswith(f"{p}:")), None)
-        if part is None or status["hardware_id"] == HARDWARE:
+        part = part_of(status["name"], levels)
+        if not part or status["hardware_id"] == MANAGER_HARDWARE:
             continue
-        own = name[len(part) :].lstrip(":").strip()
+        own = status["name"].lstrip("/")[len(part) :].lstrip(":").strip()
         word = _NAMES.get(int(status["level"]), "")
         yield PartStatus(part, own, word, error_of(levels[part], own, word, status["message"]))
 

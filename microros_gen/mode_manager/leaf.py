@@ -91,15 +91,25 @@ class Leaf:
     unanswered: int = 0
     reaction: str = ""
     """The mode that it went to by itself, for an error that is not over yet: rules do not command it the same again."""
-    problem: str = ""
-    """An error that the part's diagnosis reports."""
+    observed: str = ""
+    """An error of it that a source of this process knows."""
     reports: Reports = field(default_factory=Reports)
-    """What it publishes on /diagnostics, for rules."""
+    """What it publishes on /diagnostics."""
 
     @property
     def name(self) -> str:
         """Return the name of the part."""
         return self.part.name
+
+    @property
+    def problem(self) -> str:
+        """Return an error that it has, as far as that is known; empty: it has none."""
+        return self.reports.error or self.observed
+
+    @property
+    def has_new_problem(self) -> bool:
+        """Return whether it has an error that was not only reported before it was away."""
+        return bool(self.reports.confirmed_error or self.observed)
 
     @property
     def queries(self) -> set[Kind]:
@@ -149,6 +159,16 @@ class Leaf:
     def is_passing(self, status: Status) -> bool:
         """Return whether it is between two states, or in none that is known; one of a system follows from others."""
         return self.link is not Link.SYSTEM and status.state not in _STAYING
+
+    def begin(self, goal: Status, must_configure: bool, by_rule: bool) -> None:
+        """Begin with a target: what hindered the one before does not count; `failure` is left."""
+        keeps = by_rule and self.has_reached and self.target == goal
+        self.reaction = ""
+        self.target, self.must_configure = goal, must_configure
+        self.attempts, self.settle_until, self.wait_until = 0, 0.0, 0.0
+        self.deviates = self.restores = self.reconfigures = False
+        self.has_reached = keeps  # a node that reacts to an error leaves it then
+        self.is_mode_late = False
 
     def step(self, status: Status, wanted: Values, inactive_first: bool) -> Step | str:
         """Return the next call on the way from `status` to the target, or the reason why it cannot get there.

@@ -16,6 +16,7 @@ from microros_gen.mode_manager.calls import Announcement, Call, Kind, Link, Valu
 from microros_gen.mode_manager.commander import Commander
 from microros_gen.mode_manager.contingency import await_reaction, note_reaction
 from microros_gen.mode_manager.degrading import Degrading
+from microros_gen.mode_manager.diagnosed import Diagnosed
 from microros_gen.mode_manager.hearing import (
     SILENT,
     hear_link,
@@ -76,7 +77,9 @@ class Orchestrator:
         self._degrading = Degrading(model, self.settings, log)
         self._commander = Commander(self._knowledge, self.progress, self.settings, log)
         self._shown: Mapping[str, Status] = self.statuses()
-        self._reported = {name: leaf.reports.levels for name, leaf in self.leaves.items()}
+        self.diagnosed = Diagnosed(scope, self.leaves, clock, log)
+        """What /diagnostics has of the parts. For inference and rules, a part with an error is in error processing;
+        commands to it go on."""
 
     @property
     def rules(self) -> Mapping[str, str]:
@@ -140,7 +143,9 @@ class Orchestrator:
             return
         if link is Link.ABSENT:
             self._log(f"{name}: it has left")
+        before = leaf.link
         hear_link(leaf, link, serves_parameters)
+        self.diagnosed.link(leaf, before)
         if link in (Link.MODES, Link.SYSTEM) and leaf.inherited and not serves_parameters:
             names = ", ".join(leaf.inherited)
             self._log(f"{name}: it serves no parameters, and does not get {names} of its parent")
@@ -161,22 +166,6 @@ class Orchestrator:
     def hear_parameters(self, name: str, values: Mapping[str, Scalar | tuple[Scalar, ...] | None]) -> None:
         """Note a parameter event; None: the parameter was deleted."""
         self._hear(name, lambda leaf, now: hear_parameters(leaf, values, now, self.settings, True))
-
-    def hear_problem(self, name: str, text: str) -> None:
-        """Note an error that is known of a part from elsewhere; empty: it is over.
-
-        For inference and rules the part is in error processing meanwhile. Commands go on.
-        """
-        leaf = self.leaves[name]
-        if text and not leaf.problem:
-            self._log(f"{name}: {text}")
-        if not text and leaf.problem:
-            leaf.reaction = ""
-        leaf.problem = text
-
-    def hear_level(self, name: str, status: str, level: str) -> None:
-        """Note the level of a status of a part on /diagnostics, for rules; `status` is without the name of the part."""
-        self.leaves[name].reports.hear(status, level)
 
     def answer(self, call: Call, success: bool, reason: str = "", **facts: object) -> None:
         """Note a response. `facts` of a query: state, mode, or values."""
@@ -207,6 +196,7 @@ class Orchestrator:
     def turn(self) -> list[Call]:
         """Return the calls that are due now."""
         now = self._clock()
+        self.diagnosed.step()
         for leaf in self.leaves.values():
             self._expire(leaf, now)
             leaf.has_reached |= leaf.target is not None and leaf.is_settled(self.status(leaf))
@@ -321,7 +311,6 @@ class Orchestrator:
 
     def _expire(self, leaf: Leaf, now: float) -> None:
         call = leaf.call
-        leaf.reports.step(now, leaf.link is Link.ABSENT)
         if leaf.link is Link.ABSENT and now - self._started >= self.settings.start_s:
             leaf.failure = _NOT_THERE
         if call is not None and now >= leaf.late_at:
@@ -359,7 +348,7 @@ class Orchestrator:
             if self.progress.is_moving(system.name) or system.name in self._degrading.oscillating:
                 continue
             target, now = self.targets.get(system.name), self._clock()
-            goal = self._degrading.next(system, target, self.statuses(), self._reported, now)
+            goal = self._degrading.next(system, target, self.statuses(), self.diagnosed.reported, now)
             if goal is not None:
                 self._set_target(system, goal, by_rule=True)
         for leaf in self.leaves.values():
@@ -384,13 +373,7 @@ class Orchestrator:
                 self._degrading.command(below.name)
             leaf = self.leaves.get(below.name)
             if leaf is not None and not (by_rule and leaf.reaction and leaf.target == goal):
-                keeps = by_rule and leaf.has_reached and leaf.target == goal
-                leaf.reaction = ""
-                leaf.target, leaf.must_configure = goal, must_configure
-                leaf.attempts, leaf.settle_until, leaf.wait_until = 0, 0.0, 0.0
-                leaf.deviates = leaf.restores = leaf.reconfigures = False
-                leaf.has_reached = keeps  # a node that reacts to an error leaves it then
-                leaf.is_mode_late = False
+                leaf.begin(goal, must_configure, by_rule)
                 if leaf.link is not Link.ABSENT and leaf.failure != SILENT:
                     leaf.failure = ""
 

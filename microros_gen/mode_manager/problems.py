@@ -32,30 +32,19 @@ class Problems:
     def __init__(self, manager: Orchestrator, sources: Sequence[ProblemSource] = ()) -> None:
         self._manager = manager
         self._sources = sources
-        self._reported: dict[str, dict[str, str]] = {}
 
     def report(self, status: PartStatus) -> None:
         """Note a status of a part from another process: an error until it is none any more, and its level for rules."""
         source = f"{status.part}: {status.name}" if status.name else status.part
-        known = self._reported.setdefault(status.part, {})
-        known.pop(source, None)
-        if status.error:
-            known[source] = status.error
-        self._manager.hear_level(status.part, status.name, status.level)
-
-    def forget(self, part: str) -> None:
-        """Forget what was reported of a part, which has left."""
-        self._reported.pop(part, None)
+        error = f"{source}: {status.error}" if status.error else ""
+        self._manager.diagnosed.hear(status.part, status.name, status.level, error)
 
     def step(self) -> None:
-        """Pass on what has changed."""
+        """Pass on what has changed in this process."""
         found: dict[str, str] = {}
-        for part, known in self._reported.items():
-            for source, text in known.items():
-                found.setdefault(part, f"{source}: {text}")
         for observer in self._sources:
             for problem in observer.problems():
                 found.setdefault(problem.part, problem.text)
         for name, leaf in self._manager.leaves.items():
-            if leaf.problem != found.get(name, ""):
-                self._manager.hear_problem(name, found.get(name, ""))
+            if leaf.observed != found.get(name, ""):
+                self._manager.diagnosed.observe(name, found.get(name, ""))

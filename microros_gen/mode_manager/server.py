@@ -9,7 +9,15 @@ from functools import partial
 from typing import Any
 
 from microros_gen.mode_manager.calls import Link
-from microros_gen.mode_manager.diagnosis import TOPIC, TYPE, Row, array_of, read_statuses, rows_of
+from microros_gen.mode_manager.diagnosis import (
+    TOPIC,
+    TYPE,
+    Row,
+    array_of,
+    read_others,
+    read_statuses,
+    rows_of,
+)
 from microros_gen.mode_manager.links import PartLink
 from microros_gen.mode_manager.messages import values_of
 from microros_gen.mode_manager.orchestrator import Orchestrator
@@ -59,6 +67,7 @@ class ModeManager(Serving):
             name: PartLink(peer, self.orchestrator, leaf) for name, leaf in self.orchestrator.leaves.items()
         }
         self._levels = {name: leaf.part.diagnostics for name, leaf in self.orchestrator.leaves.items()}
+        self._parts = frozenset(model.parts)
         self._problems = Problems(self.orchestrator, sources)
         self._graph = peer.graph()
         self._lost: dict[str, frozenset[str]] = {}
@@ -93,10 +102,7 @@ class ModeManager(Serving):
         lost = {name for names in self._lost.values() for name in names}
         for name, link in self._links.items():
             leaf = self.orchestrator.leaves[name]
-            before = leaf.link
             link.look(self._graph, nodes, now, f"/{name}" in lost)
-            if leaf.link is Link.ABSENT and before is not Link.ABSENT:
-                self._problems.forget(name)
             if leaf.link in (Link.PARAMETERS, Link.PLAIN):
                 self._served[name].serve_modes()
             elif leaf.link is Link.MODES:
@@ -115,6 +121,8 @@ class ModeManager(Serving):
     def _diagnostic(self, message: dict[str, Any]) -> None:
         for status in read_statuses(message, self._levels):
             self._problems.report(status)
+        for other in read_others(message, self._parts):
+            self.orchestrator.diagnosed.hear_outside(other.hardware, other.name, other.level)
 
     def _parameters(self, event: dict[str, Any]) -> None:
         leaf = self.orchestrator.leaves.get(event["node"].lstrip("/"))

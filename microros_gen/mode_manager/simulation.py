@@ -44,6 +44,7 @@ from microros_gen.modes.script import (
     DELAY,
     DIAGNOSE,
     FAIL,
+    HARDWARE,
     LEAVE,
     REFUSE,
     REPAIR,
@@ -209,6 +210,7 @@ class _Play:
         }
         nodes = {node.name: self._fresh(node) for node in model.nodes}
         self.trace = Trace()
+        self._outside: dict[tuple[str, str], str] = {}
         scope = select_scope(model)
         self.world = SimulatedWorld(model, nodes, scope, settings, self._log, self._turn)
         self._problems = Problems(self.world.manager)
@@ -242,6 +244,10 @@ class _Play:
         if event.kind == REQUEST and event.status is not None:
             self.world.manager.request(event.part, event.status)
             return
+        if event.kind == HARDWARE:
+            self._outside[event.part, event.name] = event.level if event.level in LEVELS else ""
+            self._repeat()
+            return
         node = self.world.nodes[event.part]
         if event.kind == REPAIR:
             self._repair(event.part, node)
@@ -257,7 +263,6 @@ class _Play:
         elif event.kind == SILENCE:
             node.is_dead = True
         elif event.kind == LEAVE:
-            self._problems.forget(event.part)
             self.world.leave(event.part)
         elif event.kind == DIAGNOSE:
             self._diagnose(event)
@@ -267,9 +272,14 @@ class _Play:
         level = event.level if event.level in LEVELS else ""
         text = error_of(self._model.parts[event.part].diagnostics, event.name, level, "")
         self._problems.report(PartStatus(event.part, event.name, level, text))
-        self._problems.step()
+
+    def _repeat(self) -> None:
+        """Let /diagnostics have the statuses of no part once more, as their publishers repeat them."""
+        for (hardware, name), level in self._outside.items():
+            self.world.manager.diagnosed.hear_outside(hardware, name, level)
 
     def _turn(self, calls: Sequence[Call]) -> None:
+        self._repeat()
         self.trace.now_us = self.world.now_us - _BEFORE_US
         self.trace.turn(self.world.manager, calls)
 

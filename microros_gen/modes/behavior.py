@@ -7,7 +7,8 @@ system, a part is therefore a function from commands to statuses, a *behavior*; 
 combination of failures below it, and many combinations have the same. A part belongs to one system, so the behaviors
 of the parts of a system are independent of each other.
 
-Besides, the statuses of a node on /diagnostics have levels, which rules of its system can want (`reports`).
+Besides, the statuses of a node on /diagnostics have levels, which rules of its system can want (`reports`). Statuses of
+no part are taken as those of one more part, which every system has for itself.
 
 The combinations of a system are not enumerated. Its parts are taken one after another. Of the parts so far these facts
 are kept for each target of the system: whether one is in error processing, whether one is not what is commanded, which
@@ -39,7 +40,7 @@ from microros_gen.modes.model import (
     Status,
     active,
 )
-from microros_gen.modes.reports import Diagnosis, reports_of
+from microros_gen.modes.reports import Diagnosis, outside_reports, reports_of
 from microros_gen.records import dataclass
 
 Failures = tuple[tuple[str, Status | Diagnosis], ...]
@@ -50,9 +51,10 @@ Behaviors = dict[tuple[Status, ...], Failures]
 
 _Led = Mapping[Status, frozenset[Status]]
 
-_Seen = tuple[bool, bool, int, int, int, int, int]
+_Seen = tuple[bool, bool, int, int, int, int, int, int]
 """Error processing, deviates, the index of the rule that holds or -1, that of one with diagnostics; as bits: the modes
-that fit, the rules whose part in `recover_if` is well, and those that the diagnostics of another part keep."""
+that fit, the rules whose part in `recover_if` is well, those that the diagnostics of another part or of no part keep,
+and those that hold if statuses of no part do."""
 
 
 @dataclass(frozen=True)
@@ -145,8 +147,10 @@ def _combine(
     """Return what can be seen of all parts together, by target, with the fewest failures that this takes."""
     targets = model.targets(system)
     every_mode = (1 << len(system.modes)) - 1
-    first: _Seen = (False, False, -1, -1, every_mode, 0, 0)
-    kept: dict[tuple[_Seen, ...], Failures] = {(first,) * len(targets): ()}
+    kept: dict[tuple[_Seen, ...], Failures] = {
+        ((False, False, -1, -1, every_mode, 0, held, 0),) * len(targets): statuses
+        for held, statuses in outside_reports(system.rules).items()
+    }
     for name in system.part_names:
         seen = _distinct(
             (_seen(model, system, name, outcomes, held), failures)
@@ -194,8 +198,8 @@ def _join(a: _Seen, b: _Seen) -> _Seen:
     rule = a[2] if a[2] > b[2] else b[2]
     urgent = a[3] if a[3] > b[3] else b[3]
     if a[0] or b[0]:
-        return True, True, rule, urgent, 0, a[5] | b[5], a[6] | b[6]  # nothing else can be seen then
-    return False, a[1] or b[1], rule, urgent, a[4] & b[4], a[5] | b[5], a[6] | b[6]
+        return True, True, rule, urgent, 0, a[5] | b[5], a[6] | b[6], a[7] | b[7]  # no mode can be seen then
+    return False, a[1] or b[1], rule, urgent, a[4] & b[4], a[5] | b[5], a[6] | b[6], a[7] | b[7]
 
 
 def _seen(
@@ -205,6 +209,7 @@ def _seen(
     part = model.parts[name]
     answer = dict(zip(map(str, targets_of(model, part)), outcomes, strict=True))
     lasting = held & sum(1 << i for i, r in enumerate(system.rules) if r.recover_part not in ("", name))
+    others = sum(1 << i for i, r in enumerate(system.rules) if r.diagnostics and r.diagnostics.hardware)
     found: list[_Seen] = []
     for target in model.targets(system):
         command = model.command(system, target, name)
@@ -225,7 +230,8 @@ def _seen(
             if r.recover_part == name and not held >> i & 1 and any(map(actual.is_same, r.recover_statuses))
         )
         deviates = not fulfills(actual, command)
-        found.append((actual.state == ERROR, deviates, rule, urgent, modes, undone, lasting))
+        ready = sum(1 << i for i, is_diagnosed in holding if is_diagnosed and others >> i & 1)
+        found.append((actual.state == ERROR, deviates, rule, urgent, modes, undone, lasting, ready))
     return tuple(found)
 
 
@@ -257,7 +263,8 @@ _At = tuple[int, tuple[int, ...]]
 def _next(system: Part, targets: tuple[Status, ...], at: _At, seen: tuple[_Seen, ...]) -> tuple[_At, str]:
     """Return what follows, which may be the same, and the rule that leads there, or is undone; "": it is stable."""
     target, history = at
-    error, deviates, rule, urgent, _, well, held = seen[target]
+    error, deviates, rule, urgent, _, well, held, ready = seen[target]
+    urgent = max(urgent, (ready & held).bit_length() - 1)
     rule = max(rule, urgent) if error or deviates else urgent
     if rule >= 0:
         goal = targets.index(system.rules[rule].new_target)
@@ -289,7 +296,7 @@ def _path(
 
 def _infer(system: Part, target: Status, seen: _Seen) -> Status:
     """Return what `Inference.infer_system` returns of parts of which this is seen."""
-    error, deviates, _, _, modes, _, _ = seen
+    error, deviates, _, _, modes, *_ = seen
     if error:
         return Status(ERROR)
     if not deviates:

@@ -32,6 +32,8 @@ from microros_gen.records import dataclass
 
 COMMAND, RULE, REPEAT, STATUS, OSCILLATION = "command", "rule", "repeat", "status", "oscillation"
 RECOVERY = "recovery"
+OSCILLATES = "oscillates: "
+"""Begins the line of a step that is repeated forever."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,7 @@ class Step:
         if self.kind == RECOVERY:
             return f"rule {self.rule}: {self.part} {self.status} again"
         if self.kind == OSCILLATION:
-            return f"oscillates: {self.part} {self.status} again"
+            return f"{OSCILLATES}{self.part} {self.status} again"
         return f"{self.kind} {self.part} {self.status}"
 
 
@@ -115,7 +117,7 @@ class Manager:
     def diagnose(self, node: str, name: str, level: str) -> Iterator[Step]:
         """Let a status of a node on /diagnostics have a level from now on, and settle; `ok`: it is well.
 
-        `name` is without that of the node.
+        `name` is without that of the node. In place of a node, the key of what is no part (`outside`) can be given.
         """
         self._reported.setdefault(node, {})[name] = level
         yield from self.settle()
@@ -150,11 +152,11 @@ class Manager:
 
     def _errors(self) -> Mapping[str, Status]:
         """Return error processing for each node of which a status is an error."""
-        levels = {node: self.model.parts[node].diagnostics for node in self._reported}
+        levels = {node: self.model.parts[node].diagnostics for node in self._reported if node in self.nodes}
         return {
             node: Status(ERROR)
             for node, statuses in self._reported.items()
-            if any(levels[node].is_error(level, name) for name, level in statuses.items())
+            if node in levels and any(levels[node].is_error(level, name) for name, level in statuses.items())
         }
 
     def _repeat(self) -> Iterator[Step]:

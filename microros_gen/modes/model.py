@@ -44,8 +44,16 @@ _AT_LEAST = {
     STALE_LEVEL: (STALE_LEVEL,),
 }
 
+MANAGER_HARDWARE = "mode manager"
+"""`hardware_id` of what managers publish there; it is no status of a part, and no rule wants it."""
+
 Reported = Mapping[str, Mapping[str, str]]
-"""Node → name of a status on /diagnostics, without that of the node → its level. Those that are OK can be left out."""
+"""Node → name of a status on /diagnostics, without that of the node → its level. Those that are OK can be left out.
+
+What is of no part of the model is in it by its hardware_id, as `outside` writes that, and by its whole name."""
+
+_OUTSIDE = "hardware "
+"""Begins keys of `Reported` that are no parts; their names have no spaces."""
 
 Scalar = bool | int | float | str
 
@@ -103,6 +111,20 @@ class Mode:
     commands: Mapping[str, Command] = field(default_factory=dict)
 
 
+def outside(hardware: str) -> str:
+    """Return the key of the statuses with a hardware_id that belong to no part of the model."""
+    return f"{_OUTSIDE}{hardware}"
+
+
+def part_of(status: str, parts: Iterable[str]) -> str:
+    """Return the part that a status on /diagnostics belongs to, by its name; empty: to none of `parts`.
+
+    The name is that of the part, or begins with it and a colon, as diagnostic_updater writes it.
+    """
+    name = status.lstrip("/")
+    return next((part for part in parts if name == part or name.startswith(f"{part}:")), "")
+
+
 def is_named(name: str, names: Iterable[str]) -> bool:
     """Return whether a status has one of these names; `motor*` is each name that begins with motor."""
     return any(name.startswith(n[:-1]) if n.endswith("*") else name == n for n in names)
@@ -112,12 +134,15 @@ def is_named(name: str, names: Iterable[str]) -> bool:
 class RuleDiagnostics:
     """What a rule wants of the statuses of its node: one of `names` (none: any of all) with one of `levels`.
 
+    With `hardware` it wants that of statuses of no part, which have this hardware_id; `board*` and `*` are patterns.
+
     `warn` is also fulfilled by ERROR, as an error is worse; `stale` by nothing else. `span` is the place of the levels.
     """
 
     levels: tuple[str, ...]
     names: tuple[Named, ...]
     span: Span
+    hardware: str = ""
 
     @property
     def patterns(self) -> tuple[str, ...]:
@@ -128,21 +153,39 @@ class RuleDiagnostics:
         """Return whether a status `name` (without the node's) with this level fulfills it."""
         return any(level in _AT_LEAST[own] for own in self.levels) and is_named(name, self.patterns)
 
-    def first(self, statuses: Mapping[str, str]) -> str:
-        """Return the first status that fulfills it, as `name: level`; empty: none does."""
-        found = ((name, level) for name, level in statuses.items() if self.covers(name, level))
-        return next((f"{name}: {level}" if name else level for name, level in found), "")
+    def is_about(self, key: str, name: str) -> bool:
+        """Return whether a status `name` of no part, with a key as `outside` writes it, is one of those it wants."""
+        is_meant = key.startswith(_OUTSIDE) and is_named(key[len(_OUTSIDE) :], (self.hardware,))
+        return is_meant and is_named(name, self.patterns)
+
+    def first(self, node: str, reported: Reported) -> str:
+        """Return the first status that fulfills it, as `node: name: level`, or `name: level`; empty: none does."""
+        if not self.hardware:
+            own = reported.get(node, {})
+            found = ((name, level) for name, level in own.items() if self.covers(name, level))
+            return next(
+                (f"{node}: {name}: {level}" if name else f"{node}: {level}" for name, level in found), ""
+            )
+        others = (
+            f"{name}: {level}"
+            for key, statuses in reported.items()
+            for name, level in statuses.items()
+            if self.is_about(key, name) and self.covers(name, level)
+        )
+        return next(others, "")
 
     def __str__(self) -> str:
         names = ", ".join(named.name for named in self.names)
-        return f"{names or 'any status'}: {' or '.join(self.levels)}"
+        of = f" of hardware {self.hardware}" if self.hardware else ""
+        return f"{names or 'any status'}{of}: {' or '.join(self.levels)}"
 
 
 @dataclass(frozen=True)
 class Rule:
     """If a system with the target `if_target` is not in it, and `if_part` is in `if_status`, its target changes.
 
-    With `diagnostics` it also changes while the system is in its target, and only if these hold of the part.
+    With `diagnostics` it also changes while the system is in its target, and only if these hold: of the part, or of
+    what is no part.
 
     It changes back when the part `recover_part` is in one of `recover_statuses`, and `diagnostics` hold no longer;
     without statuses it does not.
@@ -165,8 +208,8 @@ class Rule:
         return bool(self.cause(reported)) if self.diagnostics is not None else not is_reached
 
     def cause(self, reported: Reported) -> str:
-        """Return the status on /diagnostics that lets it apply, as `name: level`; empty: none does."""
-        return self.diagnostics.first(reported.get(self.if_part, {})) if self.diagnostics is not None else ""
+        """Return the status on /diagnostics that lets it apply, as RuleDiagnostics.first; empty: none does."""
+        return self.diagnostics.first(self.if_part, reported) if self.diagnostics is not None else ""
 
     def recovers(self, statuses: Mapping[str, Status], reported: Reported) -> bool:
         """Return whether the rule, which was applied, is undone; `statuses` are those of the parts of its system."""

@@ -49,10 +49,13 @@ def parse_levels(
 
 
 def parse_levels_and_names(
-    node: MappingNode, owner: str, diagnostics: Diagnostics
+    node: MappingNode, owner: str, diagnostics: Diagnostics, others: tuple[str, ...] = ()
 ) -> tuple[tuple[str, ...], tuple[Named, ...]]:
-    """Return `level` and `names` of the diagnostics of a node or rule; what is wrong with them is reported."""
-    check_keys(node, ("level", "names"), ("level",), diagnostics)
+    """Return `level` and `names` of the diagnostics of a node or rule; what is wrong with them is reported.
+
+    `others` are keys that can be there, too.
+    """
+    check_keys(node, ("level", "names", *others), ("level",), diagnostics)
     levels = tuple(_texts(node, "level", owner, "warn, or [warn, stale]", diagnostics))
     for level in levels:
         if level.name not in LEVELS:
@@ -61,16 +64,21 @@ def parse_levels_and_names(
             diagnostics.error(message, level.span, hint, id="MG-8882")
     names = tuple(_texts(node, "names", owner, "[battery]", diagnostics))
     for i, named in enumerate(names):
-        if "*" in named.name[:-1]:
-            message = f"'{named.name}' has a '*' that is not at its end"
-            hint = f"Write '{named.name.partition('*')[0]}*', or the whole name"
-            diagnostics.error(message, named.span, hint, id="MG-9830")
+        check_pattern(named, diagnostics)
         _check_repeated(
             named, (*names[:i], *(n for n in names[i + 1 :] if n.name != named.name)), diagnostics
         )
     for i, level in enumerate(levels):
         _check_repeated(level, levels[:i], diagnostics)
     return tuple(level.name for level in levels if level.name in LEVELS), names
+
+
+def check_pattern(named: Named, diagnostics: Diagnostics) -> None:
+    """Report a `*` that is not the last character."""
+    if "*" in named.name[:-1]:
+        message = f"'{named.name}' has a '*' that is not at its end"
+        hint = f"Write '{named.name.partition('*')[0]}*', or the whole name"
+        diagnostics.error(message, named.span, hint, id="MG-9830")
 
 
 def check_published(

@@ -97,7 +97,8 @@ def _lines(part: Part) -> Iterator[tuple[str, str]]:
         yield "rule", f"{rule.if_target} → {rule.new_target}"
         yield "rule", f"  if {rule.if_part} is {rule.if_status}"
         if rule.diagnostics is not None:
-            yield "rule", f"  and reports {rule.diagnostics}"
+            verb = "there is" if rule.diagnostics.hardware else "reports"
+            yield "rule", f"  and {verb} {rule.diagnostics}"
         if rule.recover_part:
             yield (
                 "rule",

@@ -3,14 +3,15 @@
 
 A status has any level at any time, and rules know statuses by their names. Names of a pattern (`motor*`) are all alike
 unless another pattern, or a name, is among them. So one name for each pattern, which nothing else is like, and all
-names of the file say everything that there can be.
+names of the file say everything that there can be. The same holds for the hardware of statuses of no part.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from itertools import product
 
-from microros_gen.modes.model import ERROR_LEVEL, STALE_LEVEL, WARN_LEVEL, Part, Rule
+from microros_gen.modes.model import ERROR_LEVEL, STALE_LEVEL, WARN_LEVEL, Part, Rule, outside
 from microros_gen.records import dataclass
 
 _LEVELS = (WARN_LEVEL, ERROR_LEVEL, STALE_LEVEL)
@@ -41,7 +42,11 @@ class Report:
 
 def reports_of(node: Part, rules: Iterable[Rule]) -> Mapping[Report, tuple[Diagnosis, ...]]:
     """Return what a node can report to the rules of its system, each with the fewest statuses that this takes."""
-    wanted = [(i, r.diagnostics) for i, r in enumerate(rules) if r.diagnostics and r.if_part == node.name]
+    wanted = [
+        (i, r.diagnostics)
+        for i, r in enumerate(rules)
+        if r.diagnostics and not r.diagnostics.hardware and r.if_part == node.name
+    ]
     found: dict[Report, tuple[Diagnosis, ...]] = {Report(): ()}
     if not wanted:
         return found
@@ -55,4 +60,23 @@ def reports_of(node: Part, rules: Iterable[Rule]) -> Mapping[Report, tuple[Diagn
                 known = found.get(after)
                 if known is None or len(statuses) + 1 < len(known):
                     found[after] = (*statuses, Diagnosis(name, level))
+    return found
+
+
+def outside_reports(rules: Iterable[Rule]) -> Mapping[int, tuple[tuple[str, Diagnosis], ...]]:
+    """Return what the statuses of no part can say to the rules of a system: which rules have those that they want.
+
+    A bit for each rule by its index; each with the fewest statuses that this takes, by the keys of `outside`.
+    """
+    wanted = [(i, r.diagnostics) for i, r in enumerate(rules) if r.diagnostics and r.diagnostics.hardware]
+    hardware = dict.fromkeys(diagnostics.hardware for _, diagnostics in wanted)
+    names = dict.fromkeys(pattern for _, diagnostics in wanted for pattern in diagnostics.patterns)
+    found: dict[int, tuple[tuple[str, Diagnosis], ...]] = {0: ()}
+    for key, name in product(map(outside, hardware), names):
+        about = [(i, diagnostics) for i, diagnostics in wanted if diagnostics.is_about(key, name)]
+        for held, statuses in tuple(found.items()):
+            for level in _LEVELS:
+                after = held | sum(1 << i for i, diagnostics in about if diagnostics.covers(name, level))
+                if len(statuses) + 1 < len(found.get(after, range(len(statuses) + 2))):
+                    found[after] = (*statuses, (key, Diagnosis(name, level)))
     return found

@@ -11,6 +11,7 @@
 - {at: 10 s, silence: drive_base}
 - {at: 11 s, leave: drive_base}
 - {at: 12 s, diagnose: manipulator, level: warn, name: motor}
+- {at: 13 s, hardware: battery, level: warn, name: cell 1}
 """
 
 from __future__ import annotations
@@ -34,6 +35,7 @@ from microros_gen.records import dataclass
 
 REQUEST, FAIL, REPAIR, CHANGE = "request", "fail", "repair", "change"
 DELAY, REFUSE, SILENCE, LEAVE, DIAGNOSE = "delay", "refuse", "silence", "leave", "diagnose"
+HARDWARE = "hardware"
 DIAGNOSED = ("ok", *LEVELS)
 """Levels of /diagnostics, by their numbers there."""
 CALLS = ("configure", "cleanup", "activate", "deactivate", "change_mode", "set_parameters")
@@ -48,6 +50,7 @@ _KEYS: Mapping[str, tuple[str, ...]] = {
     SILENCE: (),
     LEAVE: (),
     DIAGNOSE: ("level", "name"),
+    HARDWARE: ("level", "name"),
 }
 _DETAILS = frozenset(key for keys in _KEYS.values() for key in keys)
 
@@ -59,7 +62,7 @@ class Event:
     `status` is the target of a request and the state of a failure or change; None: a change of `parameters`.
     `delay_us` is how long a node takes for a response from then on. `calls` are those that are
     late, none: all, or that a node refuses, for `reason`. `level` is what /diagnostics has of a node from then on, for
-    its status `name`.
+    its status `name`; of the kind HARDWARE, `part` is no part but a hardware_id.
     """
 
     time_us: int
@@ -131,6 +134,9 @@ def _event(item: YamlNode, model: Model, diagnostics: Diagnostics) -> Event | No
     kind = kinds[0]
     check_keys(node, ("at", kind, *_KEYS[kind]), ("at",), diagnostics)
     time_us = _time(node, "at", diagnostics)
+    if kind == HARDWARE:
+        hardware = read_text(node, HARDWARE, diagnostics)
+        return None if time_us is None else _diagnosis(Event(time_us, kind, hardware), node, diagnostics)
     part = _part(node.entries[kind].value, kind, model, diagnostics)
     if part is None or time_us is None:
         return None

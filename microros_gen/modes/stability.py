@@ -9,7 +9,7 @@ from math import prod
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Severity
 from microros_gen.modes.alike import alike_modes, with_inferred
 from microros_gen.modes.behavior import Failures, Oscillation, Settled, failure_states, settle_all
-from microros_gen.modes.manager import Manager, Step
+from microros_gen.modes.manager import OSCILLATES, Manager, Step
 from microros_gen.modes.model import Model, Status
 from microros_gen.modes.report import OPEN, PROVEN, REFUTED, Property
 from microros_gen.modes.reports import Diagnosis
@@ -26,8 +26,9 @@ def check_stability(model: Model, settled: Settled, most: int, diagnostics: Diag
     `settled` is what `settle_all` returns of the model.
     """
     inferred = settle_all(model, most, with_inferred) if any(map(alike_modes, model.nodes)) else settled
+    certain = [found for found in settled.oscillations if _is_possible(model, found)]
     for oscillation in settled.oscillations:
-        diagnostics.add(_oscillation(model, oscillation))
+        diagnostics.add((_oscillation if oscillation in certain else _possible)(model, oscillation))
     for name in inferred.open:
         message = f"not proven for '{name}': more than {most} different combinations of failures"
         hint = "Raise --limit, or split the system"
@@ -35,7 +36,8 @@ def check_stability(model: Model, settled: Settled, most: int, diagnostics: Diag
         diagnostics.add(Diagnostic(message, span, hint, Severity.WARNING, id="MG-8845"))
     vague = [] if settled.oscillations else [_undecided(model, found) for found in inferred.oscillations]
     diagnostics.extend(vague)
-    result = REFUTED if settled.oscillations else OPEN if inferred.open or vague else PROVEN
+    is_open = bool(settled.oscillations or inferred.open or vague)
+    result = REFUTED if certain else OPEN if is_open else PROVEN
     count = prod(1 + len(failure_states(node)) for node in model.nodes)
     rules = [rule for part in model.parts.values() for rule in part.rules]
     diagnosed = sum(rule.diagnostics is not None for rule in rules)
@@ -52,6 +54,28 @@ def _undecided(model: Model, found: Oscillation) -> Diagnostic:
     block = tuple(f"  {_fault(*failure)}" for failure in found.failures)
     span = model.parts[found.system].span
     return Diagnostic(message, span, hint, Severity.WARNING, block=block, id="MG-8847")
+
+
+def _is_possible(model: Model, found: Oscillation) -> bool:
+    """Return whether the failures that were found let rules oscillate.
+
+    With rules of several systems on statuses of no part they may not: each system was taken for itself, and two of them
+    may have been given different levels of one status.
+    """
+    wanting = [s for s in model.systems if any(r.diagnostics and r.diagnostics.hardware for r in s.rules)]
+    return len(wanting) < 2 or any(
+        line.startswith(OSCILLATES) for line in trace(model, found.failures, found.system, found.request)
+    )
+
+
+def _possible(model: Model, found: Oscillation) -> Diagnostic:
+    """Return a warning: rules oscillate if two systems see different levels of one status."""
+    rules = ", ".join(f"'{name}'" for name in found.rules)
+    message = f"not proven for '{found.system}': its rules {rules} end, as other systems have rules on such statuses"
+    hint = "Let only one system have rules with 'hardware'"
+    block = tuple(f"  {_fault(*failure)}" for failure in found.failures)
+    span = model.parts[found.system].span
+    return Diagnostic(message, span, hint, Severity.WARNING, block=block, id="MG-9838")
 
 
 def _oscillation(model: Model, found: Oscillation) -> Diagnostic:

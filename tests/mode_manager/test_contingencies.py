@@ -141,13 +141,13 @@ def test_a_rule_decides_on_the_mode_and_on_the_error() -> None:
     assert (world.manager.rules, world.status("cell")) == ({"cell": "degrade"}, "active.CAREFUL")
     assert not [c for c in world.commands() if c == "device change_mode SAFE"]
     world = cell(rule("errorprocessing", "CAREFUL"))
-    world.manager.hear_problem("device", "battery: low")
+    world.manager.diagnosed.observe("device", "battery: low")
     react(world)
     world.let(3)
     assert str(world.manager.targets["cell"]) == "active.CAREFUL"
     assert world.status("lamp") == "active.__DEFAULT__"
     assert world.nodes["device"].mode == "SAFE"
-    world.manager.hear_problem("device", "")
+    world.manager.diagnosed.observe("device", "")
     world.let(1)
     assert world.status("cell") == "active.CAREFUL"
 
@@ -159,7 +159,7 @@ def test_a_rule_for_other_parts_does_not_command_the_device_again(error_first: b
     first = len(world.sent)
     for step in ("error", "reaction") if error_first else ("reaction", "error"):
         if step == "error":
-            world.manager.hear_problem("device", "battery: low")
+            world.manager.diagnosed.observe("device", "battery: low")
         else:
             react(world)
         world.let(0.3)
@@ -237,7 +237,7 @@ def test_an_undeclared_mode_counts_only_with_an_error() -> None:
     assert world.nodes["device"].mode == "FAST", "others changed it"
     assert "device: it went to active.SAFE by itself" not in world.log
     first = len(world.sent)
-    world.manager.hear_problem("device", "battery: low")
+    world.manager.diagnosed.observe("device", "battery: low")
     react(world)
     world.let(20)
     assert world.commands(first) == []

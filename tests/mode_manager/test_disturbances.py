@@ -217,12 +217,12 @@ def test_a_reported_error_degrades_and_does_not_stop_commands() -> None:
     text = ARM.replace("[gripper, inactive]", "[gripper, errorprocessing]")
     world = World(model_of(text), {"gripper": Node(), "joint": Node()})
     world.request("arm", QUICK)
-    world.manager.hear_problem("gripper", "motor too hot")
+    world.manager.diagnosed.observe("gripper", "motor too hot")
     world.let(2)
     assert world.nodes["gripper"].state == "inactive"
     assert str(world.manager.targets["arm"]) == "active.__DEFAULT__"
     assert world.status("arm") == "errorprocessing"
-    world.manager.hear_problem("gripper", "")
+    world.manager.diagnosed.observe("gripper", "")
     world.let(1)
     assert world.status("arm") == "active.__DEFAULT__"
 

@@ -72,11 +72,11 @@ def targets(world: World) -> str:
 def test_the_system_returns_when_the_failed_part_is_well() -> None:
     """Its error is over, and the manager commands it again; simulation and proof end in the same."""
     arm = world()
-    arm.manager.hear_problem("p", "motor: hot")
+    arm.manager.diagnosed.observe("p", "motor: hot")
     arm.let(5)
     assert (targets(arm), arm.manager.rules) == ("active.LIMP", {"arm": "degrade"})
     assert (arm.nodes["p"].state, arm.nodes["q"].values) == ("inactive", {"w": 0})
-    arm.manager.hear_problem("p", "")
+    arm.manager.diagnosed.observe("p", "")
     arm.let(5)
     assert (arm.status("arm"), dict(arm.manager.rules)) == ("active.__DEFAULT__", {})
     assert (arm.nodes["p"].state, arm.nodes["q"].values) == ("active", {"w": 1})
@@ -101,15 +101,15 @@ def test_the_system_returns_when_the_failed_part_is_well() -> None:
 
 def test_two_failures_recover_one_after_another() -> None:
     arm = world()
-    arm.manager.hear_problem("p", "motor: hot")
+    arm.manager.diagnosed.observe("p", "motor: hot")
     arm.let(3)
-    arm.manager.hear_problem("q", "motor: hot")
+    arm.manager.diagnosed.observe("q", "motor: hot")
     arm.let(3)
     assert targets(arm) == "active.STOP"
-    arm.manager.hear_problem("p", "")
+    arm.manager.diagnosed.observe("p", "")
     arm.let(3)
     assert targets(arm) == "active.STOP", "only the last rule can be over"
-    arm.manager.hear_problem("q", "")
+    arm.manager.diagnosed.observe("q", "")
     arm.let(5)
     assert arm.status("arm") == "active.__DEFAULT__"
 
@@ -121,10 +121,10 @@ def test_a_requested_mode_is_not_left() -> None:
     arm.let(10)
     assert arm.status("arm") == "active.LIMP"
     arm.request("arm", active())
-    arm.manager.hear_problem("p", "motor: hot")
+    arm.manager.diagnosed.observe("p", "motor: hot")
     arm.let(5)
     arm.request("arm", active("LIMP"))
-    arm.manager.hear_problem("p", "")
+    arm.manager.diagnosed.observe("p", "")
     arm.let(5)
     assert arm.status("arm") == "active.LIMP"
     arm.start()
@@ -136,9 +136,9 @@ def test_a_part_that_is_on_its_way_is_waited_for() -> None:
     """It answers slowly: the system returns when all parts have arrived."""
     arm = world()
     arm.nodes["q"].delay_s = 3.0
-    arm.manager.hear_problem("p", "motor: hot")
+    arm.manager.diagnosed.observe("p", "motor: hot")
     arm.let(1)
-    arm.manager.hear_problem("p", "")
+    arm.manager.diagnosed.observe("p", "")
     arm.let(1)
     assert targets(arm) == "active.LIMP"
     arm.let(15)
@@ -149,7 +149,7 @@ def test_a_part_that_fails_again_and_again_ends_degraded() -> None:
     """It has an error whenever it is active: three times in a minute the system returns, then it stays."""
     arm = world()
     for _ in range(12):
-        arm.manager.hear_problem("p", "motor: hot" if arm.nodes["p"].state == "active" else "")
+        arm.manager.diagnosed.observe("p", "motor: hot" if arm.nodes["p"].state == "active" else "")
         arm.let(3)
     assert targets(arm) == "active.LIMP"
     assert "arm: it recovered again and again, and stays so until the next request" in arm.log
@@ -161,10 +161,10 @@ def test_a_part_that_fails_again_and_again_ends_degraded() -> None:
 def test_failures_on_many_days_do_not_count_as_an_oscillation() -> None:
     arm = world()
     for _ in range(12):
-        arm.manager.hear_problem("p", "motor: hot")
+        arm.manager.diagnosed.observe("p", "motor: hot")
         arm.let(40)
         assert targets(arm) == "active.LIMP"
-        arm.manager.hear_problem("p", "")
+        arm.manager.diagnosed.observe("p", "")
         arm.let(40)
         assert arm.status("arm") == "active.__DEFAULT__"
     assert not arm.manager.oscillating
@@ -199,13 +199,13 @@ def test_a_device_that_reacts_to_its_error_is_commanded_when_that_is_over() -> N
     arm.let(3)
     arm.request("arm", active())
     first = len(arm.sent)
-    arm.manager.hear_problem("p", "battery: low")
+    arm.manager.diagnosed.observe("p", "battery: low")
     device.mode = "SAFE"
     arm.manager.hear_mode("p", "SAFE")
     arm.let(10)
     assert targets(arm) == "active.LIMP"
     assert not [call for _, call in arm.sent[first:] if call.part == "p"]
-    arm.manager.hear_problem("p", "")
+    arm.manager.diagnosed.observe("p", "")
     arm.let(5)
     assert (device.mode, arm.status("arm")) == ("__DEFAULT__", "active.__DEFAULT__")
     assert [call.kind for _, call in arm.sent[first:] if call.part == "p"] == [Kind.CHANGE_MODE]

@@ -31,7 +31,13 @@ from tests.support.modes.oracle import (
     reached_in_time,
     settle,
 )
-from tests.support.modes.random_models import REPORTED, diagnosed_models, plain_models
+from tests.support.modes.random_models import (
+    HARDWARE,
+    REPORTED,
+    diagnosed_models,
+    outside_models,
+    plain_models,
+)
 
 _FEW = settings(max_examples=examples(40), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 
@@ -114,6 +120,83 @@ def test_the_proof_finds_exactly_the_oscillations_with_diagnostics(plain: PlainM
     for oscillation in found[:1]:
         lines = trace(model, oscillation.failures, oscillation.system, oscillation.request)
         assert "oscillates: " in "\n".join(lines), lines
+
+
+def outside_levels() -> Iterator[dict[str, dict[str, str]]]:
+    """Yield every level of every status of no part that can tell rules apart."""
+    names = ("heat", "he")
+    for chosen in product(("ok", "warn", "error", "stale"), repeat=len(names) * len(HARDWARE)):
+        each = iter(chosen)
+        yield {f"hardware {hardware}": {name: next(each) for name in names} for hardware in HARDWARE}
+
+
+def oscillating_outside(plain: PlainModel) -> set[str]:
+    """Return the lowest system whose rules never end, for some failures and levels of what is no part."""
+    for name, system in plain.systems.items():
+        for levels, failures, target in product(outside_levels(), plain.failures(), system.targets):
+            try:
+                settle(plain, name, target, failures, None, levels)
+            except OscillatesError as error:
+                return {str(error)}
+    return set()
+
+
+@settings(max_examples=examples(150), deadline=None, suppress_health_check=list(HealthCheck))
+@given(outside_models(systems=1))
+def test_the_proof_finds_exactly_the_oscillations_with_what_is_no_part(plain: PlainModel) -> None:
+    assume(len(plain.nodes) < 3 and any(r.wanted for s in plain.systems.values() for r in s.rules))
+    model = parsed(plain)
+    found = settle_all(model, MOST_COMBINATIONS).oscillations
+    assert {o.system for o in found[:1]} == oscillating_outside(plain)
+    for oscillation in found[:1]:
+        lines = trace(model, oscillation.failures, oscillation.system, oscillation.request)
+        assert "oscillates: " in "\n".join(lines), lines
+
+
+@settings(max_examples=examples(60), deadline=None, suppress_health_check=list(HealthCheck))
+@given(outside_models())
+def test_the_proof_misses_no_oscillation_where_two_systems_see_what_is_no_part(plain: PlainModel) -> None:
+    """It may find more, as each system is taken for itself; then it does not refute, but is open."""
+    assume(len(plain.nodes) < 3)
+    model, diagnostics = parsed(plain), Diagnostics()
+    settled = settle_all(model, MOST_COMBINATIONS)
+    tried = oscillating_outside(plain)
+    assert not tried or settled.oscillations
+    check_stability(model, settled, MOST_COMBINATIONS, diagnostics)
+    assert tried or "MG-8844" not in {d.id for d in diagnostics}
+
+
+@_FEW
+@given(outside_models(), st.data())
+def test_the_simulations_end_with_what_is_no_part_where_trying_ends(
+    plain: PlainModel, data: st.DataObject
+) -> None:
+    """That of the proof, and the decisions of the manager."""
+    model, top = parsed(plain), list(plain.systems)[-1]
+    levels = {
+        f"hardware {hardware}": {
+            n: data.draw(st.sampled_from(("ok", "warn", "error", "stale"))) for n in REPORTED
+        }
+        for hardware in HARDWARE
+    }
+    target = data.draw(st.sampled_from(plain.systems[top].targets))
+    try:
+        expected = settle(plain, top, target, {}, None, levels)
+    except OscillatesError:
+        return
+    manager = Manager(model)
+    for owner, statuses in levels.items():
+        for name, level in statuses.items():
+            list(manager.diagnose(owner, name, level))
+    assert "oscillation" not in [step.kind for step in manager.request(top, status(target))]
+    assert str(manager.statuses()[top]) == expected
+    events = [
+        Event(0, "hardware", owner.removeprefix("hardware "), level=level, name=name)
+        for owner, statuses in levels.items()
+        for name, level in statuses.items()
+    ]
+    played = simulate(model, [*events, Event(1, "request", top, status(target))])
+    assert str({end.part: end.status for end in played.ends}[top]) == expected, played.text()
 
 
 @_FEW

@@ -48,6 +48,7 @@ def test_a_rule_shows_which_diagnostics_it_wants() -> None:
     for keys, shown in (
         ("{level: [warn, stale], names: [heat, motor*]}", "and reports heat, motor*: warn or stale"),
         ("{level: warn}", "and reports any status: warn"),
+        ("{level: warn, hardware: b*, names: [cell]}", "and there is cell of hardware b*: warn"),
     ):
         text = changed(model_text("arm"), part, f"{part}        diagnostics: {keys}\n")
         assert shown in texts(draw(model_of(text)))

@@ -28,6 +28,32 @@ DIAGNOSED = [
     ("{level: warn, names: [heat, heat]}", "MG-9831", "heat]}", "'heat' is listed twice"),
     ("{level: warn, names: [heater, heat*]}", "MG-9831", "heater, heat*]}", "'heater' is among 'heat*'"),
     ("{level: warn, names: []}", "MG-9833", "[]}", "'names' of the diagnostics of 'without_joint' is empty"),
+    (
+        "{level: warn, hardware: ''}",
+        "MG-9836",
+        "''}",
+        "must be a hardware_id of another program. Write hardware: battery, or hardware: '*' for each",
+    ),
+    (
+        "{level: warn, hardware: 5}",
+        "MG-9836",
+        "5}",
+        "'hardware' of the diagnostics of 'without_joint' must be",
+    ),
+    ("{level: warn, hardware: mode manager}", "MG-9836", "mode manager}", "of another program"),
+    ("{level: warn, hardware: 'b*d'}", "MG-9830", "'b*d'}", "'b*d' has a '*' that is not at its end"),
+    (
+        "{level: warn, hardware: '*', names: ['joint: heat']}",
+        "MG-9837",
+        "'joint: heat']}",
+        "is a status of 'joint', which is a part: 'hardware' leaves it out. Remove hardware and write names: [heat]",
+    ),
+    (
+        "{level: warn, hardware: '*', names: ['arm:*']}",
+        "MG-9837",
+        "'arm:*']}",
+        "and write no names, in a rule on arm",
+    ),
     ("{level: error}", "MG-9835", "error}", "with these statuses 'joint' is in errorprocessing"),
 ]
 
@@ -261,6 +287,12 @@ def test_diagnostics_of_a_rule_are_those_of_a_node() -> None:
     _, found = parsed(changed(BASE, rule, f"{rule}        diagnostics: {{level: warn}}\n"))
     assert [d.id for d in found] == ["MG-9834"]
     assert "'base' is a system, and the rule 'stop' wants diagnostics of it" in found[0].headline()
+
+
+def test_what_is_no_part_can_be_wanted_with_a_system_too_and_is_no_error_of_a_node() -> None:
+    rule = "        if_part: [base, activating]\n"
+    wanted = "        diagnostics: {level: error, hardware: battery, names: [cell 1, pack*]}\n"
+    assert parsed(changed(BASE, rule, f"{rule}{wanted}"))[1] == []
 
 
 def test_a_level_that_is_an_error_of_the_node_as_well() -> None:

@@ -122,7 +122,7 @@ def events_of(peer: ParameterPeer, node: str, count: int) -> list[dict[str, Any]
 
 
 def _events_until(peer: ParameterPeer, node: str, names: list[str]) -> list[dict[str, Any]]:
-    """Return the event that changes these parameters at once, and what follows it; those of earlier sets can be late."""
+    """Return the event that changes these parameters at once, and what follows it; earlier ones can be late."""
     while True:
         found = events_of(peer, node, 1)
         for index, event in enumerate(found):

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 from itertools import combinations, product
 from types import MappingProxyType
 
@@ -88,8 +89,9 @@ class PlainModel:
                 yield f"        if_part: [{rule.part}, {rule.status}]"
                 yield f"        new_target: {rule.new_target}"
                 if rule.wanted:
-                    level, wanted = rule.wanted.split()
-                    yield f"        diagnostics: {{level: {level}, names: ['{wanted}']}}"
+                    level, wanted, *hardware = rule.wanted.split()
+                    of = f", hardware: '{hardware[0]}'" if hardware else ""
+                    yield f"        diagnostics: {{level: {level}, names: ['{wanted}']{of}}}"
                 if rule.recover:
                     yield f"        recover_if: [{', '.join(rule.recover.split())}]"
 
@@ -122,7 +124,7 @@ class OscillatesError(Exception):
 
 
 Levels = Mapping[str, Mapping[str, str]]
-"""Node → name of a status → its level."""
+"""Node, or `hardware ID` of what is no part → name of a status → its level."""
 
 
 def settle(
@@ -164,12 +166,15 @@ def settle(
 
 
 def _reports(rule: PlainRule, levels: Levels) -> bool:
-    """Return whether the node of a rule has the status that it wants."""
-    level, wanted = rule.wanted.split()
+    """Return whether the node of a rule, or what is no part, has the status that it wants."""
+    level, wanted, *hardware = rule.wanted.split()
     enough = {"warn": ("warn", "error")}.get(level, (level,))
+    owners = [f"hardware {hardware[0]}"] if hardware else [rule.part]
     return any(
-        own in enough and (name == wanted or (wanted.endswith("*") and name.startswith(wanted.rstrip("*"))))
-        for name, own in levels.get(rule.part, {}).items()
+        own in enough and fnmatchcase(name, wanted)
+        for owner, statuses in levels.items()
+        for name, own in statuses.items()
+        if any(fnmatchcase(owner, each) for each in owners)
     )
 
 

@@ -97,3 +97,41 @@ def _diagnosed(draw: st.DrawFn, rule: PlainRule, plain: PlainModel, system: Plai
 def _commanded(system: PlainSystem, target: str, part: str) -> str:
     command = system.modes.get(target.removeprefix("active."), {}).get(part, "inactive")
     return DEFAULT if command == "active" else command
+
+
+OTHERS = (
+    "warn heat board",
+    "warn he* board",
+    "stale heat *",
+    "error he* b*",
+    "warn heat b*",
+    "error heat board",
+)
+"""What rules want of what is no part: level, name and hardware."""
+HARDWARE = ("board", "b")
+
+
+@st.composite
+def outside_models(draw: st.DrawFn, systems: int = 2) -> PlainModel:
+    """Draw a small model with rules of which most want statuses of no part, in at most `systems` systems."""
+    plain = draw(plain_models())
+    chosen = draw(st.lists(st.sampled_from(sorted(plain.systems)), min_size=1, max_size=systems, unique=True))
+    found = {
+        name: replace(system, rules=tuple(draw(_outside(rule, system)) for rule in system.rules))
+        if name in chosen
+        else system
+        for name, system in plain.systems.items()
+    }
+    return replace(plain, systems=found)
+
+
+@st.composite
+def _outside(draw: st.DrawFn, rule: PlainRule, system: PlainSystem) -> PlainRule:
+    wanted = draw(st.sampled_from(("", *OTHERS)))
+    if not wanted:
+        return rule
+    status = draw(st.sampled_from((rule.status, *[_commanded(system, rule.if_target, rule.part)] * 3)))
+    recover = draw(
+        st.sampled_from((rule.recover, f"{rule.part} {_commanded(system, rule.new_target, rule.part)}"))
+    )
+    return replace(rule, wanted=wanted, status=status, recover=recover)
