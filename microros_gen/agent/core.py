@@ -20,7 +20,7 @@ from microros_gen.agent.fairness import Account, Fairness
 from microros_gen.agent.graph_work import GraphWork
 from microros_gen.agent.input_pool import InputPool
 from microros_gen.agent.limits import Limits
-from microros_gen.agent.liveliness import Verdict, ask, judge, say_farewell
+from microros_gen.agent.liveliness import Verdict, ask, is_well, judge, say_farewell
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.memory import MemoryGuard, Relief
@@ -182,8 +182,11 @@ class Agent:
         self._guarded(partial(self._processor.try_again, now))
         if now >= self._ticked + TICK_S:
             self._ticked = now
+            patience_s = self._patience_s()
             for client in self.clients:
-                self._guarded(partial(self._look_after, client, now))
+                # With a thousand clients this loop takes a part of the agent's time: most of them need nothing.
+                if client.asleep or not is_well(client, now, patience_s) or client.session.asks(now):
+                    self._guarded(partial(self._look_after, client, now))
 
     def care(self, now: float) -> None:
         """Check the memory of the process; to be called some ten times a second. Never raises."""

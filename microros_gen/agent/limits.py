@@ -3,7 +3,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from microros_gen.records import dataclass
+
+CLIENT_OBJECT_BYTES = 196_608
+"""Bytes of objects that each client adds to the default limits: a node, two writers and readers take less."""
 
 
 @dataclass(frozen=True)
@@ -78,3 +84,21 @@ class Limits:
 
 PROBES = 5
 """Number of probes of a silent client before its time-out ends."""
+
+
+def limits_with(chosen: Mapping[str, Any]) -> Limits:
+    """Return the limits with those that the user has chosen, by name.
+
+    With more clients than by default, the memory of their objects and that of the process are larger, unless the user
+    has chosen one of the two.
+    """
+    default = Limits()
+    more = chosen.get("clients", default.clients) - default.clients
+    if more <= 0 or "object_bytes" in chosen or "memory_bytes" in chosen:
+        return Limits(**chosen)
+    extra = more * CLIENT_OBJECT_BYTES
+    memory = {
+        "object_bytes": default.object_bytes + extra,
+        "memory_bytes": default.memory_bytes + extra,
+    }
+    return Limits(**{**chosen, **memory})

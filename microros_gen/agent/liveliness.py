@@ -49,6 +49,12 @@ def judge(client: Client, now: float, patience_s: float) -> Verdict:
     return Verdict.ASK if now - client.probed >= probe_after_s / (2 * PROBES) else Verdict.FINE
 
 
+def is_well(client: Client, now: float, patience_s: float) -> bool:
+    """Return whether an awake client has sent something lately: `judge` would have nothing to do for it."""
+    probe_after_s = min(client.timeout_s, patience_s)
+    return not client.probes and now - client.last_received <= probe_after_s / 2
+
+
 def ask(client: Client, now: float) -> None:
     """Send a probe, which every client answers."""
     client.probed = now

@@ -224,6 +224,10 @@ class Session:
         output = self._outputs.get(stream)
         return output.acknowledge(first, missing, now) if output else []
 
+    def asks(self, now: float) -> bool:
+        """Return whether a HEARTBEAT is due."""
+        return any(output.asks(now) for output in self._outputs.values())
+
     def heartbeats(self, now: float) -> list[bytes]:
         """Return the HEARTBEAT messages that are due."""
         due = (output.heartbeat(now) for output in self._outputs.values())

@@ -86,6 +86,10 @@ class BestEffortOut:
         """Ignore an ACKNACK, which has no meaning here."""
         return []
 
+    def asks(self, now: float) -> bool:
+        """Return whether a HEARTBEAT is due: never."""
+        return False
+
     def heartbeat(self, now: float) -> Heartbeat | None:
         """Return the HEARTBEAT that is due: none."""
         return None
@@ -243,9 +247,13 @@ class ReliableOut:
             self._again //= 2
         return part
 
+    def asks(self, now: float) -> bool:
+        """Return whether a HEARTBEAT is due at `now` (seconds, monotonic)."""
+        return bool(self._unacknowledged) and now >= self._heartbeat_at
+
     def heartbeat(self, now: float) -> Heartbeat | None:
         """Return the HEARTBEAT that is due at `now` (seconds, monotonic), if one is."""
-        if not self._unacknowledged or now < self._heartbeat_at:
+        if not self.asks(now):
             return None
         self._heartbeat_at = now + self._pause(now - self._progress_at)
         return self.probe()

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`make bench`: generate and build, encode and decode besides Fast CDR, instructions, parameters, life cycle, flash of
 types, firmware, whole images, images for an Arduino, the client, links of boards, tasks, the agent, the same
-under attack.
+with 1,000 clients and under attack.
 
 Times depend on the machine; so each stands besides a peer that ran in the same minutes. Instruction counts come
 from callgrind or QEMU and repeat exactly with one compiler.
@@ -17,6 +17,7 @@ from pathlib import Path
 
 from tests.bench.agent_attacks import bench_attacks
 from tests.bench.agent_bench import bench_agent
+from tests.bench.agent_fleet import bench_fleet
 from tests.bench.agent_sides import Target
 from tests.bench.avr import bench_avr
 from tests.bench.client import bench_client
@@ -48,6 +49,7 @@ PARTS = (
     "peer",
     "tasks",
     "agent",
+    "fleet",
     "attacks",
 )
 
@@ -96,6 +98,8 @@ def main() -> int:
             bench_tasks(work / "tasks")
         if "agent" in options.parts:
             bench_agent(work / "agent", Target(*options.agent) if options.agent else None)
+        if "fleet" in options.parts:
+            bench_fleet()
         if "attacks" in options.parts:
             bench_attacks()
     return 0

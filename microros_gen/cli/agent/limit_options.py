@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 import re
-from dataclasses import fields, replace
+from dataclasses import fields
 from typing import Any
 
 from microros_gen.agent.configuration.model import AgentFile
 from microros_gen.agent.configuration.parser import parse_agent_file
-from microros_gen.agent.limits import Limits
+from microros_gen.agent.limits import Limits, limits_with
 from microros_gen.diagnostics import Diagnostics, Source, nearest
 
 _VALUE = re.compile(r"[\w.+-]+")
@@ -29,7 +29,7 @@ def limits_of(file: AgentFile, options: dict[str, Any]) -> Limits:
         chosen["client_timeout_s"] = options["client_timeout"]
     if options["max_clients"] is not None:
         chosen["clients"] = options["max_clients"]
-    return replace(Limits(), **chosen)
+    return limits_with(chosen)
 
 
 def _limit(name: str, value: str, diagnostics: Diagnostics) -> float | None:
