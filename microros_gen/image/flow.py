@@ -9,9 +9,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from microros_gen.image.disassembly import functions_of
 from microros_gen.image.elf import Elf
+from microros_gen.image.sizes import PASSED, Line, sizes_before
 from microros_gen.records import dataclass
 
 
@@ -20,9 +22,9 @@ class Step:
     """An instruction. `next` may follow it in its function, after what it calls: the function at `call`, or one that a
     register holds (`through`). `returns`: the function may end here, after the call. `lost`: nobody knows what follows.
 
-    `size`: the third argument of the call where the instructions before it set a constant; `stored`: bytes by which
+    `size`: the third argument of the call where it is a constant; `stored`: bytes by which
     its stores move on. `tested`: the function whose result a jump tests for zero; then `next` has where it goes with
-    zero first.
+    zero first. `passes`: the third argument of the call is that of the function itself.
     """
 
     address: int
@@ -34,6 +36,7 @@ class Step:
     size: int | None = None
     stored: int = 0
     tested: int | None = None
+    passes: bool = False
 
 
 @dataclass(frozen=True)
@@ -49,16 +52,11 @@ class Flow:
     rounds: Mapping[int, int]
 
 
-Line = tuple[int, str, str]
-"""Address, mnemonic and operands of an instruction."""
-
 _TARGET = re.compile(r"(?:^|[\s,])(?:0x)?([0-9a-f]+) <([^>+]+)(?:\+0x[0-9a-f]+)?>")
 _CONDITION = "(?:eq|ne|cs|cc|mi|pl|vs|vc|hi|ls|ge|lt|gt|le|hs|lo)"
 _ARM_JUMP = re.compile(rf"^(b{_CONDITION}?|cbn?z)$")
 _ARM_RETURN = re.compile(rf"^(?:pop|ldmia|ldm|ldr|bx|mov){_CONDITION}?$")
 _ARM_LAST = re.compile(rf"^\w+{_CONDITION}$")
-_ARM_SIZE = re.compile(r"^r2, #(\d+)")
-_ARM_SETS = re.compile(r"^r2\b")
 _ARM_STORE = re.compile(r"\], #(\d+)")
 _RISCV_JUMP = re.compile(r"^b(?:eq|ne|lt|ge|gt|le)[uz]?z?$")
 _X86_JUMP = re.compile(r"^j(?!mp)\w+$")
@@ -80,9 +78,18 @@ def read_flows(text: str, image: Elf) -> Mapping[int, Flow]:
         for at, line in enumerate(within):
             after = within[at + 1][0] if at + 1 < len(within) else None
             steps[line[0]] = read(line, after, places, within[max(0, at - 8) : at], image)
+        if image.arm:
+            sizes = sizes_before(within, {a: step.next for a, step in steps.items()})
+            steps.update(
+                (a, _sized(steps[a], size)) for a, size in sizes.items() if steps[a].call is not None
+            )
         copies = dict(_copies(within)) if image.arm else {}
         found[address] = Flow(name, address, steps, copies)
     return found
+
+
+def _sized(step: Step, size: int) -> Step:
+    return replace(step, passes=True) if size == PASSED else replace(step, size=size)
 
 
 def _follow(after: int | None) -> tuple[int, ...]:
@@ -100,7 +107,6 @@ def _jump(
     after: int | None,
     places: frozenset[int],
     is_conditional: bool,
-    size: int | None = None,
     test: tuple[int, bool] | None = None,
 ) -> Step:
     """Return a jump: inside of the function, or to another one, which returns in its place.
@@ -114,19 +120,19 @@ def _jump(
         if test is not None and on:
             return Step(address, (to, *on) if test[1] else (*on, to), tested=test[0])
         return Step(address, (to, *on))
-    return Step(address, on, call=to, returns=True, size=size)
+    return Step(address, on, call=to, returns=True)
 
 
 def _arm(line: Line, after: int | None, places: frozenset[int], before: Sequence[Line], image: Elf) -> Step:
     address, mnemonic, operands = line
     word, on = mnemonic.split(".")[0], _follow(after)
     if word == "bl":
-        return Step(address, on, call=_target(operands), size=_size_of(before))
+        return Step(address, on, call=_target(operands))
     if word == "blx":
         return Step(address, on, through=True)
     if _ARM_JUMP.match(word):
         test = _test_of(before, word, operands)
-        return _jump(address, operands, after, places, word != "b", _size_of(before), test)
+        return _jump(address, operands, after, places, word != "b", test)
     if word in ("tbb", "tbh"):
         return Step(address, _table(address, word == "tbh", image, places))
     if _ARM_RETURN.match(word) and _loads_pc(word, operands):
@@ -194,18 +200,6 @@ def _copies(lines: Sequence[Line]) -> Iterator[tuple[int, int]]:
 def _constant(operands: str, pattern: str) -> int | None:
     match = re.match(pattern, operands)
     return int(match[1]) if match else None
-
-
-def _size_of(before: Sequence[Line]) -> int | None:
-    """Return the constant in the third argument of a call on Arm, where nothing may come between."""
-    for _, mnemonic, operands in reversed(before):
-        word = mnemonic.split(".")[0]
-        if word.startswith(("b", "cb", "it")) and not word.startswith(("bic", "bfi", "bfc")):
-            return None
-        if _ARM_SETS.match(operands) and not word.startswith(("cmp", "cmn", "tst", "str")):
-            match = _ARM_SIZE.match(operands)
-            return int(match[1]) if match and word in ("mov", "movs", "movw") else None
-    return None
 
 
 def _table(address: int, is_half: bool, image: Elf, places: frozenset[int]) -> tuple[int, ...]:

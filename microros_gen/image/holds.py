@@ -40,14 +40,15 @@ class Rules:
 
     `rounds`: the most rounds of a loop: by its function, where it is entered, its places, and the bytes that the
     function is told to handle (None: nobody knows). `through`: where the call through a register at an address goes;
-    None: nobody knows. `bytes`: those that a call is told to handle at most; None: nobody knows. `of_port`: what counts
-    for a function of the port, by its name and what was found. `zero`: functions that return zero at each call.
+    None: nobody knows. `bytes`: those that a call is told to handle at most, by what its function is told; None: nobody
+    knows. `of_port`: what counts for a function of the port, by its name and what was found.
+    `zero`: functions that return zero at each call.
     `calls`: in how many rounds of its loop a call is reached at most; None: in all of them.
     """
 
     rounds: Callable[[Flow, int, frozenset[int], int | None], Length]
     through: Callable[[int], frozenset[int] | None]
-    bytes: Callable[[Flow, Step], int | None]
+    bytes: Callable[[Flow, Step, int | None], int | None]
     of_port: Callable[[str, Length], Length]
     zero: frozenset[int] = frozenset()
     calls: Callable[[Flow, Step], int | None] = lambda flow, step: None
@@ -156,7 +157,7 @@ class Holds:
             return _Summary(
                 {after: NOTHING} if after else {}, released=NOTHING if depth == 1 else None, depths={after}
             )
-        key = (to, depth, self._rules.bytes(flow, step))
+        key = (to, depth, self._rules.bytes(flow, step, caller[2]))
         self._called.setdefault(caller, set()).add(key)
         return self._summary(*key)
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -15,10 +15,10 @@ from microros_gen.image.flow import Flow, Step, read_flows
 from microros_gen.image.folder import Folder
 from microros_gen.image.holds import Hold, Holds, Rules
 from microros_gen.image.lines import Lines
-from microros_gen.image.paths import Length
+from microros_gen.image.paths import Length, inner_parts
 from microros_gen.image.pointers import read_pointers
 from microros_gen.image.report import SizeReport
-from microros_gen.image.rounds import Sources
+from microros_gen.image.rounds import SIZE_OF, Sources
 from microros_gen.records import dataclass
 
 OF_SESSION = "rclc_tasks_run_session"
@@ -68,6 +68,7 @@ class _Image:
         self.names.update({a: flow.name for a, flow in self.flows.items() if a not in self.names})
         self._lines, self._port = Lines(image), port
         self._sources = Sources(_reader(folder), _headers(folder))
+        self._sized = self._functions_with_size(_sized_names(folder))
         self._targets = _targets(folder, image, self._functions, self.flows)
 
     def address(self, name: str) -> int | None:
@@ -83,12 +84,18 @@ class _Image:
             return Length(flow.rounds[head])
         if self._is_library(flow.address):
             return self._of_library(flow, part, size)
-        ends = [a for a in part if any(to not in part for to in flow.steps[a].next) or flow.steps[a].returns]
-        places = (self._lines.place(address) for address in ends)
-        rounds = self._sources.rounds(place for place in places if place is not None)
+        inner = inner_parts({a: flow.steps[a].next for a in part}, head)
+        own = part.difference(*inner)
+        ends = [self._places(_left(flow, each)) for each in (part, *inner)]
+        within = [place for each in ends[1:] for place in each]
+        rounds = self._sources.rounds(ends[0], self._places(own), within, (flow.name, size))
         if isinstance(rounds, int):
             return Length(rounds)
         return Length(1, frozenset({f"{flow.name}: a loop without a bound ({rounds})"}))
+
+    def _places(self, addresses: Iterable[int]) -> list[tuple[str, int]]:
+        places = map(self._lines.place, addresses)
+        return sorted({place for place in places if place is not None})
 
     def _of_library(self, flow: Flow, part: frozenset[int], size: int | None) -> Length:
         """Return the rounds of a loop of memcpy and the like: each stores a byte or more, of `size` at most."""
@@ -98,17 +105,26 @@ class _Image:
         stored = 0 if forks else sum(flow.steps[a].stored for a in part)
         return Length(size // max(stored, 1))
 
+    def _functions_with_size(self, names: frozenset[str]) -> frozenset[int]:
+        """Return the functions whose work depends on their third argument: of libraries, of `names`, and what hands
+        it on to those."""
+        found = {a for a, flow in self.flows.items() if flow.name in names or self._is_library(a)}
+        passing = {a: {s.call for s in flow.steps.values() if s.passes} for a, flow in self.flows.items()}
+        while more := {a for a, to in passing.items() if a not in found and not found.isdisjoint(to)}:
+            found |= more
+        return frozenset(found)
+
     def _is_library(self, address: int) -> bool:
         chunk = self._functions.get(address)
         return chunk is not None and chunk.owner.group in _LIBRARIES
 
-    def _bytes(self, flow: Flow, step: Step) -> int | None:
-        if step.call is None or not self._is_library(step.call):
+    def _bytes(self, flow: Flow, step: Step, size: int | None) -> int | None:
+        if step.call is None or step.call not in self._sized:
             return None
-        place = self._lines.place(step.address)
-        if step.size is not None or place is None:
-            return step.size
-        return self._sources.size(place)
+        if step.size is not None or (step.passes and size is not None):
+            return step.size if step.size is not None else size
+        place = self._lines.place(step.address) if self._is_library(step.call) else None
+        return self._sources.size(place) if place is not None else None
 
     def _calls(self, flow: Flow, step: Step) -> int | None:
         place = None if self._is_library(flow.address) else self._lines.place(step.address)
@@ -116,6 +132,11 @@ class _Image:
 
     def _of_port(self, name: str, length: Length) -> Length:
         return Length(self._port) if length.open and self._port is not None else length
+
+
+def _left(flow: Flow, part: frozenset[int]) -> list[int]:
+    """Return the instructions of a loop after which it may be over."""
+    return [a for a in part if any(to not in part for to in flow.steps[a].next) or flow.steps[a].returns]
 
 
 def _reader(folder: Folder) -> Any:
@@ -130,6 +151,14 @@ def _reader(folder: Folder) -> Any:
         return ""
 
     return read
+
+
+def _sized_names(folder: Folder) -> frozenset[str]:
+    """Return the functions of which a comment says that the rounds of a loop depend on their size."""
+    sources = (path for path in (folder.path / "src").rglob("*.c"))
+    return frozenset(
+        n for p in sources for n in SIZE_OF.findall(p.read_text(encoding="utf-8", errors="replace"))
+    )
 
 
 def _headers(folder: Folder) -> list[str]:

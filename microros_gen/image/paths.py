@@ -151,6 +151,13 @@ def _limited(part: frozenset[Node], within: Edges[Node], limits: Limits[Node]) -
     }
 
 
+def inner_parts(edges: Mapping[Node, Iterable[Node]], head: Node) -> Sequence[frozenset[Node]]:
+    """Return the loops within a loop that is entered at `head`; `edges` are those of all of its places."""
+    within = {n: {to: NOTHING for to in after if to in edges and to != head} for n, after in edges.items()}
+    found = _parts(set(edges), within)
+    return [frozenset(part) for part in found if len(part) > 1 or part[0] in within[part[0]]]
+
+
 def _parts(nodes: set[Node], edges: Edges[Node]) -> Sequence[tuple[Node, ...]]:
     """Return the strongly connected parts in an order in which edges lead (Kosaraju)."""
     order: list[Node] = []

@@ -3,8 +3,9 @@
 
 A loop says it itself, as in `for (i = 0; i < MICROROS_TASKS; ++i)`, or a comment does, at its line or on a separate
 one before it: `/* at most MICROROS_TASKS rounds */`, and for a call `/* at most MICROROS_MTU bytes */`. Numbers are
-constants of the output, with `+ - * /` and parentheses; of `A or B` the first that the output has. Where few of the
-rounds of a loop reach a call, a comment at it says so: `/* at most MICROROS_MTU / 12 calls */`.
+constants of the output, with `+ - * /` and parentheses; of `A or B` the first that the output has. `size of NAME` is
+the third argument of that function, where its caller has a constant. Where few of the rounds of a loop reach a call, a
+comment at it says so: `/* at most MICROROS_MTU / 12 calls */`.
 """
 
 from __future__ import annotations
@@ -24,7 +25,15 @@ _ENUM = re.compile(r"\benum\b[^{;()]*\{([^}]*)\}")
 _CAST = re.compile(r"\(\s*(?:u?int(?:8|16|32|64)_t|size_t)\s*\)")
 _NUMBER = re.compile(r"\b(0[xX][0-9a-fA-F]+|\d+)[uUlL]*\b")
 _TOKEN = re.compile(r"\s*(\d+|\w+|[-+*/()])")
+_FUNCTION = re.compile(r"^\w[^;{}=()]*?\b(\w+)\([^;{}]*\)\s*\{", re.MULTILINE)
+_ENDLESS = (";;", "true", "1")
 _DEEPEST = 16
+
+Place = tuple[str, int]
+"""A source file and a line of it; of a loop, its first one."""
+Function = tuple[str, int | None]
+"""A function of the code, and its third argument where that is known."""
+SIZE_OF = re.compile(r"\bsize of (\w+)")
 
 
 @dataclass(frozen=True)
@@ -47,6 +56,13 @@ class Source:
         self.plain = blank
         self.loops = tuple(_loops(blank))
         self.constants = read_constants(blank)
+        self._functions = tuple(
+            (blank.count("\n", 0, found.start()) + 1, found[1]) for found in _FUNCTION.finditer(blank)
+        )
+
+    def function(self, line: int) -> str:
+        """Return the function that a line is in, the one before it outside of all; empty: before the first one."""
+        return next((name for first, name in reversed(self._functions) if first <= line), "")
 
     def innermost(self, line: int) -> Loop | None:
         """Return the innermost loop that a line is in, or None."""
@@ -180,21 +196,54 @@ class Sources:
         for text in headers:
             self._constants.update(read_constants(_blanked(text)))
 
-    def rounds(self, places: Iterable[tuple[str, int]]) -> int | str:
-        """Return the most rounds of a loop whose edges are from these lines, or why nobody knows.
+    def rounds(
+        self,
+        ends: Iterable[Place],
+        own: Iterable[Place] = (),
+        inner: Iterable[Place] = (),
+        function: Function = ("", None),
+    ) -> int | str:
+        """Return the most rounds of a loop of the code of `function`, or why nobody knows.
 
-        Each may be of a function within the loop: then the largest number of all the loops that they are in counts.
+        `ends` are the lines where it is left, `own` its lines but those of loops within it, and `inner` the lines where
+        these are left; each may be of a function that was inlined. The compiler makes one loop of two where the outer
+        one begins with the inner one: then the numbers of both are multiplied.
         """
-        most, why = None, "no line of a source"
-        for name, line in sorted(set(places)):
-            loop = self._source(name).innermost(line)
-            if loop is None:
-                continue
-            rounds = self._of(name, loop)
+        left, within = self._loops_of(ends), self._loops_of(inner)
+        if not left:
+            return "no line of a source"
+        merged = {
+            place: loop
+            for place, loop in self._loops_of(own).items()
+            if place not in within and self._is_part((place, loop), left, function[0])
+        }
+        merged.update(
+            (place, loop)
+            for place, loop in left.items()
+            if not any(_encloses(other, (place, loop)) for other in merged.items())
+        )
+        most = 1
+        for place, loop in sorted({**left, **merged}.items(), key=lambda item: item[0]):
+            rounds = self._of(place[0], loop, function)
             if rounds is None:
-                return f"{_short(name)}:{loop.first}"
-            most = max(most or 0, rounds)
-        return why if most is None else most
+                return f"{_short(place[0])}:{loop.first}"
+            most = most * rounds if place in merged else max(most, rounds)
+        return most
+
+    def _is_part(self, found: tuple[Place, Loop], left: Mapping[Place, Loop], function: str) -> bool:
+        """Return whether a loop may be one with those of `left`: those also have instructions of outer loops."""
+        (name, first), loop = found
+        if (name, first) in left or " ".join(loop.head.split()) in _ENDLESS:
+            return True
+        if any(_encloses(other, found) for other in left.items()):
+            return True
+        if any(_encloses(found, other) for other in left.items()):
+            return False
+        return self._source(name).function(first) != function.partition(".")[0]
+
+    def _loops_of(self, places: Iterable[Place]) -> dict[Place, Loop]:
+        loops = ((name, self._source(name).innermost(line)) for name, line in set(places))
+        return {(name, loop.first): loop for name, loop in loops if loop is not None}
 
     def size(self, place: tuple[str, int]) -> int | None:
         """Return the most bytes that a call handles, or None."""
@@ -206,15 +255,17 @@ class Sources:
         statement = self._source(place[0]).stated(place[1], "calls")
         return self._value(place[0], statement) if statement is not None else None
 
-    def _value(self, name: str, statement: str) -> int | None:
+    def _value(self, name: str, statement: str, function: Function = ("", None)) -> int | None:
         """Return the first of alternatives that this output has."""
+        if function[1] is not None:
+            statement = re.sub(rf"\bsize of {re.escape(function[0])}\b", str(function[1]), statement)
         values = (value_of(part, self._all(name)) for part in statement.split(" or "))
         return next((value for value in values if value is not None), None)
 
-    def _of(self, file: str, loop: Loop) -> int | None:
+    def _of(self, file: str, loop: Loop, function: Function = ("", None)) -> int | None:
         statement = self._source(file).stated(loop.first, "rounds")
         if statement is not None:
-            return self._value(file, statement)
+            return self._value(file, statement, function)
         match = _COUNTED.match(" ".join(loop.head.split()))
         if not match or not match[1] == match[2] == (match[4] or match[5]):
             return None
@@ -224,6 +275,14 @@ class Sources:
 
     def _all(self, name: str) -> Mapping[str, str]:
         return {**self._constants, **self._source(name).constants}
+
+
+def _encloses(outer: tuple[Place, Loop], inner: tuple[Place, Loop]) -> bool:
+    """Return whether a loop is within another one of the same source."""
+    ((name, _), around), ((other, _), within) = outer, inner
+    return (
+        name == other and around is not within and around.first <= within.first and within.last <= around.last
+    )
 
 
 def _short(name: str) -> str:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -14,44 +14,19 @@ from typing import Any
 import pytest
 import yaml
 
-from microros_gen.diagnostics import Diagnostics
-from microros_gen.platform.find import read_target
-from tests.support.firmware.board import C_FILES, Built, board, build, need, target
-from tests.support.firmware.footprint import AGENT_FUNCTIONS, EXIT, INTERRUPTS
-from tests.support.firmware.instructions import trace_regions
+from tests.support.firmware.board import C_FILES, Built, board, build, target
+from tests.support.firmware.tasks import (
+    APPLICATION,
+    BOARD,
+    HOLDS,
+    INSTRUCTIONS,
+    built_tasks,
+    counted,
+    holds_of,
+    locks_of,
+)
 from tests.support.ids import without_id
 
-BOARD = "qemu-mps2-an386"
-TARGET = f"""\
-target: tasked
-summary: The tasks run one after the other, in the program
-extends: {BOARD}
-provides: [tasks, lock, wait, wake, udp]
-"""
-INSTRUCTIONS = {"control": 760, "worker": 790, "session": 1540}
-"""Bounds of the jobs, as a user would write them: measured here, and rounded up."""
-HOLDS = {"control_lock": 380, "worker_lock": 80, "session_lock": 490}
-"""For how many instructions each holds the library's lock at most."""
-APPLICATION = """\
-version: 1
-profiles: [pure_sender, pure_reader]
-components: [+executor]
-errors: code
-transport: {{type: udp}}
-session: {{key: 1, connect_timeout: 20 s, create_timeout: 20 s, liveliness_timeout: 20 s}}
-nodes:
-  - name: device
-    publishers: [{{topic: count, type: std_msgs/msg/Int32, local: also}}]
-    subscriptions: [{{topic: count, type: std_msgs/msg/Int32, local: only, queue: 8, qos: {{depth: 8}}}}]
-    executors: [{{name: fast}}, {{name: slow, handles: [count]}}]
-tasks:
-  - {{name: control, executor: fast, rate: 100 Hz, stack: auto,
-     instructions: {control}, lock_instructions: {control_lock}}}
-  - {{name: worker, executor: slow, interval: 10 ms, stack: auto,
-     instructions: {worker}, lock_instructions: {worker_lock}}}
-  - {{name: session, session: true, interval: 10 ms, stack: auto,
-     instructions: {session}, lock_instructions: {session_lock}}}
-"""
 FULL = 10
 """How much longer a message full of submessages may take than those that the agent of the firmware sends."""
 ACKNACK, HEARTBEAT = 0x0A, 0x0B
@@ -63,22 +38,7 @@ JOBS, ROUNDS = 4, 3
 
 @pytest.fixture(scope="module")
 def tasked(tmp_path_factory: pytest.TempPathFactory) -> Built:
-    need(BOARD, emulator=True)
-    home = tmp_path_factory.mktemp("tasked")
-    (home / "tasked.yaml").write_text(TARGET)
-    done = build(home, "tasked.yaml", APPLICATION.format(**INSTRUCTIONS, **HOLDS))
-    assert done.returncode == 0, done.stderr
-    found = read_target("tasked.yaml", home, None, Diagnostics())
-    assert found is not None
-    return Built(home / "out", found.target)
-
-
-def counted(built: Built, *flags: str) -> Sequence[int]:
-    image = built.link(C_FILES / "measured_tasks.c", built.out.parent / "tasks.elf", *flags)
-    emulator = built.target.emulator
-    assert emulator is not None
-    command = [emulator.program, *emulator.arguments, *EXIT]
-    return [region.counted for region in trace_regions(command, image, (*AGENT_FUNCTIONS, *INTERRUPTS))]
+    return built_tasks(tmp_path_factory.mktemp("tasked"))
 
 
 def schedule_of(built: Built) -> Mapping[str, Mapping[str, Any]]:
@@ -188,17 +148,6 @@ def test_no_task_holds_the_lock_for_more_instructions_than_the_analysis_used(tas
     assert {"worker", "session"} & set(chain)
     for name, time_us in chain.items():
         assert longest[name] <= time_us * rate
-
-
-def locks_of(built: Built, image: Path, *options: str) -> subprocess.CompletedProcess[str]:
-    call = [sys.executable, "-m", "microros_gen", "locks", "out", "--image", str(image), *options]
-    return subprocess.run(call, cwd=built.out.parent, text=True, capture_output=True, check=False)
-
-
-def holds_of(built: Built, image: Path) -> Mapping[str, Mapping[str, Any]]:
-    """Return what the tool says of each task; the agent in the firmware, which is no part of it, counts as nothing."""
-    found = json.loads(locks_of(built, image, "--format", "json", "--port", "0").stdout)["tasks"]
-    return {row["task"]: row for row in found}
 
 
 @pytest.mark.system

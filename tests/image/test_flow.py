@@ -134,3 +134,42 @@ def test_x86() -> None:
 
 def test_the_code_of_other_processors_is_not_read() -> None:
     assert read("EM_AVR", ARM) == {}
+
+
+CALL, FILL = "bl\t200 <fill>", function("200:\tbx\tlr", name="fill", begin=0x200)
+
+
+@pytest.mark.parametrize(
+    ("lines", "size", "passes"),
+    [
+        ((CALL,), None, True),
+        (("mov\tr4, r2", CALL, "mov\tr2, r4", CALL), None, True),
+        (("movs\tr2, #4", *("adds\tr3, #1",) * 12, CALL), 4, False),
+        (("mov.w\tr5, #256\t@ 0x100", "mov\tr2, r5", CALL), 256, False),
+        ((CALL, CALL), None, False),
+        (("add\tr2, r1", CALL), None, False),
+        (("ldrd\tr1, r2, [sp]", CALL), None, False),
+        (("pop\t{r2, r3}", CALL), None, False),
+        (("str\tr1, [r2, #4]", CALL), None, True),
+        (("str\tr1, [r2, #4]!", CALL), None, False),
+        (("ldrb\tr3, [r2], #1", CALL), None, False),
+        (("it\teq", "moveq\tr2, #3", CALL), None, False),
+        (("cmp\tr2, #3", CALL), None, True),
+        (("umull\tr1, r2, r3, r4", CALL), None, False),
+    ],
+)
+def test_the_third_argument_of_a_call(lines: tuple[str, ...], size: int | None, passes: bool) -> None:
+    placed = [f"{0x100 + 4 * at:x}:\t{line}" for at, line in enumerate((*lines, "bx\tlr"))]
+    step = read("EM_ARM", function(*placed) + FILL)["work"].steps[0x100 + 4 * (len(lines) - 1)]
+    assert (step.size, step.passes) == (size, passes)
+
+
+def test_the_third_argument_is_unknown_where_two_ways_to_the_call_differ() -> None:
+    ways = ("100:\tcbz\tr0, 108 <work+0x8>", "104:\tmovs\tr2, #4", f"108:\t{CALL}", "10c:\tbx\tlr")
+    step = read("EM_ARM", function(*ways) + FILL)["work"].steps[0x108]
+    assert (step.size, step.passes) == (None, False)
+    same = ("100:\tmovs\tr2, #4", *(f"{int(w[:3], 16) + 4:x}{w[3:]}" for w in ways))
+    step = read("EM_ARM", function(*same).replace("108 <work+0x8>", "10c <work+0xc>") + FILL)["work"].steps[
+        0x10C
+    ]
+    assert step.size == 4

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -18,8 +19,19 @@ enum { FIRST = 4, SECOND, THIRD = SECOND + 2 };
 """
 
 
-def rounds(text: str, *lines: int) -> int | str:
-    return Sources(lambda _: text, [HEADER]).rounds([("src/part/file.c", line) for line in lines])
+def of_lines(
+    text: str,
+    ends: Sequence[int],
+    own: Sequence[int] = (),
+    inner: Sequence[int] = (),
+    function: tuple[str, int | None] = ("work", None),
+) -> int | str:
+    left, own_places, within = ([("src/part/file.c", line) for line in lines] for lines in (ends, own, inner))
+    return Sources(lambda _: text, [HEADER]).rounds(left, own_places, within, function)
+
+
+def rounds(text: str, *lines: int, inner: Sequence[int] = ()) -> int | str:
+    return of_lines(text, lines, inner=inner)
 
 
 @pytest.mark.parametrize(
@@ -58,9 +70,59 @@ def test_another_loop_has_none(text: str) -> None:
 def test_of_several_loops_the_largest_counts_and_one_without_a_bound_is_enough() -> None:
     inner = "  for (k = 0; k < 4; ++k) {\n    b();\n  }\n"
     text = f"for (i = 0; i < 9; ++i) {{\n  a();\n{inner}}}\nwhile (c()) {{\n  d();\n}}\n"
-    assert (rounds(text, 4), rounds(text, 2), rounds(text, 2, 4)) == (4, 9, 9)
+    assert (rounds(text, 4), rounds(text, 2), rounds(text, 2, inner=[4])) == (4, 9, 9)
+    assert of_lines(text, ends=[2, 4], own=[2], inner=[4]) == 9, "one that has a separate loop in the code"
     assert rounds(text, 2, 8) == "src/part/file.c:7"
     assert rounds("a = 1;", 1) == "no line of a source"
+
+
+NEST = """\
+void work(int * at)
+{
+  for (i = 0; i < 9; ++i) {
+    while (*at != 0) { /* at most 4 rounds */
+      ++at;
+    }
+    b();
+  }
+}
+static void part(void)
+{
+  while (c()) { /* at most 5 rounds */
+    d();
+  }
+}
+"""
+
+
+def test_where_the_compiler_makes_one_loop_of_two_both_numbers_count() -> None:
+    assert of_lines(NEST, ends=[3], own=[3, 4, 5, 7]) == 36
+    assert of_lines(NEST, ends=[3, 5], own=[3, 5]) == 36
+    assert of_lines(NEST, ends=[3], own=[3, 4, 7], inner=[4]) == 9, (
+        "only its first instructions are of the outer loop"
+    )
+    assert of_lines(NEST, ends=[4], own=[3, 4, 5]) == 4, (
+        "an instruction of the outer loop that was moved into the inner one"
+    )
+    endless = NEST.replace("i = 0; i < 9; ++i", ";;")
+    assert of_lines(endless, ends=[4], own=[3, 4, 5]) == "src/part/file.c:3"
+
+
+def test_the_loop_of_an_inlined_function_may_be_one_with_that_around_it() -> None:
+    assert of_lines(NEST, ends=[3], own=[3, 12, 13], inner=[4], function=("work", None)) == 45
+    assert of_lines(NEST, ends=[3], own=[3, 4, 13], inner=[4, 12], function=("work", None)) == 9
+    assert of_lines(NEST, ends=[13], own=[3, 13], function=("work", None)) == 5
+    assert of_lines(NEST, ends=[13], own=[3, 13], function=("other", None)) == 45, (
+        "nobody knows which is around"
+    )
+
+
+def test_a_comment_names_the_size_of_a_function() -> None:
+    text = "while (size != 0) { /* at most 2 * size of put + 1 or 9 rounds */\n  ++at;\n}"
+    assert of_lines(text, ends=[2], function=("put", 4)) == 9
+    assert of_lines(text, ends=[2], function=("put", 3)) == 7
+    assert of_lines(text, ends=[2], function=("put", None)) == 9
+    assert of_lines(text, ends=[2], function=("take", 3)) == 9, "it is inlined, and the size another one"
 
 
 def test_a_comment_says_how_many_bytes_a_call_handles() -> None:
@@ -88,7 +150,7 @@ WAITS = "port_time_ms() - start <"
 
 BOUNDED = (
     *("framing", "peer", "stream_best_effort", "stream_reliable", "stream_reliable_input"),
-    *("transport_canfd", "write"),
+    *("transport_canfd", "transport_tcp", "write"),
 )
 
 
@@ -101,6 +163,7 @@ def test_the_loops_of_what_sends_and_receives_have_a_bound(component: str) -> No
     own = sorted((COMPONENTS / component).rglob("*.[ch]"))
     headers = [defines, *(path.read_text() for path in own if path.suffix == ".h")]
     headers += [re.sub("{%.*?%}", "", path.read_text()) for path in (COMPONENTS / component).rglob("*.h.j2")]
+    headers.append((COMPONENTS / "tasks" / "include" / "microros" / "xrce_turn_bytes.h").read_text())
     sources = Sources(lambda name: Path(name).read_text(), headers)
     bounds = {
         (path.name, loop.first): sources.rounds([(str(path), loop.first)])

@@ -29,8 +29,8 @@ chips: [[device, other]]
 REFERENCE = "system: {file: system.yaml, board: device}\n"
 MESSAGES = {"Int32": ("std_msgs/msg/Int32", ()), "Pose": ("geometry_msgs/msg/Pose", ("-DMEASURED_POSE",))}
 MEASURED = {"only": (), "never": ("-DMEASURED_AGENT",), "chip": ("-DMEASURED_CHIP",)}
-TRANSPORTS = {"udp": (), "serial": ("-DMEASURED_LINE",)}
-_LINE = (
+TRANSPORTS = {"udp": (), "serial": ("-DMEASUREDLINE_FUNCTIONS",)}
+LINE_FUNCTIONS = (
     *("line_take", "line_stuff", "line_crc", "line_frame", "port_serial_open", "port_serial_close"),
     *("port_serial_room", "port_serial_write", "port_serial_send_kept", "port_serial_break_off"),
     *("port_serial_has_kept", "port_serial_is_idle", "port_serial_read", "port_bare_serial_arrived"),
@@ -74,7 +74,7 @@ def way(builds: Builds, name: str, local: str, message: str = "Int32", transport
     emulator = target(name).emulator
     assert emulator is not None
     command = [emulator.program, *emulator.arguments, *EXIT]
-    left_out = (*AGENT_FUNCTIONS, *INTERRUPTS, *_LINE, "agent_returns")
+    left_out = (*AGENT_FUNCTIONS, *INTERRUPTS, *LINE_FUNCTIONS, "agent_returns")
     empty, *steps = (region.counted for region in trace_regions(command, image, left_out))
     second = _BEFORE - 1 + _STEPS
     assert len(steps) > second + 2, "the program ended early"

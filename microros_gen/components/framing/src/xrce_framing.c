@@ -2,11 +2,11 @@
 #include "microros/xrce_framing.h"
 
 #include "microros/xrce_framing_addresses.h"
+#include "microros/xrce_turn_bytes.h"
 
 enum { FRAME_ADDRESSES = 2 };
 
-/* Limits the bytes per call, so that a flooded line cannot block the client. */
-enum { CHUNKS_PER_CALL = 2048 / XRCE_FRAMING_CHUNK };
+enum { CHUNKS_PER_CALL = XRCE_TURN_BYTES / XRCE_FRAMING_CHUNK };
 
 /*
  * CRC-16/ARC: x^16 + x^15 + x^2 + 1, reflected, initial value 0, no final XOR. With so few terms an entry
@@ -96,8 +96,8 @@ int32_t xrce_framing_receive(
     framing->used = 0;
     framing->held = (uint8_t)xrce_line_read(line, framing->chunk, sizeof(framing->chunk));
     if (framing->held == 0u) {
-      break;
+      return 0;
     }
   }
-  return 0;
+  return XRCE_TURN_PARTIAL;
 }

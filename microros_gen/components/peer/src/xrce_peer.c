@@ -7,6 +7,7 @@
 #include "microros/xrce_peer_calling.h"
 #include "microros/xrce_peer_serving.h"
 #include "microros/xrce_peer_settle.h"
+#include "microros/xrce_turn_bytes.h"
 #include "microros/xrce_wire.h"
 
 #include <string.h>
@@ -230,6 +231,10 @@ static void peer_receive(xrce_client_t * client, uint8_t index, uint32_t now)
     if (size == 0) {
       peer->more = false;
       return;
+    }
+    /* cppcheck-suppress knownConditionTrueFalse ; without a task for the session a partial message is none */
+    if (size == (int32_t)XRCE_TURN_PARTIAL) {
+      continue;
     }
     ++client->session.statistics.received;
     if (size < 0) {

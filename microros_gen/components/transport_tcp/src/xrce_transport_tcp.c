@@ -2,6 +2,7 @@
 /* Each message is preceded by its length in two bytes, little endian (OMG DDS-XRCE 1.0, 11.3). */
 #include "microros/xrce_transport.h"
 
+#include "microros/xrce_turn_bytes.h"
 #include "microros/xrce_wire.h"
 
 #include <string.h>
@@ -31,6 +32,7 @@ void xrce_transport_close(xrce_transport_t * transport)
 /* Sends waiting bytes. */
 static void transport_flush(xrce_transport_t * transport)
 {
+  /* at most XRCE_TCP_PREFIX + MICROROS_MTU rounds: each sends a byte or more */
   while (!transport->closed && transport->unsent != 0u) {
     const int32_t taken =
       port_tcp_send(&transport->tcp, &transport->output[transport->sent], transport->unsent);
@@ -56,7 +58,7 @@ bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, 
     return false;
   }
   xrce_put_le16(transport->output, (uint16_t)size);
-  (void)memcpy(&transport->output[XRCE_TCP_PREFIX], message, size);
+  (void)memcpy(&transport->output[XRCE_TCP_PREFIX], message, size); /* at most MICROROS_MTU bytes */
   transport->sent = 0;
   transport->unsent = (uint16_t)(XRCE_TCP_PREFIX + size);
   transport_flush(transport);
@@ -77,7 +79,7 @@ static uint16_t transport_read(xrce_transport_t * transport, uint8_t * buffer, s
 /* Returns whether the length of the message is complete. */
 static bool transport_read_length(xrce_transport_t * transport)
 {
-  while (transport->length_arrived != XRCE_TCP_PREFIX) {
+  while (transport->length_arrived != XRCE_TCP_PREFIX) { /* at most XRCE_TCP_PREFIX rounds */
     const uint16_t size = transport_read(
       transport, &transport->length[transport->length_arrived],
       (size_t)XRCE_TCP_PREFIX - transport->length_arrived);
@@ -101,7 +103,7 @@ int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, s
     return 0;
   }
   fits = transport->size <= capacity && transport->size != 0u;
-  while (transport->arrived != transport->size) {
+  while (transport->arrived != transport->size) { /* at most XRCE_TURN_READS rounds */
     const size_t left = (size_t)transport->size - transport->arrived;
     const uint16_t size = fits ? transport_read(transport, &buffer[transport->arrived], left)
                                : transport_read(transport, buffer, left < capacity ? left : capacity);
@@ -110,6 +112,10 @@ int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, s
       return 0;
     }
     transport->arrived = (uint16_t)(transport->arrived + size);
+    /* cppcheck-suppress knownConditionTrueFalse ; without a task for the session it reads until nothing has arrived */
+    if (XRCE_TURN_PARTIAL != 0 && transport->arrived != transport->size) {
+      return XRCE_TURN_PARTIAL; /* it may arrive one byte at a time: the lock is released in between */
+    }
   }
   transport->length_arrived = 0;
   return fits ? (int32_t)transport->size : -1;

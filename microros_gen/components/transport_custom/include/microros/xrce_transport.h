@@ -72,7 +72,8 @@ bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, 
 /*
  * Receives one message; without framing it waits a millisecond, unless the application declares that its
  * function only polls. Returns its size, 0 if none has arrived, -1 for a discarded one. `buffer` keeps a
- * partial message: pass the same one until a message was received.
+ * partial message: pass the same one until a message was received. With framing also XRCE_TURN_PARTIAL, as
+ * xrce_framing_receive.
  */
 int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity);
 

@@ -62,8 +62,8 @@ bool xrce_transport_send_kept(xrce_transport_t * transport, const uint8_t * mess
  * that it received. */
 void xrce_transport_take_back(xrce_transport_t * transport, const uint8_t * message);
 
-/* Receives one message without blocking. Returns its size, 0 if none has arrived, -1 for a discarded one.
- * `buffer` keeps a partial message: pass the same one until a message was received. */
+/* Receives one message without blocking. Returns its size, 0 if none has arrived, -1 for a discarded one,
+ * XRCE_TURN_PARTIAL as xrce_framing_receive. `buffer` keeps a partial message: pass the same one until a message was received. */
 int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity);
 
 /* Returns an upper bound of the bytes of the buffer that the partial message occupies. */

@@ -9,6 +9,7 @@
 
 #include "microros/xrce_client.h"
 #include "microros/xrce_routes.h"
+#include "microros/xrce_turn_bytes.h"
 #include "microros/xrce_wire.h"
 
 /* Passes a message to its stream; returns false for a malformed message. */
@@ -27,14 +28,15 @@ static inline bool session_take_message(
   return xrce_route_message(client, message, size, now);
 }
 
-/* Returns whether a message had arrived. The transport is open. */
+/* Returns whether a message had arrived, or a part of one and perhaps more. The transport is open. */
 static inline bool xrce_session_take(xrce_client_t * client, uint32_t now)
 {
   xrce_session_t * session = &client->session;
   const int32_t size = xrce_transport_receive(&session->transport, client->input, MICROROS_INPUT_SIZE);
 
-  if (size == 0) {
-    return false;
+  /* cppcheck-suppress knownConditionTrueFalse ; without a task for the session a partial message is none */
+  if (size == 0 || size == (int32_t)XRCE_TURN_PARTIAL) {
+    return size != 0;
   }
   ++session->statistics.received;
   if (size < 0 || !session_take_message(client, client->input, (size_t)size, now)) {

@@ -100,8 +100,8 @@ void xrce_transport_close(xrce_transport_t * transport);
 bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, size_t size);
 
 /*
- * Receives one message without blocking. Returns its size, 0 if none has arrived, -1 for a discarded one:
- * longer than `capacity`, or empty. `buffer` keeps a partial message: pass the same one until a message
+ * Receives one message without blocking. Returns its size, 0 if none has arrived, -1 for a discarded one: longer than
+ * `capacity`, or empty; XRCE_TURN_PARTIAL (xrce_turn_bytes.h): a part of one, and perhaps more. `buffer` keeps a partial message: pass the same one until a message
  * was received.
  */
 int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity);
