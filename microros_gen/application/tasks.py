@@ -139,16 +139,25 @@ def _rate(node: YamlNode | None, task: str, diagnostics: Diagnostics) -> int:
     return int(period)
 
 
+def _check_overrun(item: YamlNode, task: TaskDecl, diagnostics: Diagnostics) -> None:
+    """Refuse what a task without a period cannot do: it misses no release, but it may have a deadline."""
+    why, hint = "nothing is missed without a period", "Remove it"
+    if task.overrun == "call":
+        why, hint = "it has no deadline", "Add `deadline: 10 ms`, or remove it"
+    if task.overrun != "call" or not (task.deadline_us or task.interval_us):
+        message = f"'overrun' of the task '{task.name}' has no effect: {why}"
+        diagnostics.error(message, span_of(child(item, "overrun")), hint, id="MG-3227")
+
+
 def _check_times(item: YamlNode, task: TaskDecl, diagnostics: Diagnostics) -> None:
     released = [key for key in ("rate", "period", "interval") if child(item, key) is not None]
     if len(released) > 1:
         message = f"the task '{task.name}' has {' and '.join(released)}"
         hint = "Keep one: `period` releases it by the clock, `interval` limits how often its handles do"
         diagnostics.error(message, span_of(child(item, released[1])), hint, id="MG-3226")
-    if not task.period_us and task.overrun != TaskDecl.overrun:
-        message = f"'overrun' of the task '{task.name}' has no effect: nothing is missed without a period"
-        diagnostics.error(message, span_of(child(item, "overrun")), "Remove it", id="MG-3227")
     limit = task.period_us or task.interval_us
+    if not task.period_us and task.overrun != TaskDecl.overrun:
+        _check_overrun(item, task, diagnostics)
     if limit and task.deadline_us > limit:
         message = f"the deadline of the task '{task.name}' is later than its next release"
         hint = f"Write deadline: {limit} us or less"

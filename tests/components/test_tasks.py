@@ -49,7 +49,8 @@ PERIODS = """\
 tasks:
   - {name: skips, executor: a, rate: 1 kHz}
   - {name: catches, executor: b, period: 1 ms, overrun: catch_up}
-  - {name: tells, executor: c, period: 1 ms, overrun: call}
+  - {name: tells, executor: c, period: 1 ms, deadline: 600 us, overrun: call}
+  - {name: reacts, executor: d, interval: 10 ms, deadline: 300 us, overrun: call}
 """
 THREADS = """\
 tasks:
@@ -122,7 +123,8 @@ def tasks(folder: Path, text: str) -> TasksPlan:
 
 
 def test_releases_keep_to_their_grid(tmp_path: Path) -> None:
-    out = rendered(tmp_path, HEAD + NODES + OTHER + PERIODS)
+    nodes = NODES + "      - {name: d}\n"
+    out = rendered(tmp_path, HEAD + nodes + OTHER + PERIODS)
     run(program_of(out, "task_periods.c", without=("port_posix_tasks.c",)))
 
 
@@ -417,7 +419,11 @@ def test_the_analysis_has_the_priorities_of_the_generated_tasks() -> None:
         ("{name: t, executor: a, rate: 300 Hz}", "'rate' of the task 't' is 300 Hz: the period is no number"),
         ("{name: t, executor: a, rate: 1 Hz, period: 1 s}", "the task 't' has rate and period"),
         ("{name: t, executor: a, period: 1 s, interval: 1 s}", "the task 't' has period and interval"),
-        ("{name: t, executor: a, overrun: call}", "'overrun' of the task 't' has no effect"),
+        (
+            "{name: t, executor: a, overrun: call}",
+            "'overrun' of the task 't' has no effect: it has no deadline",
+        ),
+        ("{name: t, executor: a, overrun: catch_up, deadline: 1 s}", "nothing is missed without a period"),
         ("{name: t, executor: a, period: 1 ms, deadline: 2 ms}", "is later than its next release"),
         (
             "{name: t, executor: a, period: 1 ms, time: 2 ms}",

@@ -22,7 +22,7 @@ _SESSION = "session"
 _CRITICALITY_OF_SESSION = "by rule"
 _MILLISECOND_US = 1000
 _ON_OVERRUN = (
-    "/* `missed` releases of the task came while it still ran. */",
+    "/* A run of the task ended after its deadline; `missed` releases came meanwhile. */",
     "static void on_overrun(uint8_t task, uint32_t missed)",
     "{",
     "  (void)task;",

@@ -17,7 +17,7 @@
 
 #include <string.h>
 
-enum { PERIOD = 1000, RUNS = 12, LONG_RUN = 3, LONG = 2500, SHORT = 100, REFUSED_LEVEL = 2 };
+enum { PERIOD = 1000, RUNS = 12, LONG_RUN = 3, LONG = 2500, LATE_RUN = 8, LATE = 700, DEADLINE = 300, SHORT = 100, REFUSED_LEVEL = 2 };
 
 static const uint32_t start = UINT32_MAX - 2500u;
 
@@ -27,6 +27,7 @@ static uint8_t self = PORT_TASK_NONE;
 static uint32_t began[RUNS];
 static uint32_t runs;
 static uint32_t told;
+static uint32_t told_times;
 static uint32_t made;
 static bool stops_in_sleep;
 static bool restarts;
@@ -129,7 +130,7 @@ static void on_release(uint8_t task)
 {
   CHECK(task == self);
   began[runs] = clock_us - start;
-  clock_us += runs == (uint32_t)LONG_RUN ? LONG : SHORT;
+  clock_us += runs == (uint32_t)LONG_RUN ? LONG : (runs == (uint32_t)LATE_RUN ? LATE : SHORT);
   ++runs;
   if (restarts && (runs == (uint32_t)LONG_RUN || runs == (uint32_t)RUNS)) {
     stop_this_one(task);
@@ -145,6 +146,7 @@ static void on_overrun(uint8_t task, uint32_t missed)
 {
   CHECK(task == self);
   told += missed;
+  ++told_times;
 }
 
 /* Runs a task as the system would, and returns its counters. */
@@ -212,15 +214,43 @@ static void check_restart(void)
   CHECK(rclc_tasks_stop() == RCL_RET_OK);
 }
 
+/* A round of a task without a period is an overrun if it ends after the deadline. */
+static void check_round(rclc_executor_t * executor, uint32_t us, bool is_late)
+{
+  const uint32_t before = told_times;
+
+  rclc_tasks_round_begins(executor);
+  clock_us += us;
+  rclc_tasks_round_ends(executor);
+  CHECK(told_times - before == (is_late ? 1u : 0u));
+}
+
+static void check_events(rclc_executor_t * executor)
+{
+  rclc_task_counters_t counters;
+
+  made = 0;
+  CHECK(rclc_tasks_start() == RCL_RET_OK);
+  self = RCLC_TASK_REACTS;
+  told = 0;
+  check_round(executor, DEADLINE, false);
+  check_round(executor, (uint32_t)DEADLINE + 1u, true);
+  CHECK(told == 0u);
+  CHECK(rclc_task_get_counters(RCLC_TASK_REACTS, &counters) == RCL_RET_OK);
+  CHECK(counters.runs == 2u && counters.overruns == 1u);
+  self = PORT_TASK_NONE;
+  CHECK(rclc_tasks_stop() == RCL_RET_OK);
+}
+
 int main(void)
 {
   rcl_allocator_t allocator = rcl_get_default_allocator();
   rclc_support_t support;
-  rclc_executor_t executors[3];
+  rclc_executor_t executors[4];
   rclc_task_counters_t counters;
 
   CHECK(rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK);
-  for (uint8_t i = 0; i < 3u; ++i) {
+  for (uint8_t i = 0; i < 4u; ++i) {
     executors[i] = rclc_executor_get_zero_initialized_executor();
     CHECK(rclc_executor_init(&executors[i], &support.context, 1, &allocator) == RCL_RET_OK);
     CHECK(rclc_tasks_start() == RCL_RET_ERROR); /* not every task has an executor */
@@ -230,6 +260,8 @@ int main(void)
   CHECK(rclc_tasks_start() == RCL_RET_ERROR); /* nor a function for its overruns */
   CHECK(rclc_task_set_overrun(RCLC_TASK_SKIPS, on_overrun) == RCL_RET_INVALID_ARGUMENT);
   CHECK(rclc_task_set_overrun(RCLC_TASK_TELLS, on_overrun) == RCL_RET_OK);
+  CHECK(rclc_tasks_start() == RCL_RET_ERROR); /* one more has none */
+  CHECK(rclc_task_set_overrun(RCLC_TASK_REACTS, on_overrun) == RCL_RET_OK);
   CHECK(rclc_tasks_stop() == RCL_RET_ERROR);
 
   /* 1 is the highest for the application, and the lowest for the port. */
@@ -264,10 +296,12 @@ int main(void)
 
   CHECK(told == 0u);
   counters = run(RCLC_TASK_TELLS);
-  CHECK(counters.missed == 2u && told == 2u);
+  CHECK(counters.missed == 2u && told == 2u && told_times == 2u); /* and the run that is late, but misses no release */
+  CHECK(counters.overruns == 2u);
   check_grid(LONG_RUN + 1, 6);
 
   check_restart();
+  check_events(&executors[3]);
 
   /* A release without a run is forgotten: by the task, and by the next start. */
   made = 0;
@@ -290,7 +324,7 @@ int main(void)
   rclc_task_settings[RCLC_TASK_SKIPS].entry(RCLC_TASK_SKIPS);
   CHECK(rclc_task_get_counters(RCLC_TASK_SKIPS, &counters) == RCL_RET_OK && counters.runs == 0u);
 
-  CHECK(rcl_tasks_missed() == 4u && rcl_tasks_overruns() == 4u); /* of all tasks */
+  CHECK(rcl_tasks_missed() == 4u && rcl_tasks_overruns() == 6u); /* of all tasks */
   CHECK(rclc_task_stack_peak(RCLC_TASK_TELLS) == 3u && rclc_task_stack_peak(MICROROS_TASKS) == 0u);
   CHECK(rclc_task_stack_size(MICROROS_TASKS) == 0u && !rclc_tasks_are_prioritized());
   CHECK(rclc_task_get_counters(MICROROS_TASKS, &counters) == RCL_RET_INVALID_ARGUMENT);

@@ -28,25 +28,36 @@ static uint32_t larger(uint32_t a, uint32_t b)
   return a > b ? a : b;
 }
 
-/* Differences of two counts of microseconds are right across the wrap. */
-static void task_count(uint8_t task)
+/* Differences of two counts of microseconds are right across the wrap. Returns whether the run ended after its deadline. */
+static bool task_count(uint8_t task)
 {
   rclc_task_state_t * state = &rclc_task_states[task];
   rclc_task_counters_t * counters = &state->counters;
   const uint32_t now_us = port_task_time_us();
   const uint32_t response_us = now_us - state->released_us;
   const uint32_t deadline_us = rclc_task_plans[task].deadline_us;
+  const bool is_late = deadline_us != 0u && response_us > deadline_us;
 
   microros_lock();
   ++counters->runs;
   counters->latest_us = larger(counters->latest_us, state->began_us - state->released_us);
   counters->longest_us = larger(counters->longest_us, now_us - state->began_us);
   counters->response_us = larger(counters->response_us, response_us);
-  if (deadline_us != 0u && response_us > deadline_us) {
+  if (is_late) {
     ++counters->overruns;
     rcl_tasks_count(1, 0);
   }
   microros_unlock();
+  return is_late;
+}
+
+static void task_tell(uint8_t task, bool is_late, uint32_t missed)
+{
+  const rclc_task_state_t * state = &rclc_task_states[task];
+
+  if (state->on_overrun != NULL && (is_late || missed != 0u)) {
+    state->on_overrun(task, missed);
+  }
 }
 
 static void task_count_error(uint8_t task)
@@ -56,8 +67,9 @@ static void task_count_error(uint8_t task)
   microros_unlock();
 }
 
-/* Leaves out the releases that have passed already; those that follow keep to the grid of the first one. */
-static void task_skip(uint8_t task)
+/* Leaves out the releases that have passed already, and returns their number; those that follow keep to the grid of the first
+ * one. */
+static uint32_t task_skip(uint8_t task)
 {
   rclc_task_state_t * state = &rclc_task_states[task];
   const uint32_t period_us = rclc_task_plans[task].period_us;
@@ -65,7 +77,7 @@ static void task_skip(uint8_t task)
   uint32_t missed;
 
   if (late_us > (uint32_t)INT32_MAX) {
-    return; /* it is still to come */
+    return 0; /* it is still to come */
   }
   missed = late_us / period_us + 1u;
   state->next_us += missed * period_us;
@@ -73,9 +85,7 @@ static void task_skip(uint8_t task)
   state->counters.missed += missed;
   rcl_tasks_count(0, missed);
   microros_unlock();
-  if (state->on_overrun != NULL) {
-    state->on_overrun(task, missed);
-  }
+  return missed;
 }
 
 void rclc_tasks_run_period(uint8_t task)
@@ -83,6 +93,9 @@ void rclc_tasks_run_period(uint8_t task)
   rclc_task_state_t * state = &rclc_task_states[task];
 
   while (rclc_tasks_continue(task)) {
+    bool is_late;
+    uint32_t missed = 0;
+
     port_task_sleep_until(state->next_us);
     if (!rclc_tasks_continue(task)) {
       break; /* it was stopped meanwhile */
@@ -95,11 +108,12 @@ void rclc_tasks_run_period(uint8_t task)
     if (rclc_executor_spin_some(state->executor, 0) != RCL_RET_OK) {
       task_count_error(task);
     }
-    task_count(task);
+    is_late = task_count(task);
     state->next_us += rclc_task_plans[task].period_us;
     if (rclc_task_plans[task].overrun != RCLC_TASK_CATCH_UP) {
-      task_skip(task);
+      missed = task_skip(task);
     }
+    task_tell(task, is_late, missed);
     rclc_tasks_watch_period(task, state->next_us);
   }
 }
@@ -158,7 +172,7 @@ void rclc_tasks_round_ends(const rclc_executor_t * executor)
     microros_lock();
     rclc_task_states[task].is_in_round = false;
     microros_unlock();
-    task_count(task);
+    task_tell(task, task_count(task), 0);
     rclc_tasks_watch_rest(task);
   }
 }
@@ -276,7 +290,7 @@ void rclc_tasks_run_session(uint8_t task)
     news = microros_news() - (session_has_news() ? 1u : 0u);
     session_release_tasks();
     microros_unlock();
-    task_count(task);
+    (void)task_count(task); /* the diagnosis has its overruns */
     rclc_tasks_watch_rest(task);
     if (!rmw_tasks_write()) { /* a transport that waits for its line does so in its rest */
       rmw_client_wait_news((uint32_t)RCLC_TASKS_WAIT_MOST_MS, &news);
