@@ -39,8 +39,10 @@ CHECKS = (
     Check("udp_loop", ("udp", "udp_local"), _LENGTHS),
     Check("udp_link", ("udp",)),
     Check("tcp", ("tcp",)),
+    Check("tcp_link", ("tcp",)),
     Check("multicast", ("multicast",)),
     Check("serial", ("serial",), _LENGTHS),
+    Check("serial_link", ("serial",)),
     Check("canfd", ("canfd",), _LENGTHS),
     Check("storage", ("storage",)),
 )

@@ -167,6 +167,20 @@ LINK_FAULTS = {
     "link_refuses": "link_up_opens link_up_answers",
     "link_stays_down": "link_up_answers",
 }
+TCP_LINK_FAULTS = {
+    "link_send_waits": "tcp_link_down_send_never_waits",
+    "link_invents": "tcp_link_down_receive_nothing",
+    "link_receive_waits": "tcp_link_down_receive_never_waits",
+    "link_refuses": "tcp_link_up_opens tcp_link_up_answers",
+    "link_stays_down": "tcp_link_up_answers",
+}
+SERIAL_LINK_FAULTS = {
+    "link_send_waits": "serial_link_down_write_never_waits",
+    "link_invents": "serial_link_down_read_nothing",
+    "link_receive_waits": "serial_link_down_read_never_waits",
+    "link_refuses": "serial_link_up_opens serial_link_up_returns",
+    "link_stays_down": "serial_link_up_returns",
+}
 CAN_FAULTS = {
     "can_none": "canfd_open",
     "can_refuses": "canfd_send",
@@ -262,6 +276,8 @@ def test_the_port_to_posix_passes(program: Path) -> None:
     if skipped.get("lock_inheritance"):
         print(skipped.pop("lock_inheritance"))
     assert "-DSELFTEST_LINK" in skipped.pop("link_down")
+    for transport in ("tcp", "serial"):
+        assert skipped.pop(f"{transport}_link") == f"the library does not use '{transport}'"
     assert skipped == {
         name: f"the library does not use '{name}'"
         for name in ("microseconds", "stack_peak", "tcp", "serial", "multicast", "canfd", "storage")
@@ -388,6 +404,59 @@ def test_a_network_that_goes_down_and_up(outputs: Path) -> None:
     assert (found["link_up_opens"][0], found["link_up_answers"][0]) == ("PASS", "SKIP")
 
 
+@contextmanager
+def connected() -> Iterator[int]:
+    """An agent that listens at a port: it answers what asks for it, and nothing else."""
+    stop = threading.Event()
+    with socket.create_server(("127.0.0.1", 0)) as served:
+        served.settimeout(0.1)
+        thread = threading.Thread(target=accept, args=(served, stop))
+        thread.start()
+        try:
+            yield served.getsockname()[1]
+        finally:
+            stop.set()
+            thread.join()
+
+
+def accept(served: socket.socket, stop: threading.Event) -> None:
+    while not stop.is_set():
+        with suppress(TimeoutError):
+            connection, _ = served.accept()
+            threading.Thread(target=answer_connection, args=(connection,), daemon=True).start()
+
+
+def answer_connection(connection: socket.socket) -> None:
+    """Answer messages, each after two bytes with its length, until the other end closes."""
+    agent = FakeAgent()
+    with connection, suppress(OSError), connection.makefile("rb") as stream:
+        while len(length := stream.read(2)) == 2:
+            for message in agent.receive(stream.read(int.from_bytes(length, "little"))):
+                connection.sendall(len(message).to_bytes(2, "little") + message)
+
+
+def test_a_connection_whose_network_goes_down_and_up(outputs: Path) -> None:
+    with connected() as port:
+        text = f"{HEAD}transport: {{type: tcp, agent: '127.0.0.1:{port}'}}\n{SMALL}"
+        out = generated(outputs / "tcp_link", text)
+        program = link(["gcc", "-O1", "-DSELFTEST_LINK"], out, out / "faulty", LINK)
+        assert results(all_pass(program))["tcp_link_up_answers"] == ("PASS", "")
+        assert results(all_pass(program, "link_closes"))["tcp_link_down_receive_nothing"] == ("PASS", "")
+        check_faults(program, TCP_LINK_FAULTS)
+    found = results(all_pass(program))
+    assert (found["tcp_link_up_opens"][0], found["tcp_link_up_answers"][0]) == ("PASS", "SKIP")
+
+
+def test_a_serial_line_that_is_unplugged_and_plugged_in(outputs: Path) -> None:
+    line = outputs / "unplugged"
+    out = generated(outputs / "serial_link", f"{HEAD}transport: {{type: serial, device: {line}}}\n{SMALL}")
+    program = link(["gcc", "-O1", "-DSELFTEST_LINK"], out, out / "faulty", LINK)
+    with looped_line(line):
+        assert results(all_pass(program))["serial_link_up_returns"] == ("PASS", "")
+        for fault in SERIAL_LINK_FAULTS:
+            check_faults(program, {fault: SERIAL_LINK_FAULTS[fault]})
+
+
 def test_a_connection_that_is_refused(outputs: Path) -> None:
     out = generated(outputs / "tcp", f"{HEAD}transport: {{type: tcp, agent: '127.0.0.1:8888'}}\n{SMALL}")
     program = link(["gcc", "-O1"], out, out / "faulty", DECODER)
@@ -504,8 +573,9 @@ def test_a_serial_line_of_a_board_that_is_looped(outputs: Path) -> None:
 
 def test_every_check_has_a_fault() -> None:
     """Each name in the C files is one that some fault makes fail."""
-    of_lines = (SERIAL_FAULTS, TCP_FAULTS, MULTICAST_FAULTS, LINK_FAULTS, CAN_FAULTS)
-    faults = (HOST_FAULTS, *of_lines, STORAGE_FAULTS, BOARD_FAULTS)
+    of_lines = (SERIAL_FAULTS, TCP_FAULTS, MULTICAST_FAULTS, CAN_FAULTS)
+    of_links = (LINK_FAULTS, TCP_LINK_FAULTS, SERIAL_LINK_FAULTS)
+    faults = (HOST_FAULTS, *of_lines, *of_links, STORAGE_FAULTS, BOARD_FAULTS)
     wanted = [checks for group in faults for checks in group.values()]
     tested = {name for checks in wanted if ": " not in checks for name in checks.split()}
     folder = Path(checks_module.__file__).parent / "c"

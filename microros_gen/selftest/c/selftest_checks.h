@@ -26,8 +26,10 @@ void selftest_udp(void);
 void selftest_udp_loop(void);
 void selftest_udp_link(void);
 void selftest_tcp(void);
+void selftest_tcp_link(void);
 void selftest_multicast(void);
 void selftest_serial(void);
+void selftest_serial_link(void);
 void selftest_canfd(void);
 void selftest_storage(void);
 

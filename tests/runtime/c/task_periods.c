@@ -17,7 +17,17 @@
 
 #include <string.h>
 
-enum { PERIOD = 1000, RUNS = 12, LONG_RUN = 3, LONG = 2500, LATE_RUN = 8, LATE = 700, DEADLINE = 300, SHORT = 100, REFUSED_LEVEL = 2 };
+enum {
+  PERIOD = 1000,
+  RUNS = 12,
+  LONG_RUN = 3,
+  LONG = 2500,
+  LATE_RUN = 8,
+  LATE = 700,
+  DEADLINE = 300,
+  SHORT = 100,
+  REFUSED_LEVEL = 2
+};
 
 static const uint32_t start = UINT32_MAX - 2500u;
 
@@ -296,7 +306,9 @@ int main(void)
 
   CHECK(told == 0u);
   counters = run(RCLC_TASK_TELLS);
-  CHECK(counters.missed == 2u && told == 2u && told_times == 2u); /* and the run that is late, but misses no release */
+  CHECK(
+    counters.missed == 2u && told == 2u &&
+    told_times == 2u); /* and the run that is late, but misses no release */
   CHECK(counters.overruns == 2u);
   check_grid(LONG_RUN + 1, 6);
 

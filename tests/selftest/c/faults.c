@@ -221,20 +221,33 @@ WRAP(int32_t, port_udp_receive, (port_udp_t * udp, uint8_t * buffer, size_t capa
 
 WRAP(bool, port_tcp_open, (port_tcp_t * tcp, const char * host, uint16_t port))
 {
+  if (was_down && IS("link_refuses")) {
+    return false;
+  }
   return __real_port_tcp_open(tcp, IS("tcp_takes_all") ? "127.0.0.1" : host, port);
 }
 
 WRAP(int32_t, port_tcp_send, (port_tcp_t * tcp, const uint8_t * data, size_t size))
 {
-  const int32_t result = __real_port_tcp_send(tcp, data, size);
+  int32_t result;
 
+  if (is_down && IS("link_send_waits")) {
+    __real_port_sleep_ms(50);
+  }
+  if (is_down || (was_down && IS("link_stays_down"))) {
+    return is_down && IS("link_takes") ? (int32_t)size : 0;
+  }
+  result = __real_port_tcp_send(tcp, data, size);
   return IS("tcp_invents") && result < 0 ? (int32_t)size : result;
 }
 
 WRAP(int32_t, port_tcp_receive, (port_tcp_t * tcp, uint8_t * buffer, size_t capacity))
 {
-  if (IS("tcp_waits")) {
+  if (IS("tcp_waits") || (is_down && IS("link_receive_waits"))) {
     __real_port_sleep_ms(50);
+  }
+  if (is_down) {
+    return IS("link_invents") ? 5 : IS("link_closes") ? -1 : 0;
   }
   return __real_port_tcp_receive(tcp, buffer, capacity);
 }
@@ -287,7 +300,7 @@ WRAP(bool, port_serial_open, (port_serial_t * serial, const char * device, uint3
   static uint32_t calls;
 
   ++calls;
-  return !IS("serial_none") && !(IS("serial_once") && calls > 1u) &&
+  return !IS("serial_none") && !(IS("serial_once") && calls > 1u) && !(was_down && IS("link_refuses")) &&
          __real_port_serial_open(serial, device, baud);
 }
 
@@ -300,6 +313,12 @@ WRAP(bool, port_serial_write, (port_serial_t * serial, const uint8_t * data, siz
 {
   uint8_t bytes[1024];
 
+  if (is_down && IS("link_send_waits")) {
+    __real_port_sleep_ms(50);
+  }
+  if (is_down || (was_down && IS("link_stays_down"))) {
+    return is_down && IS("link_takes");
+  }
   if (IS("serial_refuses") || (size == 0u && IS("serial_refuses_nothing"))) {
     return false;
   }
@@ -317,8 +336,11 @@ WRAP(bool, port_serial_is_idle, (port_serial_t * serial))
 
 WRAP(size_t, port_serial_read, (port_serial_t * serial, uint8_t * buffer, size_t capacity))
 {
-  if (IS("serial_waits")) {
+  if (IS("serial_waits") || (is_down && IS("link_receive_waits"))) {
     __real_port_sleep_ms(50);
+  }
+  if (is_down) {
+    return IS("link_invents") ? 5u : 0u;
   }
   return __real_port_serial_read(serial, buffer, capacity);
 }
