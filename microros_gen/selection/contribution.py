@@ -105,6 +105,7 @@ OUTPUT_FUNCTIONS: Mapping[str, str] = MappingProxyType(
         "capacity": "0u",
         "drop_oldest": "NULL",
         "unacknowledged": "0",
+        "passes": "true",
     }
 )
 """The operations of an output stream, and their replacements if no stream of the kind is selected."""

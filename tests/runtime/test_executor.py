@@ -48,6 +48,7 @@ UNITS = {
     "unit_executor.c": EXECUTOR,
     "unit_executor_changes.c": CHANGES,
     "unit_days.c": EXECUTOR,
+    "unit_flush.c": EXECUTOR,
     "unit_service_call.c": CHANGES,
     "unit_executor_nodes.c": CHANGES,
     "unit_new_data.c": CHANGES,

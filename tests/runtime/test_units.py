@@ -82,6 +82,43 @@ def test_a_line_that_is_always_full_and_one_slot(loss: int, tmp_path: Path) -> N
     assert delivered + dropped >= 10 * carries
 
 
+FRAGMENTS = changed(
+    POOL,
+    streams__mtu=32,
+    streams__fragments=True,
+    streams__reliable_slots=3,
+    streams__reliable_slot_size=200,
+)
+STORED = {
+    "ring": POOL,
+    "one": changed(POOL, streams__reliable_slots=1),
+    "replaced": DROP_OLDEST,
+    "fragments": FRAGMENTS,
+    "fragments-dropped": changed(FRAGMENTS, streams__on_full="drop_oldest"),
+}
+
+
+@pytest.mark.parametrize("stored", STORED)
+def test_waiting_for_what_a_stream_has_stored(stored: str, tmp_path: Path) -> None:
+    """Others write, the numbers wrap, sessions are lost: the wait ends neither early nor never."""
+    tree = render(tmp_path, STORED[stored], components(STORED[stored]))
+    alone = Tree(tree.folder, tuple(s for s in tree.sources if s.parent.name == "stream_reliable"))
+    program = build(alone, ["unit_mark.c"], "unit", SANITIZER, SANITIZE)
+    for seed in range(1, 4):
+        command = [str(program), str(seed)]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=seconds(60), check=False)
+        assert done.returncode == 0, done.stderr
+
+
+def test_waiting_for_what_a_queue_holds(tmp_path: Path) -> None:
+    plan = changed(POOL, streams__best_effort_slots=3, streams__best_effort_places=4)
+    tree = render(tmp_path, plan, components(plan))
+    alone = Tree(tree.folder, tuple(s for s in tree.sources if s.parent.name == "stream_best_effort"))
+    program = build(alone, ["unit_mark_queue.c"], "unit", SANITIZER, SANITIZE)
+    done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
+    assert done.returncode == 0, done.stderr
+
+
 BOARD = """\
 #pragma once
 #define PORT_BOARD_RING_SIZE 64u

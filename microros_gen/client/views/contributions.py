@@ -42,6 +42,7 @@ _OUTPUT_PARAMETERS: Mapping[str, tuple[str, ...]] = {
     "capacity": ("reliable",),
     "drop_oldest": ("client",),
     "unacknowledged": ("client",),
+    "passes": ("client", "mark"),
 }
 _LONGEST_RETURNED = 100
 """Characters of an expression that `return` has in one line."""
@@ -62,7 +63,7 @@ _CALLERS: Mapping[str, tuple[str, ...]] = {
     "routes": ("on", *(set(HOOK_POINTS) - {name for points in _ELSEWHERE.values() for name in points})),
 }
 """File that calls → its hook points; `on` means submessages and output streams."""
-_RELIABLE_ALONE = ("drop_oldest", "unacknowledged")
+_RELIABLE_ALONE = ("drop_oldest", "unacknowledged", "passes")
 _AFTER_RESERVE = ("commit",)
 """Called only for a stream whose `reserve` found room: no question where one stream alone is selected."""
 

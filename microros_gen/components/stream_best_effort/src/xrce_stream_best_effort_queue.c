@@ -99,6 +99,19 @@ bool xrce_output_queue_is_empty(void)
   return best_effort.count == 0u;
 }
 
+/* Where as many have left as there are places, or several times that, since the last look, none is seen to have left: the
+ * wait is longer, never shorter. */
+bool xrce_output_queue_passes(xrce_mark_t * mark)
+{
+  const uint32_t around = best_effort.head < mark->head ? (uint32_t)MICROROS_BEST_EFFORT_PLACES : 0u;
+  const uint32_t left_it = around + best_effort.head - mark->head;
+  const uint32_t left = mark->queued > left_it ? mark->queued - left_it : 0u;
+
+  mark->queued = left < best_effort.count ? (uint16_t)left : best_effort.count;
+  mark->head = best_effort.head;
+  return mark->queued == 0u;
+}
+
 const uint8_t * xrce_output_queue_drop_oldest(void)
 {
   const uint8_t * dropped = &best_effort.message[best_effort.head][XRCE_MESSAGE_HEADER];

@@ -245,6 +245,19 @@ const uint8_t * xrce_stream_reliable_drop_oldest(
   return dropped;
 }
 
+uint32_t xrce_stream_reliable_ahead(const xrce_stream_reliable_t * stream, bool is_ready)
+{
+  uint32_t numbers = stream->ending || !is_ready ? 1u : 0u;
+
+  if (stream->count == 0u) {
+    return 0;
+  }
+  for (uint8_t i = 0; i < stream->count; ++i) { /* at most MICROROS_RELIABLE_SLOTS rounds */
+    numbers += stream_fragments(stream, i);
+  }
+  return is_ready ? numbers - stream->done : numbers;
+}
+
 void xrce_stream_reliable_hold(xrce_stream_reliable_t * stream, uint32_t now)
 {
   stream->first = 0;

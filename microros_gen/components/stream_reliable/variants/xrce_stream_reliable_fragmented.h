@@ -47,6 +47,16 @@ static inline bool xrce_stream_reliable_is_blocked(const xrce_stream_reliable_t 
   return stream->blocked;
 }
 
+/* Returns how many sequence numbers the stored messages take from `first` on, with the one that ends a partial message.
+ * `is_ready`: there is a session; the next one repeats every fragment. */
+uint32_t xrce_stream_reliable_ahead(const xrce_stream_reliable_t * stream, bool is_ready);
+
+/* Returns by how many numbers that is more in another session. */
+static inline uint16_t xrce_stream_reliable_again(const xrce_stream_reliable_t * stream)
+{
+  return stream->ending ? stream->done : (uint16_t)(stream->done + 1u);
+}
+
 #ifdef __cplusplus
 }
 #endif

@@ -65,8 +65,8 @@ rcl_ret_t rcl_publish_serialized_message(
   const rcl_publisher_t * publisher, const rcl_serialized_message_t * serialized_message,
   rmw_publisher_allocation_t * allocation);
 
-/* Waits until the agent has acknowledged every reliable message; `timeout` is in nanoseconds, negative: no
- * time-out. RCL_RET_TIMEOUT otherwise. */
+/* Waits until the agent has acknowledged every reliable message that was published before the call, as
+ * rmw_uros_flush does; `timeout` is in nanoseconds, negative: no time-out. RCL_RET_TIMEOUT otherwise. */
 rcl_ret_t rcl_publisher_wait_for_all_acked(const rcl_publisher_t * publisher, rcl_duration_value_t timeout);
 
 /* Succeeds and sends nothing: liveliness is automatic, the only kind that XRCE supports. */

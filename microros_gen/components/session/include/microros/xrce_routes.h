@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "microros/xrce_forward.h"
+#include "microros/xrce_mark.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -52,6 +53,9 @@ const uint8_t * xrce_route_drop_oldest(xrce_client_t * client);
 
 /* Returns the number of unacknowledged reliable messages. */
 uint16_t xrce_route_unacknowledged(const xrce_client_t * client);
+
+/* Returns whether every reliable message is acknowledged that was stored at the first call with `mark`. */
+bool xrce_route_passes(const xrce_client_t * client, xrce_mark_t * mark);
 
 /* Returns whether every wanted entity exists at the agent. */
 bool xrce_route_settled(const xrce_client_t * client);

@@ -12,6 +12,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "microros/xrce_mark.h"
 #include "microros/xrce_session.h"
 #include "microros/xrce_stream_reliable_drop.h"
 #include "microros/xrce_stream_reliable_send.h"
@@ -65,6 +66,10 @@ void xrce_stream_reliable_step(
 bool xrce_stream_reliable_on_acknack(
   xrce_stream_reliable_t * stream, xrce_session_t * session, const uint8_t * payload, size_t size,
   uint8_t flags, uint32_t now);
+
+/* Returns whether every message is acknowledged that was stored at the first look with `mark`. */
+bool xrce_stream_reliable_passes(
+  const xrce_stream_reliable_t * stream, const xrce_session_t * session, xrce_mark_t * mark);
 
 /* For this component only: sends a HEARTBEAT with the available numbers, `count` (not 0) from
  * stream->first on. Its interval grows while nothing is acknowledged. Returns false if the transport refused it. */

@@ -23,7 +23,7 @@ uint32_t rmw_client_key(void);
 /* Returns how many sessions were opened after a loss: another number in each session. */
 uint32_t rmw_client_reconnects(void);
 
-/* Waits for at most `timeout_ms` until everything is acknowledged. */
+/* Waits for at most `timeout_ms` until everything of before the call is acknowledged. */
 bool rmw_client_flush(xrce_client_t * client, uint32_t timeout_ms);
 
 #ifdef __cplusplus

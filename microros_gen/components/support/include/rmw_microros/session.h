@@ -40,8 +40,11 @@ rmw_ret_t rmw_uros_spin_once(rmw_context_t * context);
 rmw_ret_t rmw_uros_time_until_due(const rmw_context_t * context, int64_t * duration_ns);
 
 /*
- * Waits until the agent has acknowledged every reliable message and the line has sent the others.
- * RMW_RET_TIMEOUT after `timeout_ms`. */
+ * Waits until the agent has acknowledged every reliable message that was published before the call, and the transport has
+ * sent the best-effort ones. RMW_RET_TIMEOUT after `timeout_ms`. What other tasks publish meanwhile does not prolong it,
+ * except that a serial line (or the buffer before a custom transport) has to be idle for a moment. After a reconnection the
+ * messages that the last agent did not acknowledge are sent again, and the call waits for those, if necessary also for a few
+ * later ones (fewer than the stream has slots). A message that `on_full: drop_oldest` drops is not waited for. */
 rmw_ret_t rmw_uros_flush(rmw_context_t * context, uint32_t timeout_ms);
 
 #ifdef __cplusplus

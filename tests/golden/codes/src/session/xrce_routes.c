@@ -89,6 +89,11 @@ uint16_t xrce_route_unacknowledged(const xrce_client_t * client)
   return client->reliable.count;
 }
 
+bool xrce_route_passes(const xrce_client_t * client, xrce_mark_t * mark)
+{
+  return xrce_stream_reliable_passes(&client->reliable, &client->session, mark);
+}
+
 bool xrce_route_settled(const xrce_client_t * client)
 {
   return xrce_entities_settled(client);
