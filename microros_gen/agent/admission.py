@@ -27,7 +27,6 @@ from microros_gen.agent.ros.bridge import Bridge
 from microros_gen.agent.steps import Steps
 from microros_gen.agent.streams_out import Link
 from microros_gen.agent.transport.base import Transport
-from microros_gen.agent.transport.observed import ObservedTransport
 from microros_gen.agent.turns import Turns
 from microros_gen.agent.wire.constants import (
     SESSION_NONE_WITH_KEY,
@@ -318,11 +317,15 @@ class Admission:
             self.dismiss(client, "disconnected: the new policy could not be applied to it")
             raise
         if reason:
-            say_farewell(client, Status.DENIED)
-            self.dismiss(client, f"disconnected by the new policy: {reason}")
+            self.expel(client, f"disconnected by the new policy: {reason}")
             return
         client.access.rule = access.rule
         self._factory.limit(client)
+
+    def expel(self, client: Client, reason: str) -> None:
+        """Tell a client that its session ends, and remove it."""
+        say_farewell(client, Status.DENIED)
+        self.dismiss(client, reason)
 
     def _give(self, client: Client) -> None:
         """Create the preconfigured objects of a client; existing ones stay."""
@@ -349,8 +352,8 @@ class Admission:
         else:
             writer, fits = submessage.object, not is_reliable(header.stream)
         known = [*self._never_adopted, *(client.session.link.key for client in self._clients)]
-        proved = transport.proved_key(address) if isinstance(transport, ObservedTransport) else b""
-        key = self._held.preconfigured.to_adopt(header.key or proved, writer, known)
+        proved = header.key or transport.proved_key(address)
+        key = self._held.preconfigured.to_adopt(proved, writer, known)
         if key is None or not fits or self._clients.at(address) or header.session in OUT_OF_SESSION:
             raise MalformedError("no_session", f"{submessage.ID.name} without a session")
         access = self.gatekeeper.decide(key, transport, address)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 import traceback
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Container, Hashable
 from functools import partial
 from pathlib import Path
 
@@ -116,6 +116,12 @@ class Agent:
         self._admission.gatekeeper.policy = policy
         for client in self.clients:
             self._guarded(partial(self._admission.review, client))
+
+    def end_sessions(self, keys: Container[int], reason: str) -> None:
+        """Tell the clients with these client keys that their sessions end, and remove them. Never raises."""
+        for client in self.clients:
+            if int.from_bytes(client.session.link.key, "big") in keys:
+                self._guarded(partial(self._admission.expel, client, reason))
 
     def client_states(self) -> tuple[ClientState, ...]:
         """Return the view of all clients, also of those that have left; empty unless the agent is `watched`."""

@@ -32,7 +32,7 @@ def watchdog(
     """
     period_us, process = environ.get("WATCHDOG_USEC", ""), environ.get("WATCHDOG_PID", "")
     if not period_us.isdecimal() or int(period_us) == 0 or process not in ("", str(os.getpid())):
-        return _nothing
+        return unwatched
     return _Watchdog(int(period_us) / 2e6, send).care
 
 
@@ -48,5 +48,5 @@ class _Watchdog:
             self._send("WATCHDOG=1")
 
 
-def _nothing(_now: float) -> None:
-    """Send nothing."""
+def unwatched(_now: float) -> None:
+    """Tell nobody that the main loop runs: no service manager watches it."""

@@ -12,7 +12,7 @@ import os
 import select
 import signal
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from types import FrameType
@@ -20,16 +20,13 @@ from typing import Protocol
 
 from microros_gen.agent.core import Agent
 from microros_gen.agent.log import EventLog, Level
+from microros_gen.agent.readiness import unwatched
 from microros_gen.agent.transport.base import Transport
 
 TICK_S = 0.1
 """Seconds between two calls of the transports' `tick`: for missing devices and silent connections."""
 
 Ready = Callable[[Transport], None]
-
-
-def _not_watched(_now: float) -> None:
-    """Tell nobody that the loop runs."""
 
 
 class Server:
@@ -43,7 +40,7 @@ class Server:
         agent: Agent,
         transports: Sequence[Transport],
         log: EventLog,
-        alive: Callable[[float], None] = _not_watched,
+        alive: Callable[[float], None] = unwatched,
     ) -> None:
         self._agent = agent
         self._transports = transports
@@ -145,12 +142,18 @@ class Server:
 
 
 @contextmanager
-def reloaded_by_signal(server: Server, reload: Callable[[], object] | None) -> Iterator[None]:
-    """Let SIGHUP call `reload` in the loop of `server` within the context; None: SIGHUP does what it did."""
-    if reload is None:
+def reloaded_by_signal(server: Server, reloads: Iterable[Callable[[], object] | None]) -> Iterator[None]:
+    """Let SIGHUP call all of `reloads` in the loop of `server` within the context; without any it does what it did."""
+    wanted = [reload for reload in reloads if reload is not None]
+    if not wanted:
         yield
         return
-    before = signal.signal(signal.SIGHUP, lambda _number, _frame: server.soon(reload))
+
+    def reload_all(_number: int, _frame: FrameType | None) -> None:
+        for reload in wanted:
+            server.soon(reload)
+
+    before = signal.signal(signal.SIGHUP, reload_all)
     try:
         yield
     finally:

@@ -76,7 +76,7 @@ _ONLY_FOR = {
     "framing": ("custom",),
     "read_polls": ("custom",),
     "mtu": ("udp", "tcp", "serial", "custom"),
-    "seal": ("udp",),
+    "seal": ("udp", "tcp", "serial"),
 }
 
 

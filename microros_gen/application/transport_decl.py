@@ -18,7 +18,7 @@ class Transport:
     multicast to this port; None: `host` and `port` say where it is, or, where `agent_span` is None too, the
     selection decides. `agents`: address and port of each of several, of which `host` and `port` are the first; or none.
     `devices`: likewise the serial device of each of several, of which `device` is the first.
-    `seal`: who has the cryptography of sealed datagrams, psa or application; empty: they are not sealed.
+    `seal`: who has the cryptography of sealed messages, psa or application; empty: they are not sealed.
     `can_device`, `can_id` and `bitrate` are those of CAN FD; None: not said, and an identifier has no default.
     """
 

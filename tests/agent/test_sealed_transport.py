@@ -10,14 +10,21 @@ from pathlib import Path
 import pytest
 from noise.connection import NoiseConnection
 
-from microros_gen.agent.configuration.model import SocketChoice
+from microros_gen.agent.configuration.model import (
+    CanChoice,
+    PtyChoice,
+    SerialChoice,
+    SocketChoice,
+    TransportChoice,
+)
 from microros_gen.agent.fairness import Account
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.seal.keys import read_keys
 from microros_gen.agent.seal.noise import NAME
 from microros_gen.agent.seal.session import FIRST, LABEL, RECORD, Kind
 from microros_gen.agent.transport.base import Receive, Transport
-from microros_gen.agent.transport.sealed import SealedTransport
+from microros_gen.agent.transport.outbox import SealedRecord
+from microros_gen.agent.transport.sealed import SealedAddress, SealedTransport
 from microros_gen.agent.transport.sockets import UDP4
 from microros_gen.agent.transport.udp import Udp
 from microros_gen.agent.wire.constants import Status
@@ -28,6 +35,8 @@ from microros_gen.diagnostics import Diagnostics
 KEY, PSK = 0xA1B2C3D4, bytes(range(32))
 CREATE_CLIENT = b"\x80\x00\x00\x00\x00\x01\x10\x00XRCE\x01\x00\x01\x0f%s\x81\x00\x00\x02"
 PEER = ("192.0.2.1", 4000)
+SAMPLE = b"\x81\x01\x00\x00\x09\x01\x04\x00" + bytes(4)
+"""A best-effort sample of the agent."""
 
 
 class Datagrams(Udp):
@@ -94,12 +103,18 @@ def link() -> Link:
 def test_messages_have_the_address_and_the_client_key(link: Link) -> None:
     link.connect()
     assert link.deliver(link.record(b"\x81\x00\x00\x00")) == []
-    address = (link.inner, PEER, KEY)
+    address = SealedAddress((link.inner, PEER), KEY)
     assert link.received == [(b"\x81\x00\x00\x00", address)]
     link.sealed.send(b"answer", address)
     ((record, to),) = link.inner.sent
     assert to == (link.inner, PEER)
+    assert isinstance(record, SealedRecord)
+    assert not record.is_sample
     assert link.noise.decrypt(record[RECORD.size :]) == b"answer"
+    link.sealed.send(SAMPLE, address)
+    sample = link.inner.sent[-1][0]
+    assert isinstance(sample, SealedRecord)
+    assert sample.is_sample, "a full queue drops the oldest of these"
     assert link.sealed.name_of(address) == "192.0.2.1:4000"
     assert str(link.sealed.origin(address)) == "192.0.2.1"
     assert not link.sealed.forgeable
@@ -185,21 +200,22 @@ def test_file_of_keys(tmp_path: Path) -> None:
     assert [d.id for d in diagnostics] == ["MG-3264", "MG-3274"]
 
 
-def options(file: Path, kind: str, discovery: int | None = None) -> AgentOptions:
-    return AgentOptions(transports=(SocketChoice(kind),), discovery=discovery, psk_file=file)
+def options(file: Path, choice: TransportChoice, discovery: int | None = None) -> AgentOptions:
+    return AgentOptions(transports=(choice,), discovery=discovery, psk_file=file)
 
 
-def test_only_udp_is_sealed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_transports_that_are_sealed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     file = tmp_path / "keys"
     file.write_text(f"1 {PSK.hex()}")
     file.chmod(0o600)
     diagnostics = Diagnostics()
-    assert read_psk_file(options(file, "udp6"), diagnostics) == {1: PSK}
+    for choice in (SocketChoice("udp6"), SocketChoice("tcp4"), SerialChoice("/dev/ttyUSB0"), PtyChoice()):
+        assert read_psk_file(options(file, choice), diagnostics) == {1: PSK}
     assert list(diagnostics) == []
-    read_psk_file(options(file, "tcp4"), diagnostics)
-    read_psk_file(options(file, "udp4", discovery=7400), diagnostics)
+    read_psk_file(options(file, CanChoice("can0")), diagnostics)
+    read_psk_file(options(file, SocketChoice("udp4"), discovery=7400), diagnostics)
     assert [d.id for d in diagnostics] == ["MG-3269", "MG-3273"]
     monkeypatch.setattr("microros_gen.cli.agent.seal.find_spec", lambda _name: None)
     missing = Diagnostics()
-    read_psk_file(options(file, "udp4"), missing)
+    read_psk_file(options(file, SocketChoice("udp4")), missing)
     assert [(d.id, d.hint) for d in missing] == [("MG-3271", "pip install 'microros-gen[seal]'")]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sealed datagrams in an application file: what is selected, and what they exclude."""
+"""Sealed messages in an application file: what is selected, and what they exclude."""
 
 from __future__ import annotations
 
@@ -48,13 +48,18 @@ def test_without_seal_nothing_of_it_is_in_the_output(tmp_path: Path) -> None:
         (POOLS + KEY + "liveliness: none\n" + PSA, "MG-3262"),
         (POOLS + KEY + PING + PSA + "components: [+sleep_cycles]\n", "MG-3263"),
         (POOLS + KEY + PING + "transport: {seal: psa, agent: discover}\n", "MG-3263"),
-        (POOLS + KEY + PING + PSA + "target: qemu-mps2-an386\n", "MG-4037"),
-        (POOLS + KEY + PING + "transport: {type: tcp, seal: psa}\n", "MG-3014"),
+        (POOLS + KEY + PING + "transport: {type: custom, seal: psa}\n", "MG-3014"),
+        (POOLS + KEY + PING + "transport: {type: canfd, id: 5, seal: psa}\n", "MG-3014"),
+        (POOLS + KEY + PING + PSA + "target: ./own.yaml\n", "MG-3275"),
         (POOLS + KEY + PING + "transport: {mtu: 65500, seal: psa}\n", "MG-3270"),
+        (POOLS + KEY + PING + "transport: {type: tcp, mtu: 65502, seal: psa}\n", "MG-3270"),
+        (POOLS + KEY + PING + "transport: {type: serial, mtu: 65504, seal: psa}\n", "MG-3270"),
         (POOLS + KEY + PING + "transport: {seal: aes}\n", None),
     ],
 )
-def test_what_contradicts_sealed_datagrams(tmp_path: Path, application: str, identifier: str | None) -> None:
+def test_what_contradicts_sealed_messages(tmp_path: Path, application: str, identifier: str | None) -> None:
+    own = "target: own\nsummary: a host with a custom transport\nextends: host\ntransport: custom\n"
+    (tmp_path / "own.yaml").write_text(own)
     with pytest.raises(UserError) as caught:
         planned(tmp_path, application)
     found = [diagnostic.id for diagnostic in caught.value.diagnostics]

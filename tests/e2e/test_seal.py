@@ -1,40 +1,31 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sealed datagrams: devices over Mbed TLS, an agent with their keys, and rclpy."""
+"""Sealed messages over UDP: devices over Mbed TLS, an agent with their keys, and rclpy."""
 
 from __future__ import annotations
 
-import time
+import signal
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from microros_gen import compiler
-from microros_gen.interfaces.find import shipped_folder
 from tests.support.agent.observer import Observer
 from tests.support.agent.process import AgentProcess, running_agent
 from tests.support.agent.ros_client import INT32
-from tests.support.e2e.images import C_FILES, POOLS, Image, Images, run
+from tests.support.e2e.images import Image, Images
 from tests.support.e2e.live import Live
 from tests.support.e2e.relay import Relay, rough
-from tests.support.patience import deadline
+from tests.support.e2e.sealed import (
+    KEY,
+    OTHER,
+    PSK,
+    begin,
+    sealed_program,
+    wait_until_it_arrives,
+    write_keys,
+)
 
 pytestmark = [pytest.mark.ros, pytest.mark.system]
-KEY = 0x77
-PSK, OTHER = bytes(range(32)).hex(), bytes(range(1, 33)).hex()
-SEALED = f"""\
-{POOLS}\
-liveliness: ping
-transport: {{seal: psa}}
-session:
-  key: {KEY}
-  liveliness_period: 200 ms
-  round_trip: 50 ms
-  liveliness_timeout: 1 s
-  retry_max: 400 ms
-  connect_timeout: 3 s
-  create_timeout: 5 s
-"""
 
 
 @pytest.fixture(scope="module")
@@ -47,28 +38,13 @@ def planned() -> Iterator[Relay]:
 @pytest.fixture(scope="module")
 def program(tmp_path_factory: pytest.TempPathFactory, planned: Relay) -> Path:
     folder = tmp_path_factory.mktemp("sealed")
-    config, out, program = folder / "microros.yaml", folder / "out", folder / "live"
-    config.write_text(SEALED)
-    place = f"127.0.0.1:{planned.port}"
-    compiler.generate(compiler.Options(config=config, interface_paths=(shipped_folder(),), agent=place), out)
-    sources = [str(out / name) for name in (out / "sources.txt").read_text(encoding="utf-8").split()]
-    own = [str(C_FILES / name) for name in ("live.c", "seal_key.c")]
-    done = run(
-        [
-            *("gcc", "-O0", "-g", "-std=c99", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"),
-            *("-DLIVE_PING", f"-I{out / 'include'}", *own, *sources, "-lmbedcrypto", "-o", str(program)),
-        ],
-        timeout_s=240,
-    )
-    assert done.returncode == 0, done.stderr
-    return program
+    return sealed_program(folder, "{seal: psa}", agent=f"127.0.0.1:{planned.port}")
 
 
 @pytest.fixture
 def keys(tmp_path: Path) -> Path:
     file = tmp_path / "keys"
-    file.write_text(f"{KEY:#x} {PSK}\n")
-    file.chmod(0o600)
+    write_keys(file, {KEY: PSK})
     return file
 
 
@@ -83,21 +59,6 @@ def live(program: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Live]:
     monkeypatch.setenv("SEAL_PSK", PSK)
     with Live(program) as running:
         yield running
-
-
-def begin(live: Live, port: int) -> None:
-    for command in (f"open {KEY} {port}", "node 0 talker -", "publisher 0 0 Int32 chatter reliable"):
-        live.ok(command)
-
-
-def wait_until_it_arrives(live: Live, observer: Observer, first: int) -> None:
-    """Publish numbers from `first` on until one arrives."""
-    end = deadline(20)
-    while not [v for _, v in observer.ask(do="samples") if v["data"] >= first]:
-        assert time.monotonic() < end, "no sample arrives"
-        live.call(f"publish 0 {first}")
-        time.sleep(0.05)
-        live.call("flush 500")
 
 
 def test_samples_arrive_and_none_is_in_the_clear(agent: AgentProcess, live: Live, observer: Observer) -> None:
@@ -213,3 +174,58 @@ def test_ping_with_and_without_a_session(agent: AgentProcess, live: Live, planne
     live.ok("close")
     live.ok("ping 1000 10")
     planned.connect(0)
+
+
+def test_ping_with_options(
+    agent: AgentProcess, domain: int, live: Live, observer: Observer, tmp_path: Path
+) -> None:
+    """Each address is another agent, and has its own handshake; the session with the first one continues."""
+    observer.subscribe("/chatter", INT32)
+    port, silent = agent.port, 1
+    live.ok(f"ping_at {port} 1000 10")
+    other, foreign = tmp_path / "other", tmp_path / "foreign"
+    write_keys(other, {KEY: PSK})
+    write_keys(foreign, {KEY: OTHER})
+    with (
+        running_agent(domain, "--domain", str(domain), "--psk-file", str(other)) as second,
+        running_agent(domain, "--domain", str(domain), "--psk-file", str(foreign)) as third,
+    ):
+        live.ok(f"ping_at {second.port} 1000 10")
+        begin(live, port)
+        live.ok(f"ping_at {port} 1000 10")
+        live.ok(f"ping_at {second.port} 1000 10")
+        assert live.call(f"ping_at {third.port} 100 2").code != 0
+        assert live.call(f"ping_at {silent} 100 2").code != 0
+        assert "seal_other_key" in third.wait_for("was refused")
+    wait_until_it_arrives(live, observer, 1)
+    assert live.ok("statistics").lines[0].split()[-2] == "reconnects=0"
+    live.ok("close")
+    live.ok(f"ping_at {port} 1000 10")
+
+
+def test_keys_are_read_again(
+    agent: AgentProcess, keys: Path, program: Path, live: Live, observer: Observer
+) -> None:
+    """A session ends with its key; that of another key goes on, and a damaged file changes nothing."""
+    observer.subscribe("/chatter", INT32)
+    begin(live, agent.port)
+    wait_until_it_arrives(live, observer, 1)
+    write_keys(keys, {KEY: PSK, 0x78: OTHER})
+    agent.process.send_signal(signal.SIGHUP)
+    assert agent.wait_for("sealed: keys of 2 clients")
+    keys.write_text(f"{KEY:#x} {PSK}\n0x78 {OTHER[:-2]}\n")
+    agent.process.send_signal(signal.SIGHUP)
+    fault = agent.wait_for(f"{keys}:2:1")
+    assert "64 hexadecimal digits" in fault
+    assert OTHER[:8] not in fault
+    assert agent.wait_for("stay in force")
+    wait_until_it_arrives(live, observer, 100)
+    assert live.ok("statistics").lines[0].split()[-2] == "reconnects=0"
+    write_keys(keys, {0x78: OTHER})
+    agent.process.send_signal(signal.SIGHUP)
+    assert f"{KEY:08X}" in agent.wait_for("its key was removed")
+    assert agent.wait_for("seal_unknown_key")
+    write_keys(keys, {KEY: PSK})
+    agent.process.send_signal(signal.SIGHUP)
+    wait_until_it_arrives(live, observer, 1000)
+    live.ok("close")

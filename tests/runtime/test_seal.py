@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sealed datagrams: the device over Mbed TLS, the agent, and an independent implementation of Noise."""
+"""Sealed messages: the device over Mbed TLS, the agent, and an independent implementation of Noise."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import re
 import shutil
 import struct
 import subprocess
+from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
 
@@ -36,14 +37,29 @@ SILENT, REFUSED, FORGED = 3, 4, 5
 """Values of xrce_seal_fault_t."""
 
 
+@pytest.fixture(
+    scope="module",
+    params=[
+        "udp",
+        pytest.param("tcp", marks=pytest.mark.variant),
+        pytest.param("serial", marks=pytest.mark.variant),
+    ],
+)
+def transport(request: pytest.FixtureRequest) -> str:
+    found: str = request.param
+    return found
+
+
 @pytest.fixture(scope="module")
-def library(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return build_device(tmp_path_factory.mktemp("seal"))
+def library(tmp_path_factory: pytest.TempPathFactory, transport: str) -> Path:
+    return build_device(tmp_path_factory.mktemp(f"seal_{transport}"), transport)
 
 
 @pytest.fixture
-def device(library: Path) -> Device:
-    return Device(library, PSK)
+def device(library: Path, transport: str) -> Iterator[Device]:
+    found = Device(library, PSK, transport)
+    yield found
+    assert found.faults == []
 
 
 def independent(initiator: bool, prologue: bytes) -> NoiseConnection:
@@ -399,8 +415,8 @@ def test_keys_are_wiped(device: Device) -> None:
     assert device.is_wiped
 
 
-def test_without_a_key_nothing_is_sent(library: Path) -> None:
-    device = Device(library, None)
+def test_without_a_key_nothing_is_sent(library: Path, transport: str) -> None:
+    device = Device(library, None, transport)
     assert not device.open()
     assert (device.fault, device.sent()) == (1, [])
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sealed datagrams: Noise sessions with clients that share a key with the agent (docs/howto/seal.md)."""
+"""Sealed messages: Noise sessions with clients that share a key with the agent (docs/howto/seal.md)."""

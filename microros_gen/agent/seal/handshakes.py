@@ -100,6 +100,15 @@ class Handshakes:
         session, at = self._current.get(client_key, (None, None))
         return None if session is None or at != peer else session.seal(message)
 
+    def use(self, keys: Mapping[int, bytes]) -> None:
+        """Replace the pre-shared keys; sessions of a client whose key is another one now, or is missing, end."""
+        before, self._keys = self._keys, keys
+        for client_key in [key for key in before if keys.get(key) != before[key]]:
+            current = self._current.pop(client_key, None)
+            for session, _ in (*self._unconfirmed.pop(client_key, ()), *((current,) if current else ())):
+                del self._by_index[session.own]
+                self._answers.pop(session.own, None)
+
     def _new_index(self) -> int:
         while True:
             index = secrets.randbits(32)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Datagrams of sealed links: their layouts, the records of one session, and its replay window.
+"""Messages of sealed links: their layouts, the records of one session, and its replay window.
 
-All numbers are little endian. Each datagram begins with its type, the version 1 and two zero bytes:
+All numbers are little endian. Each of them begins with its type, the version 1 and two zero bytes:
 
 - first message of a handshake: index of the client (4 bytes), client key (4), then 48 bytes of Noise;
 - second message: index of the agent (4), index of the client (4), then 48 bytes of Noise;
@@ -35,7 +35,7 @@ WINDOW = 64
 
 
 class Kind(IntEnum):
-    """First byte of a datagram."""
+    """First byte of a message of a sealed link."""
 
     FIRST = 1
     SECOND = 2

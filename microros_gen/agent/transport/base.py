@@ -60,5 +60,8 @@ class Transport(Protocol):
     def origin(self, address: Hashable) -> Origin:
         """Return where the client at an address is, for the policy."""
 
+    def proved_key(self, address: Hashable) -> bytes:
+        """Return the client key (4 bytes, big endian) that the sender at an address has proved; empty: none."""
+
     def close(self) -> None:
         """Close every descriptor."""

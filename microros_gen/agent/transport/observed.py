@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Hashable
+from collections.abc import Hashable
 
 from microros_gen.agent.transport.base import Receive, Transport
 
@@ -23,10 +23,7 @@ class ObservedTransport(ABC):
         self.claim = inner.claim
         self.release = inner.release
         self.close = inner.close
-        self.proved_key: Callable[[Hashable], bytes] = _no_key
-        """Returns the client key that the sender at an address has proved; empty: none."""
-        if isinstance(inner, ObservedTransport):
-            self.proved_key = inner.proved_key
+        self.proved_key = inner.proved_key
 
     @abstractmethod
     def _observe(self, data: bytes, address: Hashable, inbound: bool) -> None:
@@ -50,7 +47,3 @@ class ObservedTransport(ABC):
         """See Transport."""
         self._observe(data, address, inbound=False)
         self._inner.send(data, address)
-
-
-def _no_key(_address: Hashable) -> bytes:
-    return b""

@@ -22,8 +22,16 @@ DATA = int(SubmessageId.DATA)
 _AT_ONCE = 64  # frames for one system call; POSIX lets a system stop at 16, Linux at 1,024
 
 
+class SealedRecord(bytes):
+    """A sealed message, which says itself whether its message is a best-effort sample."""
+
+    is_sample = False
+
+
 def is_sample(message: bytes) -> bool:
     """Return whether a message of the agent is a best-effort sample, which a newer one replaces."""
+    if isinstance(message, SealedRecord):
+        return message.is_sample
     start = 4 if message[0] >= 0x80 else 8
     return STREAM_NONE < message[1] < STREAM_RELIABLE and message[start : start + 1] == bytes((DATA,))
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A transport of datagrams around which all messages are sealed; others are refused and counted.
+"""A transport whose messages are sealed; others are refused and counted.
 
 An address of it is that of the transport within and the client key, which the handshake has proved. So no client can
 send in the session of another one, whatever address it pretends to have.
@@ -9,14 +9,15 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Hashable, Mapping
-from typing import Any
+from typing import NamedTuple
 
 from microros_gen.agent.fairness import Account
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.seal.handshakes import Handshakes
 from microros_gen.agent.seal.session import Kind, RecordError
-from microros_gen.agent.transport.base import Receive, Transport
+from microros_gen.agent.transport.base import Origin, Receive, Transport
 from microros_gen.agent.transport.observed import ObservedTransport
+from microros_gen.agent.transport.outbox import SealedRecord, is_sample
 from microros_gen.agent.wire.constants import STREAM_NONE, Status, SubmessageId
 from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.message import Header, header_size, split
@@ -24,8 +25,15 @@ from microros_gen.agent.wire.session_messages import CreateClient, StatusAgent
 from microros_gen.agent.wire.submessages import decode, encode
 
 
+class SealedAddress(NamedTuple):
+    """Where a client is (`within` the transport that carries the records), and the client key that it has proved."""
+
+    within: Hashable
+    client_key: int
+
+
 class SealedTransport(ObservedTransport):
-    """A UDP transport whose clients share a key with the agent."""
+    """A transport whose clients share a key with the agent."""
 
     def __init__(
         self,
@@ -45,10 +53,18 @@ class SealedTransport(ObservedTransport):
         self._log = log
         self._clock = clock
         self._strangers = strangers or Account()
+        self.name_of = self._name_of
+        self.origin = self._origin
+        self.claim = self._claim
+        self.release = self._release
         self.proved_key = _proved_key
 
     def _observe(self, data: bytes, address: Hashable, inbound: bool) -> None:
         """See ObservedTransport: `pump` and `send` do all."""
+
+    def use_keys(self, keys: Mapping[int, bytes]) -> None:
+        """Replace the pre-shared keys; sessions of a client whose key is another one now, or is missing, end."""
+        self._handshakes.use(keys)
 
     def pump(self, receive: Receive) -> None:
         """See Transport."""
@@ -61,7 +77,7 @@ class SealedTransport(ObservedTransport):
                 self._count(str(error), address)
                 message, client_key = b"", 0
             if message:
-                receive(message, (*_parts(address), client_key), self)
+                receive(message, SealedAddress(address, client_key), self)
             else:
                 now = self._clock()
                 self._strangers.bill(now - began, now)
@@ -70,13 +86,27 @@ class SealedTransport(ObservedTransport):
 
     def send(self, data: bytes, address: Hashable) -> None:
         """See Transport."""
-        *within, client_key = _parts(address)
-        record = self._handshakes.seal(data, client_key, tuple(within))
+        within, client_key = _parts(address)
+        record = self._handshakes.seal(data, client_key, within)
         if record is not None:
-            self._inner.send(record, tuple(within))
+            sealed = SealedRecord(record)
+            sealed.is_sample = is_sample(data)
+            self._inner.send(sealed, within)
+
+    def _name_of(self, address: Hashable) -> str:
+        return self._inner.name_of(_within(address))
+
+    def _origin(self, address: Hashable) -> Origin:
+        return self._inner.origin(_within(address))
+
+    def _claim(self, address: Hashable, account: Account) -> None:
+        self._inner.claim(_within(address), account)
+
+    def _release(self, address: Hashable, moved: bool = False) -> None:
+        self._inner.release(_within(address), moved)
 
     def _open(self, data: bytes, address: Hashable) -> tuple[bytes, int]:
-        """Return the message in a datagram, empty for a handshake, and its client key. Raises RecordError."""
+        """Return the message in a record, empty for a handshake, and its client key. Raises RecordError."""
         kind = data[0] if data else 0
         if kind == Kind.FIRST:
             answer, fault = self._handshakes.answer(data, address, self._clock())
@@ -103,16 +133,20 @@ class SealedTransport(ObservedTransport):
             self._inner.send(answer, address)
 
     def _count(self, kind: str, address: Hashable) -> None:
-        self._log.count(kind, "a datagram from {peer} was refused", peer=self.name_of(address))
+        self._log.count(kind, "a message from {peer} was refused", peer=self._inner.name_of(address))
 
 
 def _proved_key(address: Hashable) -> bytes:
-    return int(_parts(address)[-1]).to_bytes(4, "big")
+    return _parts(address).client_key.to_bytes(4, "big")
 
 
-def _parts(address: Hashable) -> tuple[Any, ...]:
-    assert isinstance(address, tuple)
+def _parts(address: Hashable) -> SealedAddress:
+    assert isinstance(address, SealedAddress)
     return address
+
+
+def _within(address: Hashable) -> Hashable:
+    return _parts(address).within
 
 
 def _is_from(message: bytes, client_key: int) -> bool:

@@ -158,8 +158,9 @@ _COMMON = (
         "--psk-file",
         type=click.Path(path_type=Path, dir_okay=False),
         metavar="FILE",
-        help="Seal all datagrams with a key that each client shares with the agent, and refuse others (UDP alone). In"
-        " each line of FILE: client key, and 64 hexadecimal digits; only its owner may read it.",
+        help="Seal all messages with a key that each client shares with the agent, and refuse others (not over CAN FD)."
+        " In each line of FILE: client key, and 64 hexadecimal digits; only its owner may read it. SIGHUP reloads the"
+        " file.",
     ),
     click.option(
         "--check",

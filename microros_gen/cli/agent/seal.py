@@ -3,17 +3,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from importlib.util import find_spec
+from typing import TYPE_CHECKING
 
-from microros_gen.agent.configuration.model import SocketChoice, TransportChoice
+from microros_gen.agent.configuration.model import CanChoice
+from microros_gen.agent.core import Agent
 from microros_gen.agent.fairness import Account
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.seal.keys import read_keys
 from microros_gen.agent.transport.base import Transport
-from microros_gen.agent.transport.sockets import PROTOCOLS
 from microros_gen.cli.agent.options import AgentOptions
 from microros_gen.diagnostics import Diagnostics
+
+if TYPE_CHECKING:
+    from microros_gen.agent.transport.sealed import SealedTransport
 
 
 def read_psk_file(options: AgentOptions, diagnostics: Diagnostics) -> Mapping[int, bytes] | None:
@@ -22,9 +27,10 @@ def read_psk_file(options: AgentOptions, diagnostics: Diagnostics) -> Mapping[in
     if path is None:
         return None
     span = options.places.get(path)
-    for name in [_name(choice) for choice in options.transports if not _is_datagram(choice)]:
-        message = f"messages over {name} are not sealed, and --psk-file refuses clients without a seal"
-        diagnostics.error(message, span, "Serve it by another agent, or use udp4 or udp6", id="MG-3269")
+    if any(isinstance(choice, CanChoice) for choice in options.transports):
+        message = "messages over CAN FD are not sealed, and --psk-file refuses clients without a seal"
+        hint = "Serve the bus by another agent, or use udp4, udp6, tcp4, tcp6 or serial"
+        diagnostics.error(message, span, hint, id="MG-3269")
     if options.discovery is not None:
         message = "answers to searches are not sealed, and --psk-file refuses clients without a seal"
         diagnostics.error(message, span, "Remove --discovery: give the devices the address", id="MG-3273")
@@ -34,22 +40,51 @@ def read_psk_file(options: AgentOptions, diagnostics: Diagnostics) -> Mapping[in
     return read_keys(path, diagnostics, span)
 
 
-def sealed(
-    transports: Sequence[Transport], keys: Mapping[int, bytes] | None, log: EventLog, strangers: Account
-) -> list[Transport]:
-    """Return the transports, sealed where there are keys."""
-    if keys is None:
-        return list(transports)
-    from microros_gen.agent.transport.sealed import SealedTransport  # needs cryptography
+class PskFile:
+    """The file of keys of a running agent: read at the start, and again on SIGHUP."""
 
-    text = "sealed: keys of {clients} clients; others are refused"
-    log.emit(Level.INFO, "sealed", text, clients=len(keys))
-    return [SealedTransport(transport, keys, log, strangers=strangers) for transport in transports]
+    def __init__(self, options: AgentOptions, keys: Mapping[int, bytes] | None, log: EventLog) -> None:
+        """Begin with `keys`, those of the file; None: the options name no file."""
+        self._options = options
+        self._keys = keys
+        self._log = log
+        self._transports: list[SealedTransport] = []
 
+    def sealed(self, transports: Sequence[Transport], strangers: Account) -> list[Transport]:
+        """Return the transports, sealed where there are keys; the account `strangers` pays for what is refused."""
+        if self._keys is None:
+            return list(transports)
+        from microros_gen.agent.transport.sealed import SealedTransport  # needs cryptography
 
-def _is_datagram(choice: TransportChoice) -> bool:
-    return isinstance(choice, SocketChoice) and not PROTOCOLS[choice.kind].stream
+        self._report(len(self._keys))
+        self._transports = [
+            SealedTransport(transport, self._keys, self._log, strangers=strangers) for transport in transports
+        ]
+        return list(self._transports)
 
+    def reloading(self, agent: Agent) -> Callable[[], None] | None:
+        """Return the function that reads the file again and applies it; None without a file."""
+        return partial(self._reload, agent) if self._keys is not None else None
 
-def _name(choice: TransportChoice) -> str:
-    return choice.kind if isinstance(choice, SocketChoice) else "a line or a bus"
+    def _reload(self, agent: Agent) -> None:
+        diagnostics = Diagnostics()
+        keys = read_psk_file(self._options, diagnostics)
+        for diagnostic in diagnostics:
+            self._log.emit(Level.WARNING, "seal_fault", "{reason}", reason=diagnostic.headline())
+        if keys is None or diagnostics.has_errors():
+            text = "the new file of keys has faults; the keys before it stay in force"
+            self._log.emit(Level.WARNING, "seal_kept", text)
+            return
+        before, self._keys = self._keys or {}, keys
+        ended = {client for client, key in before.items() if keys.get(client) != key}
+        agent.end_sessions(
+            ended, "disconnected: its key was removed or changed"
+        )  # told while it can be sealed
+        for transport in self._transports:
+            transport.use_keys(keys)
+        self._report(len(keys))
+
+    def _report(self, clients: int) -> None:
+        self._log.emit(
+            Level.INFO, "sealed", "sealed: keys of {clients} clients; others are refused", clients=clients
+        )

@@ -48,7 +48,7 @@ from microros_gen.cli.agent.monitoring import checked_places, monitoring
 from microros_gen.cli.agent.options import AgentOptions, read_sources
 from microros_gen.cli.agent.parameters import ParametersOnDemand
 from microros_gen.cli.agent.policy import read_policy, reloading, report_policy
-from microros_gen.cli.agent.seal import read_psk_file, sealed
+from microros_gen.cli.agent.seal import PskFile, read_psk_file
 from microros_gen.cli.agent.types import ClientTypes, HashOf, TypeHashes, read_manifests
 from microros_gen.cli.terminal import echo_found
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
@@ -86,7 +86,8 @@ def serve(options: AgentOptions) -> None:
     except UserError:
         _close(transports)
         raise
-    transports = sealed(transports, files.keys, log, shared.strangers)
+    psk_file = PskFile(options, files.keys, log)
+    transports = psk_file.sealed(transports, shared.strangers)
     if recorder is not None:
         transports = [RecordedTransport(transport, recorder) for transport in transports]
     manifests = Manifests(files.clients.by_client)
@@ -123,7 +124,7 @@ def serve(options: AgentOptions) -> None:
             client_state_node(options, limits, agent, log),
             monitoring(options, agent, transports, log),
             parameters.running(),
-            reloaded_by_signal(server, reloading(options, agent, log)),
+            reloaded_by_signal(server, (reloading(options, agent, log), psk_file.reloading(agent))),
             stopped_by_signals(server),
         ):
             if recorder is not None:

@@ -7,6 +7,7 @@ from microros_gen.application.model import Application
 from microros_gen.client.plan.console import console_size
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.streams import usual_frame
+from microros_gen.client.plan.transport_sizes import seal_overhead
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.platform.part import Divisor, Fraction, Image
 from microros_gen.platform.target import OWN_DRIVER, Target, Uart
@@ -103,7 +104,7 @@ def plan_board(
     driver = target.uart_driver if has_line and runtime.transport.kind in _LINE_USERS else "none"
     if not target.has_image:
         return BoardPlan(
-            ring_size=ring_size(runtime),
+            ring_size=ring_size(runtime, seal_overhead(application)),
             output_size=runtime.transport.send_buffer,
             serial_driver=driver,
             console_size=console_size(application, target),
@@ -112,7 +113,7 @@ def plan_board(
     if target.cpu.starts_itself:
         _check_stack(application.memory.stack or 0, application, target, diagnostics)
         return BoardPlan(
-            ring_size=ring_size(runtime),
+            ring_size=ring_size(runtime, seal_overhead(application)),
             output_size=runtime.transport.send_buffer,
             console_size=console_size(application, target),
             ticks_per_ms=target.clock_hz // 1000,
@@ -133,7 +134,7 @@ def plan_board(
         console_size=console_size(application, target),
         stdio_divisor=_stdio_divisor(target, uart, runtime, application, diagnostics),
         stack_size=_stack_size(application, target, diagnostics),
-        ring_size=ring_size(runtime),
+        ring_size=ring_size(runtime, seal_overhead(application)),
         output_size=runtime.transport.send_buffer,
         ticks_per_ms=target.clock_hz // 1000,
         serial_driver=driver,
@@ -161,19 +162,20 @@ def has_own_line(target: Target, transport: str) -> bool:
     )
 
 
-def ring_size(runtime: RuntimePlan) -> int:
+def ring_size(runtime: RuntimePlan, overhead: int = 0) -> int:
     """Return the bytes that can arrive while the application does not read, and one to spare, at most 32 KiB.
 
     What an agent sends by itself answers what was sent to it: one message of the longest kind that must not be
     lost, and an ACKNACK for each slot of the reliable stream; each is framed and stuffed as usual, and has some bytes
     more. A larger sample comes on a best-effort stream at any time, and may be lost: of it there is what the line
     brings in REACTION_MS, or a quarter of it where that is less, for it is decoded out of the ring while it comes.
+    `overhead`: bytes of a record around each message, where they are sealed.
     """
-    frames = [runtime.transport.line_input, *([_ACKNACK] * runtime.streams.reliable_slots)]
+    frames = [runtime.transport.line_input, *([_ACKNACK + overhead] * runtime.streams.reliable_slots)]
     needed = sum(usual_frame(size) + _MORE_STUFFED for size in frames)
-    if runtime.input.size > runtime.transport.line_input:
+    if runtime.input.size + overhead > runtime.transport.line_input:
         in_time = runtime.transport.baud * REACTION_MS // (1000 * _BITS_OF_A_BYTE)
-        needed = max(needed, min(in_time, runtime.input.size // 4))
+        needed = max(needed, min(in_time, (runtime.input.size + overhead) // 4))
     return min((needed + 4) & ~3, 1 << 15)
 
 

@@ -12,7 +12,13 @@ from collections.abc import Iterable
 from microros_gen.application.model import Application
 from microros_gen.client.plan.creation import MESSAGE_HEADER, SUBMESSAGE_HEADER, most_in_fragments
 from microros_gen.client.plan.history import default_history, input_slots, output_slots
-from microros_gen.client.plan.transport_sizes import FRAGMENTS_PER_SAMPLE, default_mtu, largest_mtu, mtu_is
+from microros_gen.client.plan.transport_sizes import (
+    FRAGMENTS_PER_SAMPLE,
+    carried,
+    default_mtu,
+    largest_mtu,
+    mtu_is,
+)
 from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.records import dataclass
 
@@ -209,7 +215,12 @@ def plan_streams(
         _send_frames(application, messages, ceiling, (create, create_text)),
     )
     # What is dropped on its way would be broken off: where more is written than the line carries, nothing arrived.
-    kept = keeps_output and not fragments and application.on_full != "drop_oldest"
+    kept = (
+        keeps_output
+        and not fragments
+        and application.on_full != "drop_oldest"
+        and not application.transport.seal
+    )
     kept = kept and line.saves(application.transport.send_buffer)
     in_input_buffer = (
         _lent(samples, max(WRITE_SIDE_INPUT, least), ceiling, FRAGMENTS_PER_SAMPLE[transport])
@@ -232,7 +243,7 @@ def plan_streams(
         input_reader=in_input_buffer[0] if in_input_buffer else None,
         input_free=in_input_buffer[1] if in_input_buffer else 0,
         input_slot=slot_of(samples[in_input_buffer[0]].max_size) if in_input_buffer else 0,
-        line_input=max((WRITE_SIDE_INPUT, *must)),
+        line_input=carried(max((WRITE_SIDE_INPUT, *must)), application),
         send_buffer=_send_buffer(application, messages, line.kept if kept else line.copied, diagnostics)
         if transport in _LINES
         else 0,
@@ -258,7 +269,10 @@ def _send_frames(
     """Return the bytes of the longest frame that is copied, each stuffed, and the one that is never used."""
     session = _SESSION_MESSAGE_HARD if application.hard_liveliness_ms else _SESSION_MESSAGE
     largest = max((session, *(min(_datagram(message), ceiling) for message in messages)))
-    frames = [longest_frame(size) - text for size, text in ((largest, 0), create)]
+    frames = [
+        longest_frame(carried(size, application)) - (0 if application.transport.seal else text)
+        for size, text in ((largest, 0), create)
+    ]
     return max(frames) + 1
 
 
@@ -266,7 +280,9 @@ def _send_buffer(
     application: Application, messages: tuple[Written, ...], least: int, diagnostics: Diagnostics
 ) -> int:
     """Return the bytes that a serial line needs for its output, of which one is never used."""
-    at_once = sum(usual_frame(_datagram(message)) for message in messages if message.best_effort)
+    at_once = sum(
+        usual_frame(carried(_datagram(message), application)) for message in messages if message.best_effort
+    )
     requested = application.transport.send_buffer
     if requested is not None and requested < least:
         diagnostics.error(

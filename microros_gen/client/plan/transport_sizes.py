@@ -14,7 +14,13 @@ DEFAULT_MTU = {"udp": 1472, "tcp": 1460, "serial": 512, "canfd": CANFD_MTU, "cus
 # A sample that waits alone in its queue comes in so many pieces: the input buffer holds one. A board has a ring of
 # twice that in front of a serial line (client/plan/board.py). Smaller ones would save little, and each is acknowledged.
 FRAGMENTS_PER_SAMPLE = {"udp": 3, "tcp": 3, "serial": 8, "canfd": 8, "custom": 8}
+SEAL_OVERHEAD = 32
+"""Bytes of a record around its message (docs/howto/seal.md)."""
+SEAL_HANDSHAKE = 60
+"""Bytes of each message of its handshake."""
 _BYTE_STREAMS = ("tcp", "serial")
+_FRAME_REST = 6
+"""Bytes of a serial frame around its message, but the flag: addresses, length, CRC."""
 _LARGEST = {"udp": LARGEST_UDP_PAYLOAD, "canfd": CANFD_MTU}
 
 
@@ -28,6 +34,24 @@ def default_mtu(transport: str, create: int) -> int:
 def largest_mtu(transport: str) -> int:
     """Return the largest message that a transport may be configured for."""
     return _LARGEST.get(transport, LARGEST_MTU)
+
+
+def seal_overhead(application: Application) -> int:
+    """Return the bytes of a record around each message; 0: messages are not sealed."""
+    return SEAL_OVERHEAD if application.transport.seal else 0
+
+
+def carried(size: int, application: Application) -> int:
+    """Return the bytes that the transport carries for a message of `size` bytes, sealed if the application says so."""
+    return max(size + SEAL_OVERHEAD, SEAL_HANDSHAKE) if application.transport.seal else size
+
+
+def most_in_buffer(send_buffer: int, application: Application) -> int:
+    """Return the largest message whose frame fits the `send_buffer` of a serial line, bytes.
+
+    Each byte but the flag may be stuffed, and one byte of the buffer is never used.
+    """
+    return (send_buffer - 2) // 2 - _FRAME_REST - seal_overhead(application)
 
 
 def mtu_is(application: Application, transport: str) -> str:

@@ -4,12 +4,9 @@
 from __future__ import annotations
 
 from microros_gen.client.plan.features import PlanContext
-from microros_gen.client.plan.transport_sizes import DEFAULT_MTU
+from microros_gen.client.plan.transport_sizes import DEFAULT_MTU, most_in_buffer
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass
-
-_FRAME = 7
-"""Bytes of a serial frame around its message: flag, addresses, length, CRC."""
 
 
 @dataclass(frozen=True)
@@ -25,8 +22,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> ContinuousPlan:
     kind = runtime.transport.kind
     largest = context.application.transport.mtu or max(DEFAULT_MTU[kind], runtime.streams.mtu)
     if kind == "serial":
-        # Each byte but the flag may be stuffed, and one byte of the buffer is never used.
-        largest = min(largest, (runtime.transport.send_buffer - 2) // 2 - (_FRAME - 1))
+        largest = min(largest, most_in_buffer(runtime.transport.send_buffer, context.application))
     return ContinuousPlan(largest)
 
 

@@ -7,6 +7,7 @@ from microros_gen.application.model import Application, LimitRule, TimerDecl
 from microros_gen.client.plan.creation import MESSAGE_HEADER, SUBMESSAGE_HEADER
 from microros_gen.client.plan.declared import declarations, full_name
 from microros_gen.client.plan.features import PlanContext, refuse_own_limits
+from microros_gen.client.plan.transport_sizes import most_in_buffer
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass
 
@@ -20,8 +21,6 @@ MOST_PART = 64
 _SERVICES = 3
 """How many the executor of the application runs, for each node."""
 _FRAGMENT_HEADERS = MESSAGE_HEADER + SUBMESSAGE_HEADER
-_FRAME = 7
-"""Bytes of a serial frame around its message: flag, addresses, length, CRC."""
 _PACKAGE = "lifecycle_msgs"
 
 
@@ -63,8 +62,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LifecyclePlan:
     runtime = context.runtime
     largest = runtime.streams.mtu
     if runtime.transport.kind == "serial":
-        # Each byte but the flag may be stuffed, and one byte of the buffer is never used.
-        largest = min(largest, (runtime.transport.send_buffer - 2) // 2 - (_FRAME - 1))
+        largest = min(largest, most_in_buffer(runtime.transport.send_buffer, context.application))
     application = context.application
     _check_timers(application, diagnostics)
     publishers = declarations(application, "publisher")

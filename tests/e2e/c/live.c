@@ -133,9 +133,26 @@ static rcl_ret_t print_statistics(void)
   return result;
 }
 
+/* ping MS ATTEMPTS, where the plan or the session says; ping_at PORT MS ATTEMPTS */
 static rcl_ret_t ping(char ** word)
 {
 #ifdef LIVE_PING
+#ifndef LIVE_NO_UDP
+  if (strcmp(word[0], "ping_at") == 0) {
+    rcl_init_options_t place = rcl_get_zero_initialized_init_options();
+    rmw_init_options_t * rmw;
+    rcl_ret_t result = rcl_init_options_init(&place, allocator);
+
+    rmw = rcl_init_options_get_rmw_init_options(&place);
+    if (result == RCL_RET_OK) {
+      result = rmw_uros_options_set_udp_address("127.0.0.1", word[1], rmw);
+    }
+    if (result == RCL_RET_OK) {
+      result = rmw_uros_ping_agent_options((int)number(word[2]), (uint8_t)number(word[3]), rmw);
+    }
+    return rcl_init_options_fini(&place) == RCL_RET_OK ? result : RCL_RET_ERROR;
+  }
+#endif
   return rmw_uros_ping_agent((int)number(word[1]), (uint8_t)number(word[2]));
 #else
   (void)word;

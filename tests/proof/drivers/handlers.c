@@ -40,18 +40,18 @@ void port_sleep_ms(uint32_t duration_ms)
   (void)duration_ms;
 }
 
-bool xrce_transport_open(xrce_transport_t * transport)
+bool xrce_plain_open(xrce_transport_t * transport)
 {
   (void)transport;
   return proof_bool();
 }
 
-void xrce_transport_close(xrce_transport_t * transport)
+void xrce_plain_close(xrce_transport_t * transport)
 {
   (void)transport;
 }
 
-bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, size_t size)
+bool xrce_plain_send(xrce_transport_t * transport, const uint8_t * message, size_t size)
 {
   (void)transport;
   //@ check size >= 1 && \valid_read(message) && \valid_read(message + size - 1);
@@ -60,7 +60,7 @@ bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, 
   return proof_bool();
 }
 
-int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity)
+int32_t xrce_plain_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity)
 {
   (void)transport;
   (void)buffer;

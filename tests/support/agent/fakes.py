@@ -242,6 +242,9 @@ class FakeTransport:
         text = str(address)
         return parse_address(text) if "." in text or ":" in text else text
 
+    def proved_key(self, address: Hashable) -> bytes:
+        return b""
+
     def close(self) -> None:
         """Nothing is open."""
 

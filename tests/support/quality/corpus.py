@@ -414,6 +414,11 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "components: [+node_modes, +sleep_cycles]\nerrors: code\n",
         "services_less": _SERVED.replace("20", "9") + _ASKED.replace("9", "20"),
         "seal": _BOTH + "liveliness: ping\nsession: {key: 7}\ntransport: {seal: psa}\n",
+        "seal_tcp": _READER
+        + _ALONE
+        + "liveliness: ping\nsession: {key: 7}\n"
+        + "transport: {type: tcp, agent: '127.0.0.1:8888', seal: application}\n",
+        "seal_serial": _BOTH + "liveliness: ping\nsession: {key: 7}\ntransport: {type: serial, seal: psa}\n",
         "lent_tcp": _READER + _ALONE + "transport: {type: tcp, agent: '127.0.0.1:8888'}\n",
     }
 )

@@ -8,7 +8,7 @@ bool rmw_init_reason(const xrce_client_t * client)
   const xrce_transport_t * transport = &client->session.transport;
   microros_error_t error;
 
-  switch (transport->udp.fault) {
+  switch (transport->seal.fault) {
     case XRCE_SEAL_NO_KEY:
       error = microros_error_seal_key;
       break;

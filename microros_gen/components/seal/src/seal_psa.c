@@ -51,6 +51,13 @@ bool microros_seal_random(uint8_t * bytes, size_t size)
   return psa_crypto_init() == PSA_SUCCESS && psa_generate_random(bytes, size) == PSA_SUCCESS;
 }
 
+/* Imports a key of the cipher for one use. */
+static bool psa_import_cipher(psa_key_usage_t usage, const uint8_t * key, psa_key_id_t * id)
+{
+  return psa_import(PSA_KEY_TYPE_CHACHA20, CIPHER_BITS, PSA_ALG_CHACHA20_POLY1305, usage, key, id) ==
+         PSA_SUCCESS;
+}
+
 bool microros_seal_seal(
   const uint8_t key[MICROROS_SEAL_KEY], uint64_t nonce, const uint8_t * additional, size_t additional_size,
   const uint8_t * plain, size_t size, uint8_t * sealed)
@@ -59,10 +66,9 @@ bool microros_seal_seal(
   uint8_t bytes[NONCE];
   psa_key_id_t id = 0;
   size_t written = 0;
-  psa_status_t status =
-    psa_import(PSA_KEY_TYPE_CHACHA20, CIPHER_BITS, algorithm, PSA_KEY_USAGE_ENCRYPT, key, &id);
+  psa_status_t status;
 
-  if (status != PSA_SUCCESS) {
+  if (!psa_import_cipher(PSA_KEY_USAGE_ENCRYPT, key, &id)) {
     return false;
   }
   psa_put_nonce(bytes, nonce);
@@ -81,10 +87,9 @@ bool microros_seal_open(
   uint8_t bytes[NONCE];
   psa_key_id_t id = 0;
   size_t written = 0;
-  psa_status_t status =
-    psa_import(PSA_KEY_TYPE_CHACHA20, CIPHER_BITS, algorithm, PSA_KEY_USAGE_DECRYPT, key, &id);
+  psa_status_t status;
 
-  if (status != PSA_SUCCESS) {
+  if (!psa_import_cipher(PSA_KEY_USAGE_DECRYPT, key, &id)) {
     return false;
   }
   psa_put_nonce(bytes, nonce);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "microros/xrce_datagrams.h"
+#include "microros/port.h"
+#include "microros/xrce_seal_input.h"
 #include "microros/xrce_seal_pause.h"
 #include "microros/xrce_wire.h"
 #include "microros_config.h"
@@ -14,15 +15,13 @@ enum {
   VERSION = 1,
   RECORD_HEAD = 16,
   REFUSAL = 8,
-  WINDOW = 32,
-  LARGEST = MICROROS_MTU > MICROROS_INPUT_SIZE ? MICROROS_MTU : MICROROS_INPUT_SIZE
+  WINDOW = 32
 };
 
 /* A session ends after this many records in one direction, long before a nonce could repeat. */
 #define LAST_RECORD 0xffff0000u
 
-/* One datagram, on its way in or out. */
-static uint8_t seal_record[(size_t)RECORD_HEAD + (size_t)LARGEST + (size_t)MICROROS_SEAL_TAG];
+uint8_t xrce_seal_record[XRCE_SEAL_LARGEST];
 
 static void seal_put_32(uint8_t * at, uint32_t value)
 {
@@ -54,7 +53,7 @@ static bool seal_has_head(const uint8_t * at, uint8_t type)
 }
 
 /* Writes the first message of a new handshake. */
-static bool seal_hello(xrce_datagrams_t * datagrams)
+static bool seal_hello(xrce_seal_t * seal)
 {
   static const uint8_t label[] = {
     'm', 'i', 'c', 'r', 'o', 'r', 'o', 's', '-', 'g', 'e', 'n', ' ', 's', 'e', 'a', 'l'};
@@ -63,241 +62,250 @@ static bool seal_hello(xrce_datagrams_t * datagrams)
   uint8_t own[4];
   bool done;
 
-  datagrams->fault = (uint8_t)XRCE_SEAL_NO_KEY;
+  seal->fault = (uint8_t)XRCE_SEAL_NO_KEY;
   if (!microros_seal_psk(MICROROS_CLIENT_KEY, psk)) {
     xrce_noise_wipe(psk, sizeof(psk)); /* it may have a part of the key */
     return false;
   }
-  datagrams->fault = (uint8_t)XRCE_SEAL_NO_CRYPTO;
+  seal->fault = (uint8_t)XRCE_SEAL_NO_CRYPTO;
   done = microros_seal_random(own, sizeof(own));
   if (done) {
-    datagrams->own = seal_get_32(own);
-    seal_put_head(datagrams->first, TYPE_FIRST, datagrams->own);
-    seal_put_32(&datagrams->first[8], MICROROS_CLIENT_KEY);
+    seal->own = seal_get_32(own);
+    seal_put_head(seal->first, TYPE_FIRST, seal->own);
+    seal_put_32(&seal->first[8], MICROROS_CLIENT_KEY);
     (void)memcpy(prologue, label, sizeof(label));
-    (void)memcpy(&prologue[sizeof(label)], datagrams->first, XRCE_SEAL_HELLO);
-    done = xrce_noise_begin(
-      &datagrams->noise, psk, prologue, sizeof(prologue), &datagrams->first[XRCE_SEAL_HELLO]);
+    (void)memcpy(&prologue[sizeof(label)], seal->first, XRCE_SEAL_HELLO);
+    done = xrce_noise_begin(&seal->noise, psk, prologue, sizeof(prologue), &seal->first[XRCE_SEAL_HELLO]);
   }
   xrce_noise_wipe(psk, sizeof(psk));
   return done;
 }
 
-static void seal_clear(xrce_datagrams_t * datagrams)
+static void seal_clear(xrce_seal_t * seal)
 {
-  datagrams->is_ready = false;
-  xrce_noise_clear(&datagrams->noise);
-  xrce_noise_wipe(datagrams->sending, sizeof(datagrams->sending));
-  xrce_noise_wipe(datagrams->receiving, sizeof(datagrams->receiving));
+  seal->is_ready = false;
+  xrce_noise_clear(&seal->noise);
+  xrce_noise_wipe(seal->sending, sizeof(seal->sending));
+  xrce_noise_wipe(seal->receiving, sizeof(seal->receiving));
 }
 
 /* Begins a handshake. Without one, `fault` says why. */
-static bool seal_begin(xrce_datagrams_t * datagrams)
+static bool seal_begin(xrce_seal_t * seal)
 {
   const uint32_t now = port_time_ms();
 
-  seal_clear(datagrams);
-  datagrams->since_ms = now;
-  datagrams->due_ms = now;
-  if (!seal_hello(datagrams)) {
-    seal_clear(datagrams);
+  seal_clear(seal);
+  seal->since_ms = now;
+  seal->due_ms = now;
+  if (!seal_hello(seal)) {
+    seal_clear(seal);
     return false;
   }
-  datagrams->fault = (uint8_t)XRCE_SEAL_SILENT;
+  seal->fault = (uint8_t)XRCE_SEAL_SILENT;
   return true;
 }
 
-bool xrce_datagrams_open(xrce_datagrams_t * datagrams, const char * host, uint16_t port)
+bool xrce_transport_open(xrce_transport_t * transport)
 {
-  datagrams->waiting_size = 0;
-  if (!port_udp_open(&datagrams->socket, host, port)) {
-    datagrams->fault = (uint8_t)XRCE_SEAL_FINE; /* not for a reason of this layer */
+  xrce_seal_t * seal = &transport->seal;
+
+  seal->waiting_size = 0;
+  if (!xrce_plain_open(transport)) {
+    seal->fault = (uint8_t)XRCE_SEAL_FINE; /* not for a reason of this layer */
     return false;
   }
-  if (!seal_begin(datagrams)) {
-    port_udp_close(&datagrams->socket);
+  if (!seal_begin(seal)) {
+    xrce_plain_close(transport);
     return false;
   }
   return true;
 }
 
-void xrce_datagrams_close(xrce_datagrams_t * datagrams)
+void xrce_transport_close(xrce_transport_t * transport)
 {
-  seal_clear(datagrams);
-  xrce_noise_wipe(datagrams->waiting, sizeof(datagrams->waiting));
-  datagrams->waiting_size = 0;
-  port_udp_close(&datagrams->socket);
+  xrce_seal_t * seal = &transport->seal;
+
+  seal_clear(seal);
+  xrce_noise_wipe(seal->waiting, sizeof(seal->waiting));
+  seal->waiting_size = 0;
+  xrce_plain_close(transport);
 }
 
-static bool seal_send_record(xrce_datagrams_t * datagrams, const uint8_t * message, size_t size)
+static bool seal_send_record(xrce_transport_t * transport, const uint8_t * message, size_t size)
 {
-  const uint32_t counter = datagrams->next;
+  xrce_seal_t * seal = &transport->seal;
+  const uint32_t counter = seal->next;
 
-  if (size > (size_t)LARGEST) {
+  if (size > (size_t)XRCE_SEAL_LARGEST - (size_t)XRCE_SEAL_OVERHEAD) {
     return false;
   }
-  seal_put_head(seal_record, TYPE_RECORD, datagrams->peer);
-  seal_put_32(&seal_record[8], counter);
-  seal_put_32(&seal_record[12], 0);
-  if (!microros_seal_seal(datagrams->sending, counter, NULL, 0, message, size, &seal_record[RECORD_HEAD])) {
+  seal_put_head(xrce_seal_record, TYPE_RECORD, seal->peer);
+  seal_put_32(&xrce_seal_record[8], counter);
+  seal_put_32(&xrce_seal_record[12], 0);
+  if (!microros_seal_seal(seal->sending, counter, NULL, 0, message, size, &xrce_seal_record[RECORD_HEAD])) {
     return false;
   }
-  datagrams->next = counter + 1u; /* never used again, even if the port does not send the record */
-  return port_udp_send(
-    &datagrams->socket, seal_record, (size_t)RECORD_HEAD + size + (size_t)MICROROS_SEAL_TAG);
+  seal->next = counter + 1u; /* never used again, even if the transport does not send the record */
+  return xrce_plain_send(transport, xrce_seal_record, size + (size_t)XRCE_SEAL_OVERHEAD);
 }
 
 /* Sends the first message of the handshake if it is due, at growing intervals. */
-static void seal_repeat(xrce_datagrams_t * datagrams)
+static void seal_repeat(xrce_transport_t * transport)
 {
+  xrce_seal_t * seal = &transport->seal;
   const uint32_t now = port_time_ms();
 
-  if (xrce_is_due(now, datagrams->due_ms)) {
-    datagrams->due_ms = now + xrce_seal_pause(now - datagrams->since_ms);
-    (void)port_udp_send(
-      &datagrams->socket, datagrams->first, sizeof(datagrams->first)); /* repeated if lost */
+  if (xrce_is_due(now, seal->due_ms)) {
+    seal->due_ms = now + xrce_seal_pause(now - seal->since_ms);
+    (void)xrce_plain_send(transport, seal->first, sizeof(seal->first)); /* repeated if lost or refused */
   }
 }
 
-static bool seal_keep(xrce_datagrams_t * datagrams, const uint8_t * message, size_t size)
+static bool seal_keep(xrce_seal_t * seal, const uint8_t * message, size_t size)
 {
-  if (size > sizeof(datagrams->waiting)) {
+  if (size > sizeof(seal->waiting)) {
     return false;
   }
-  (void)memcpy(datagrams->waiting, message, size);
-  datagrams->waiting_size = (uint8_t)size;
+  (void)memcpy(seal->waiting, message, size);
+  seal->waiting_size = (uint8_t)size;
   return true;
 }
 
 /* Returns whether the agent has answered nothing since the handshake: it may have restarted, and forgotten the session. */
-static bool seal_is_unanswered(const xrce_datagrams_t * datagrams)
+static bool seal_is_unanswered(const xrce_seal_t * seal)
 {
-  return datagrams->newest == 0u && xrce_is_due(port_time_ms(), datagrams->due_ms);
+  return seal->newest == 0u && xrce_is_due(port_time_ms(), seal->due_ms);
 }
 
-bool xrce_datagrams_send(xrce_datagrams_t * datagrams, const uint8_t * message, size_t size)
+bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, size_t size)
 {
-  if (datagrams->is_ready && seal_is_unanswered(datagrams)) {
-    datagrams->is_ready = false;
-    datagrams->fault = (uint8_t)XRCE_SEAL_FINE; /* begins below */
+  xrce_seal_t * seal = &transport->seal;
+
+  if (seal->is_ready && seal_is_unanswered(seal)) {
+    seal->is_ready = false;
+    seal->fault = (uint8_t)XRCE_SEAL_FINE; /* begins below */
   }
-  if (datagrams->is_ready && datagrams->next < LAST_RECORD && datagrams->newest < LAST_RECORD) {
-    return seal_send_record(datagrams, message, size);
+  if (seal->is_ready && seal->next < LAST_RECORD && seal->newest < LAST_RECORD) {
+    return seal_send_record(transport, message, size);
   }
-  if ((datagrams->is_ready || datagrams->fault <= (uint8_t)XRCE_SEAL_NO_CRYPTO) && !seal_begin(datagrams)) {
+  if ((seal->is_ready || seal->fault <= (uint8_t)XRCE_SEAL_NO_CRYPTO) && !seal_begin(seal)) {
     return false;
   }
-  seal_repeat(datagrams);
-  return seal_keep(datagrams, message, size);
+  seal_repeat(transport);
+  return seal_keep(seal, message, size);
 }
 
-static int32_t seal_refuse(xrce_datagrams_t * datagrams)
+static int32_t seal_refuse(xrce_seal_t * seal)
 {
-  ++datagrams->refused;
+  ++seal->refused;
   return -1;
 }
 
 /* The second message of the handshake: the session begins. */
-static int32_t seal_on_second(xrce_datagrams_t * datagrams, size_t size)
+static int32_t seal_on_second(xrce_transport_t * transport, const uint8_t * second, size_t size)
 {
-  if (size != (size_t)XRCE_SEAL_FIRST || seal_get_32(&seal_record[8]) != datagrams->own) {
-    return seal_refuse(datagrams);
+  xrce_seal_t * seal = &transport->seal;
+
+  if (size != (size_t)XRCE_SEAL_FIRST || seal_get_32(&second[8]) != seal->own) {
+    return seal_refuse(seal);
   }
-  if (datagrams->is_ready) {
+  if (seal->is_ready) {
     return 0; /* the answer to a repetition */
   }
-  if (!xrce_noise_finish(
-        &datagrams->noise, &seal_record[XRCE_SEAL_HELLO], datagrams->sending, datagrams->receiving)) {
-    datagrams->fault = (uint8_t)XRCE_SEAL_FORGED;
-    return seal_refuse(datagrams);
+  if (!xrce_noise_finish(&seal->noise, &second[XRCE_SEAL_HELLO], seal->sending, seal->receiving)) {
+    seal->fault = (uint8_t)XRCE_SEAL_FORGED;
+    return seal_refuse(seal);
   }
-  xrce_noise_clear(&datagrams->noise);
-  datagrams->peer = seal_get_32(&seal_record[4]);
-  datagrams->next = 0;
-  datagrams->newest = 0;
-  datagrams->window = 0;
-  datagrams->is_ready = true;
-  datagrams->due_ms = port_time_ms() + 2u * (uint32_t)MICROROS_RETRY_MOST_MS;
-  datagrams->fault = (uint8_t)XRCE_SEAL_FINE;
-  if (datagrams->waiting_size > 0u) {
-    const size_t waiting = datagrams->waiting_size;
+  xrce_noise_clear(&seal->noise);
+  seal->peer = seal_get_32(&second[4]);
+  seal->next = 0;
+  seal->newest = 0;
+  seal->window = 0;
+  seal->is_ready = true;
+  seal->due_ms = port_time_ms() + 2u * (uint32_t)MICROROS_RETRY_MOST_MS;
+  seal->fault = (uint8_t)XRCE_SEAL_FINE;
+  if (seal->waiting_size > 0u) {
+    const size_t waiting = seal->waiting_size;
 
-    datagrams->waiting_size = 0;
-    (void)seal_send_record(datagrams, datagrams->waiting, waiting); /* whoever sent it repeats it */
+    seal->waiting_size = 0;
+    (void)seal_send_record(transport, seal->waiting, waiting); /* whoever sent it repeats it */
   }
   return 0;
 }
 
 /* Returns whether a record with this counter may be new. RFC 4303, 3.4.3. */
-static bool seal_is_new(const xrce_datagrams_t * datagrams, uint32_t counter)
+static bool seal_is_new(const xrce_seal_t * seal, uint32_t counter)
 {
-  const uint32_t age = datagrams->newest - 1u - counter;
+  const uint32_t age = seal->newest - 1u - counter;
 
-  if (counter >= datagrams->newest) {
+  if (counter >= seal->newest) {
     return true;
   }
-  return age < (uint32_t)WINDOW && ((datagrams->window >> age) & 1u) == 0u;
+  return age < (uint32_t)WINDOW && ((seal->window >> age) & 1u) == 0u;
 }
 
-static void seal_note(xrce_datagrams_t * datagrams, uint32_t counter)
+static void seal_note(xrce_seal_t * seal, uint32_t counter)
 {
-  if (counter >= datagrams->newest) {
-    const uint32_t ahead = counter - datagrams->newest + 1u;
+  if (counter >= seal->newest) {
+    const uint32_t ahead = counter - seal->newest + 1u;
 
-    datagrams->window = ahead < (uint32_t)WINDOW ? datagrams->window << ahead : 0u;
-    datagrams->window |= 1u;
-    datagrams->newest = counter + 1u;
+    seal->window = ahead < (uint32_t)WINDOW ? seal->window << ahead : 0u;
+    seal->window |= 1u;
+    seal->newest = counter + 1u;
   } else {
-    datagrams->window |= (uint32_t)1u << (datagrams->newest - 1u - counter);
+    seal->window |= (uint32_t)1u << (seal->newest - 1u - counter);
   }
 }
 
-static int32_t seal_on_record(xrce_datagrams_t * datagrams, size_t size, uint8_t * buffer, size_t capacity)
+static int32_t seal_on_record(
+  xrce_seal_t * seal, const uint8_t * record, size_t size, uint8_t * buffer, size_t capacity)
 {
-  const uint32_t counter = seal_get_32(&seal_record[8]);
-  const size_t plain = size - (size_t)RECORD_HEAD - (size_t)MICROROS_SEAL_TAG;
+  const uint32_t counter = seal_get_32(&record[8]);
+  const size_t plain = size - (size_t)XRCE_SEAL_OVERHEAD;
 
   if (
-    !datagrams->is_ready || seal_get_32(&seal_record[4]) != datagrams->own ||
-    seal_get_32(&seal_record[12]) != 0u || counter > LAST_RECORD || plain > capacity) {
-    return seal_refuse(datagrams);
+    !seal->is_ready || seal_get_32(&record[4]) != seal->own || seal_get_32(&record[12]) != 0u ||
+    counter > LAST_RECORD || plain > capacity) {
+    return seal_refuse(seal);
   }
-  if (!seal_is_new(datagrams, counter)) {
-    ++datagrams->replayed;
+  if (!seal_is_new(seal, counter)) {
+    ++seal->replayed;
     return -1;
   }
-  if (!microros_seal_open(datagrams->receiving, counter, NULL, 0, &seal_record[RECORD_HEAD], plain, buffer)) {
-    return seal_refuse(datagrams);
+  if (!microros_seal_open(seal->receiving, counter, NULL, 0, &record[RECORD_HEAD], plain, buffer)) {
+    return seal_refuse(seal);
   }
-  seal_note(datagrams, counter);
+  seal_note(seal, counter);
   return (int32_t)plain;
 }
 
 /* A refusal is not authenticated: it changes nothing but the reason that the application sees. */
-static int32_t seal_on_refusal(xrce_datagrams_t * datagrams)
+static int32_t seal_on_refusal(xrce_seal_t * seal, const uint8_t * refusal)
 {
-  if (!datagrams->is_ready && seal_get_32(&seal_record[4]) == datagrams->own) {
-    datagrams->fault = (uint8_t)XRCE_SEAL_REFUSED;
+  if (!seal->is_ready && seal_get_32(&refusal[4]) == seal->own) {
+    seal->fault = (uint8_t)XRCE_SEAL_REFUSED;
   }
-  return seal_refuse(datagrams);
+  return seal_refuse(seal);
 }
 
-int32_t xrce_datagrams_receive(xrce_datagrams_t * datagrams, uint8_t * buffer, size_t capacity)
+int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity)
 {
-  const int32_t received = port_udp_receive(&datagrams->socket, seal_record, sizeof(seal_record));
+  xrce_seal_t * seal = &transport->seal;
+  uint8_t * input = xrce_seal_input(transport);
+  const int32_t received = xrce_plain_receive(transport, input, XRCE_SEAL_RECORD);
   const size_t size = received > 0 ? (size_t)received : 0u;
 
-  if (received == 0) {
-    return 0;
+  if (received <= 0) {
+    return received;
   }
-  if (size > (size_t)RECORD_HEAD + (size_t)MICROROS_SEAL_TAG && seal_has_head(seal_record, TYPE_RECORD)) {
-    return seal_on_record(datagrams, size, buffer, capacity);
+  if (size > (size_t)XRCE_SEAL_OVERHEAD && seal_has_head(input, TYPE_RECORD)) {
+    return seal_on_record(seal, input, size, buffer, capacity);
   }
-  if (size > (size_t)XRCE_SEAL_HELLO && seal_has_head(seal_record, TYPE_SECOND)) {
-    return seal_on_second(datagrams, size);
+  if (size > (size_t)XRCE_SEAL_HELLO && seal_has_head(input, TYPE_SECOND)) {
+    return seal_on_second(transport, input, size);
   }
-  if (size == (size_t)REFUSAL && seal_record[0] == (uint8_t)TYPE_REFUSAL) { /* whatever the agent's version */
-    return seal_on_refusal(datagrams);
+  if (size == (size_t)REFUSAL && input[0] == (uint8_t)TYPE_REFUSAL) { /* whatever the agent's version */
+    return seal_on_refusal(seal, input);
   }
-  return seal_refuse(datagrams);
+  return seal_refuse(seal);
 }

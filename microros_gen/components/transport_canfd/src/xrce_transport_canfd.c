@@ -23,17 +23,18 @@ static size_t canfd_length(size_t size)
   return lengths[i];
 }
 
-bool xrce_transport_open(xrce_transport_t * transport)
+bool xrce_plain_open(xrce_transport_t * transport)
 {
   return port_can_open(&transport->can, transport->device, transport->id);
 }
 
-void xrce_transport_close(xrce_transport_t * transport)
+void xrce_plain_close(xrce_transport_t * transport)
 {
   port_can_close(&transport->can);
 }
 
-bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, size_t size)
+/* At most 63 bytes. */
+bool xrce_plain_send(xrce_transport_t * transport, const uint8_t * message, size_t size)
 {
   uint8_t data[PORT_CAN_DATA];
 
@@ -46,7 +47,7 @@ bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, 
   return port_can_send(&transport->can, data, canfd_length(LENGTH_SIZE + size));
 }
 
-int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity)
+int32_t xrce_plain_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity)
 {
   uint8_t data[PORT_CAN_DATA];
   const size_t received = port_can_receive(&transport->can, data);

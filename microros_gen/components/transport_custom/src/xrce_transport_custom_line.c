@@ -32,7 +32,7 @@ size_t xrce_line_read(struct xrce_transport_t * line, uint8_t * buffer, size_t c
   return xrce_custom_read(line, buffer, capacity, 0);
 }
 
-bool xrce_transport_open(xrce_transport_t * transport)
+bool xrce_plain_open(xrce_transport_t * transport)
 {
   (void)memset(&transport->framing, 0, sizeof(transport->framing));
   return transport->custom.open(&transport->custom);

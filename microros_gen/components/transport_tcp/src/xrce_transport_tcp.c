@@ -13,7 +13,8 @@ static void transport_abandon(xrce_transport_t * transport)
   transport->closed = true;
 }
 
-bool xrce_transport_open(xrce_transport_t * transport)
+/* Starts to connect. */
+bool xrce_plain_open(xrce_transport_t * transport)
 {
   transport->unsent = 0;
   transport->length_arrived = 0;
@@ -22,7 +23,7 @@ bool xrce_transport_open(xrce_transport_t * transport)
   return port_tcp_open(&transport->tcp, transport->host, transport->port);
 }
 
-void xrce_transport_close(xrce_transport_t * transport)
+void xrce_plain_close(xrce_transport_t * transport)
 {
   if (!transport->closed) {
     port_tcp_close(&transport->tcp);
@@ -48,9 +49,12 @@ static void transport_flush(xrce_transport_t * transport)
   }
 }
 
-bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, size_t size)
+/*
+ * Bytes for which the connection has no room follow with later calls, including receive calls, as does a first message
+ * while the connection is being established. */
+bool xrce_plain_send(xrce_transport_t * transport, const uint8_t * message, size_t size)
 {
-  if (size > MICROROS_MTU) {
+  if (size > (size_t)XRCE_LARGEST_SENT) {
     return false;
   }
   transport_flush(transport);
@@ -94,7 +98,8 @@ static bool transport_read_length(xrce_transport_t * transport)
   return true;
 }
 
-int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity)
+/* Discards what is longer than `capacity`, or empty. */
+int32_t xrce_plain_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity)
 {
   bool fits;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Why a session did not begin, where the handshake of sealed datagrams knows it. Internal. */
+/* Why a session did not begin, where the handshake of sealed messages knows it. Internal. */
 #ifndef MICROROS_RMW_INIT_REASON_H
 #define MICROROS_RMW_INIT_REASON_H
 

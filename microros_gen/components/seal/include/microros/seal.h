@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Functions that sealed datagrams need. The application provides the first one, and with `seal: application` all of
+ * Functions that sealed messages need. The application provides the first one, and with `seal: application` all of
  * them; `seal: psa` has the others over the PSA Crypto API. They are called with the lock of the library, from the
  * task that sends or receives, and must not call the library. Each returns false if it failed; nothing that it wrote
  * is used then.

@@ -12,6 +12,7 @@
 #include "microros/port.h"
 #include "microros/port_can.h"
 #include "microros/text.h"
+#include "microros/xrce_messages.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -77,16 +78,6 @@ static inline bool xrce_transport_is_idle(xrce_transport_t * transport)
   (void)transport;
   return true;
 }
-
-bool xrce_transport_open(xrce_transport_t * transport);
-
-void xrce_transport_close(xrce_transport_t * transport);
-
-/* Sends one message of at most 63 bytes without blocking. Returns false if it was not accepted. */
-bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, size_t size);
-
-/* Receives one message without blocking. Returns its size, 0 if none has arrived, -1 for a discarded one. */
-int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity);
 
 #ifdef __cplusplus
 }

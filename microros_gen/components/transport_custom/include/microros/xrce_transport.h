@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "microros/xrce_custom_reading.h"
+#include "microros/xrce_messages.h"
 #include "microros/xrce_transport_state.h"
 
 #ifdef __cplusplus
@@ -60,22 +61,6 @@ static inline bool xrce_transport_is_idle(xrce_transport_t * transport)
   (void)transport; /* the application's function owns accepted data */
   return true;
 }
-
-/* Calls the application's function and returns its result; waits as long as that does. */
-bool xrce_transport_open(xrce_transport_t * transport);
-
-void xrce_transport_close(xrce_transport_t * transport);
-
-/* Sends one message. Returns false if it was not accepted. */
-bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, size_t size);
-
-/*
- * Receives one message; without framing it waits a millisecond, unless the application declares that its
- * function only polls. Returns its size, 0 if none has arrived, -1 for a discarded one. `buffer` keeps a
- * partial message: pass the same one until a message was received. With framing also XRCE_TURN_PARTIAL, as
- * xrce_framing_receive.
- */
-int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity);
 
 /* Returns an upper bound of the bytes of the buffer that the partial message occupies. */
 uint32_t xrce_transport_arrived(const xrce_transport_t * transport);

@@ -10,7 +10,8 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "microros/xrce_datagrams.h"
+#include "microros/port.h"
+#include "microros/xrce_messages.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -21,7 +22,7 @@ extern "C" {
 #define XRCE_PLACE_M "%s:%m"
 
 typedef struct xrce_transport_t {
-  xrce_datagrams_t udp;
+  port_udp_t udp;
   const char * host; /* the caller's, or the plan's */
   uint16_t port;
 } xrce_transport_t;
@@ -39,13 +40,13 @@ static inline uint16_t xrce_transport_port(const xrce_transport_t * transport)
 /* Returns the handle for port_wait. */
 static inline intptr_t xrce_transport_handle(const xrce_transport_t * transport)
 {
-  return xrce_datagrams_handle(&transport->udp);
+  return transport->udp.handle;
 }
 
 /* Returns whether two transports cannot be open at once: two sockets can, if their agent keeps a session with each. */
 static inline bool xrce_transport_is_same_line(const xrce_transport_t * a, const xrce_transport_t * b)
 {
-  return XRCE_DATAGRAMS_ONE_SOCKET && a->port == b->port && strcmp(a->host, b->host) == 0;
+  return XRCE_MESSAGES_ONE_SOCKET && a->port == b->port && strcmp(a->host, b->host) == 0;
 }
 
 /* Called at the start of a pump. */
@@ -75,16 +76,6 @@ static inline bool xrce_transport_is_idle(xrce_transport_t * transport)
   (void)transport;
   return true;
 }
-
-bool xrce_transport_open(xrce_transport_t * transport);
-
-void xrce_transport_close(xrce_transport_t * transport);
-
-/* Sends one message without blocking. Returns false if it was not accepted. */
-bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, size_t size);
-
-/* Receives one message without blocking. Returns its size, 0 if none has arrived, -1 for a discarded one. */
-int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity);
 
 #ifdef __cplusplus
 }
