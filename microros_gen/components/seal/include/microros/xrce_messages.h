@@ -17,13 +17,13 @@ extern "C" {
 
 struct xrce_transport_t;
 
-enum {
-  XRCE_SEAL_FIRST = 60,    /* bytes of either message of a handshake */
-  XRCE_SEAL_OVERHEAD = 32, /* bytes of a record around its message */
-  XRCE_LARGEST_SENT = MICROROS_MTU + XRCE_SEAL_OVERHEAD > XRCE_SEAL_FIRST
-                        ? MICROROS_MTU + XRCE_SEAL_OVERHEAD
-                        : XRCE_SEAL_FIRST /* bytes of the largest message that the transport itself sends */
-};
+/* Bytes of either message of a handshake, and those of a record around its message. */
+#define XRCE_SEAL_FIRST 60u
+#define XRCE_SEAL_OVERHEAD 32u
+
+/* Bytes of the largest message that the transport itself sends. */
+#define XRCE_LARGEST_SENT \
+  (MICROROS_MTU + XRCE_SEAL_OVERHEAD > XRCE_SEAL_FIRST ? MICROROS_MTU + XRCE_SEAL_OVERHEAD : XRCE_SEAL_FIRST)
 
 /* The agent has one session of a client: that of the handshake that was confirmed last. */
 #define XRCE_MESSAGES_ONE_SOCKET true

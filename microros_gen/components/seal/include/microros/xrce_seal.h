@@ -14,13 +14,15 @@ extern "C" {
 #endif
 
 enum {
-  XRCE_SEAL_HELLO = 12,   /* bytes in front of the first message of a handshake, and of the second one */
-  XRCE_SEAL_WAITING = 64, /* bytes of the message that waits for the handshake: CREATE_CLIENT, GET_INFO */
-  XRCE_SEAL_RECORD = MICROROS_INPUT_SIZE + XRCE_SEAL_OVERHEAD > XRCE_SEAL_FIRST
-                       ? MICROROS_INPUT_SIZE + XRCE_SEAL_OVERHEAD
-                       : XRCE_SEAL_FIRST, /* bytes of the largest record that is received */
-  XRCE_SEAL_LARGEST = XRCE_LARGEST_SENT > XRCE_SEAL_RECORD ? XRCE_LARGEST_SENT : XRCE_SEAL_RECORD
+  XRCE_SEAL_HELLO = 12,  /* bytes in front of the first message of a handshake, and of the second one */
+  XRCE_SEAL_WAITING = 64 /* bytes of the message that waits for the handshake: CREATE_CLIENT, GET_INFO */
 };
+
+/* Bytes of the largest record that is received, and of the largest one of both directions. */
+#define XRCE_SEAL_RECORD \
+  (MICROROS_INPUT_SIZE + XRCE_SEAL_OVERHEAD > XRCE_SEAL_FIRST ? MICROROS_INPUT_SIZE + XRCE_SEAL_OVERHEAD \
+                                                              : XRCE_SEAL_FIRST)
+#define XRCE_SEAL_LARGEST (XRCE_LARGEST_SENT > XRCE_SEAL_RECORD ? XRCE_LARGEST_SENT : XRCE_SEAL_RECORD)
 
 /* Why there is no session, in the order of what `xrce_transport_open` needs. */
 typedef enum xrce_seal_fault_t {

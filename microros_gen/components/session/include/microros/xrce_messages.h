@@ -17,7 +17,7 @@ extern "C" {
 struct xrce_transport_t;
 
 /* Bytes of the largest message that the transport itself sends. */
-enum { XRCE_LARGEST_SENT = MICROROS_MTU };
+#define XRCE_LARGEST_SENT MICROROS_MTU
 
 /* Whether an agent ends what it has with one socket of a client when another one is used. */
 #define XRCE_MESSAGES_ONE_SOCKET false
