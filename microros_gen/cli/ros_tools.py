@@ -59,6 +59,46 @@ def graph_options(function: F) -> F:
     return function
 
 
+def sim_time_option(function: F) -> F:
+    """Add -s: the time of the graph is that of a simulation."""
+    return click.option(
+        "-s",
+        "--use-sim-time",
+        is_flag=True,
+        help="Use the time of a simulation, which is published on /clock.",
+    )(function)
+
+
+def text_options(function: F) -> F:
+    """Add the options for how much of a message is printed, and in which form."""
+    for option in reversed(
+        (
+            click.option(
+                "--csv",
+                is_flag=True,
+                help="Print the values of all members on one line, separated by commas.",
+            ),
+            click.option("-f", "--full-length", is_flag=True, help="Print arrays and texts of any length."),
+            click.option(
+                "-l",
+                "--truncate-length",
+                type=click.IntRange(0),
+                default=128,
+                show_default=True,
+                metavar="N",
+                help="Print at most so many elements and characters of each.",
+            ),
+            click.option("--no-arr", is_flag=True, help="Print type and length of arrays only."),
+            click.option("--no-str", is_flag=True, help="Print the length of texts only."),
+            click.option(
+                "--flow-style", is_flag=True, help="Print each message on one line, as YAML with braces."
+            ),
+        )
+    ):
+        function = option(function)
+    return function
+
+
 def qos_options(preset: str) -> Callable[[F], F]:
     """Add the options for the QoS; `preset` is the default of --qos-profile."""
 

@@ -18,6 +18,7 @@ from microros_gen.cli.ros_tools import (
     until_interrupted,
     values_text,
 )
+from microros_gen.cli.service_events import echo_command
 
 _PATIENCE_S = 1.0
 """A service that is there is discovered within this time, on most machines."""
@@ -34,6 +35,9 @@ def command() -> None:
     microros-gen service list -t
     microros-gen service call /enable std_srvs/srv/SetBool 'data: true'
     """
+
+
+command.add_command(echo_command, "echo")
 
 
 @command.command("list")

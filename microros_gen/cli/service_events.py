@@ -65,9 +65,11 @@ def echo_command(
 
         topic = f"{name}{_ENDING}"
         peer.subscribe_raw(topic, event, known.type_hash(event), receive, PRESETS["services_default"])
-        discovery.settle()
-        if not discovery.publishers(topic):
-            text = f"No publishers on topic '{topic}'; is service introspection on the client or server enabled?"
+        published = discovery.find(lambda: discovery.publishers(topic) or (() if interrupted else None))
+        if not published and not interrupted:
+            text = (
+                f"No publishers on topic '{topic}'; is service introspection on the client or server enabled?"
+            )
             click.echo(text, err=True)
         while not interrupted:
             peer.spin_once(TURN_S)
@@ -84,7 +86,7 @@ def _type_of(discovery: Discovery, service: str) -> str:
     if len(types) > 1:
         hint = f"Name one of them: {', '.join(types)}"
         message = f"service '{service}' has several types"
-        raise UserError([Diagnostic(message, hint=hint, id="MG-9828")], status=1)
+        raise UserError([Diagnostic(message, hint=hint, id="MG-9839")], status=1)
     return types[0]
 
 

@@ -23,9 +23,7 @@ class GraphClock:
         self._known = peer.types.message(_TYPE)
         self._now_ns = 0
         qos = Qos(reliable=False, depth=1)
-        peer.subscribe_raw(
-            TOPIC, self._known.name, self._known.type_hash(self._known.name), self._take, qos
-        )
+        peer.subscribe_raw(TOPIC, self._known.name, self._known.type_hash(self._known.name), self._take, qos)
 
     def now_ns(self) -> int:
         """Return the time in nanoseconds, 0 before the first message."""

@@ -15,6 +15,7 @@ from microros_gen.cli.ros_tools import (
     on_graph,
     qos_options,
     show,
+    text_options,
     until_interrupted,
 )
 from microros_gen.cli.topic.subscribing import topic_qos, topic_type
@@ -34,21 +35,7 @@ _CLEAR = "\x1b[H\x1b[2J"
 @click.command()
 @click.argument("topic")
 @click.argument("message_type", metavar="[TYPE]", required=False)
-@click.option("--csv", is_flag=True, help="Print the values of all members on one line, separated by commas.")
 @click.option("--field", metavar="PATH", help="Print one member only: `pose.position`.")
-@click.option("-f", "--full-length", is_flag=True, help="Print arrays and texts of any length.")
-@click.option(
-    "-l",
-    "--truncate-length",
-    type=click.IntRange(0),
-    default=128,
-    show_default=True,
-    metavar="N",
-    help="Print at most so many elements and characters of each.",
-)
-@click.option("--no-arr", is_flag=True, help="Print type and length of arrays only.")
-@click.option("--no-str", is_flag=True, help="Print the length of texts only.")
-@click.option("--flow-style", is_flag=True, help="Print each message on one line, as YAML with braces.")
 @click.option("--raw", is_flag=True, help="Print the bytes: encapsulation and CDR.")
 @click.option(
     "--filter", "expression", metavar="EXPRESSION", help="Print only messages `m` for which this holds."
@@ -63,6 +50,7 @@ _CLEAR = "\x1b[H\x1b[2J"
 )
 @click.option("-c", "--clear", is_flag=True, help="Clear a terminal before each message.")
 @click.option("-n", "--node-name", metavar="NAME", help="Name of the node. Default: a hidden one.")
+@text_options
 @qos_options(_PRESET)
 @graph_options
 def echo_command(

@@ -9,13 +9,21 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from microros_gen.cli.ros_tools import TURN_S, graph_options, on_graph, show, until_interrupted
+from microros_gen.cli.ros_tools import (
+    TURN_S,
+    graph_options,
+    on_graph,
+    show,
+    sim_time_option,
+    until_interrupted,
+)
 from microros_gen.cli.topic.subscribing import awaited_topic_type, topic_qos
 from microros_gen.diagnostics import Diagnostic, UserError
 
 if TYPE_CHECKING:
     from microros_gen.ros.known_types import KnownType
     from microros_gen.ros.peer import Peer
+    from microros_gen.ros_tools.clocks import GraphClock
 
 _PERIOD_S = 1.0
 
@@ -38,9 +46,17 @@ def _window_option(default: int) -> Callable[[Any], Any]:
 @click.option(
     "--filter", "expression", metavar="EXPRESSION", help="Count only messages `m` for which this holds."
 )
+@sim_time_option
+@click.option(
+    "--wall-time", is_flag=True, help="Measure with the clock of this machine also with --use-sim-time."
+)
 @graph_options
-def hz_command(topic: str, window: int, expression: str | None, **graph: Any) -> None:
+def hz_command(
+    topic: str, window: int, expression: str | None, use_sim_time: bool, wall_time: bool, **graph: Any
+) -> None:
     """Print the rate of a topic each second. EXPRESSION is that of `topic echo`.
+
+    With --use-sim-time it is the rate in the time of the simulation.
 
     \b
     microros-gen topic hz /imu
@@ -49,12 +65,21 @@ def hz_command(topic: str, window: int, expression: str | None, **graph: Any) ->
     from microros_gen.ros_tools.rates import Intervals
 
     intervals = Intervals(window)
+
+    def receive(
+        data: bytes, info: Mapping[str, Any], known: KnownType | None, clock: GraphClock | None
+    ) -> None:
+        now = time.monotonic_ns() if clock is None else clock.now_ns()
+        if clock is None or now:  # nothing is measured before the first message of /clock
+            intervals.add(now)
+
     _measure(
         topic,
         graph,
-        lambda data, info, known: intervals.add(time.monotonic_ns()),
+        receive,
         lambda: intervals.text(),
         expression=expression,
+        simulated=use_sim_time and not wall_time,
     )
 
 
@@ -74,7 +99,7 @@ def bw_command(topic: str, window: int, **graph: Any) -> None:
     _measure(
         topic,
         graph,
-        lambda data, info, known: bandwidth.add(time.monotonic_ns(), len(data)),
+        lambda data, info, known, clock: bandwidth.add(time.monotonic_ns(), len(data)),
         lambda: bandwidth.text(time.monotonic_ns()),
         subscribed=True,
     )
@@ -83,8 +108,9 @@ def bw_command(topic: str, window: int, **graph: Any) -> None:
 @click.command()
 @click.argument("topic")
 @_window_option(10_000)
+@sim_time_option
 @graph_options
-def delay_command(topic: str, window: int, **graph: Any) -> None:
+def delay_command(topic: str, window: int, use_sim_time: bool, **graph: Any) -> None:
     """Print the delay of a topic each second: from the stamp in the header of its messages to their arrival.
 
     \b
@@ -94,30 +120,37 @@ def delay_command(topic: str, window: int, **graph: Any) -> None:
 
     delays = Delays(window)
 
-    def receive(data: bytes, info: Mapping[str, Any], known: KnownType | None) -> None:
+    def receive(
+        data: bytes, info: Mapping[str, Any], known: KnownType | None, clock: GraphClock | None
+    ) -> None:
         stamp = known and known.codec.decode(known.name, data).get("header", {}).get("stamp")
         if not stamp:
             message = f"the messages of {topic} have no header with a stamp"
             hint = "Measure their rate instead: microros-gen topic hz"
             raise UserError([Diagnostic(message, hint=hint, id="MG-9821")], status=1)
-        delays.add(time.time_ns(), stamp["sec"] * 1_000_000_000 + stamp["nanosec"])
+        now = time.time_ns() if clock is None else clock.now_ns()
+        if clock is None or now:
+            delays.add(now, stamp["sec"] * 1_000_000_000 + stamp["nanosec"])
 
-    _measure(topic, graph, receive, lambda: delays.text(), known_type=True)
+    _measure(topic, graph, receive, lambda: delays.text(), known_type=True, simulated=use_sim_time)
 
 
 def _measure(
     topic: str,
     graph: dict[str, Any],
-    receive: Callable[[bytes, Mapping[str, Any], KnownType | None], None],
+    receive: Callable[[bytes, Mapping[str, Any], KnownType | None, GraphClock | None], None],
     text: Callable[[], str | None],
     subscribed: bool = False,
     known_type: bool = False,
     expression: str | None = None,
+    simulated: bool = False,
 ) -> None:
     """Pass the messages of a topic to `receive`, and print `text()` each second if any have arrived since.
 
-    `expression`: only those for which it holds. UserError for one that is invalid.
+    `expression`: only those for which it holds. UserError for one that is invalid. `simulated`: `receive` gets the
+    clock of the graph.
     """
+    from microros_gen.ros_tools.clocks import GraphClock
     from microros_gen.ros_tools.discovery import absolute
     from microros_gen.ros_tools.expressions import Filter
     from microros_gen.ros_tools.quality import PRESETS
@@ -133,13 +166,14 @@ def _measure(
         holds = (
             Filter(expression or "", known.name, known.interfaces.messages) if known and filtered else None
         )
+        clock = GraphClock(peer) if simulated else None
         arrived = [0, 0]
 
         def count(data: bytes, info: Mapping[str, Any]) -> None:
             if known is not None and holds is not None and not holds(known.codec.decode(known.name, data)):
                 return
             arrived[0] += 1
-            receive(data, info, known)
+            receive(data, info, known, clock)
 
         _subscribe(peer, name, type_name, count, qos)
         if subscribed:
