@@ -8,8 +8,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "microros/port.h"
+#include "microros/xrce_messages.h"
 #include "microros_config.h"
 
 #ifdef __cplusplus
@@ -33,7 +35,7 @@ typedef struct xrce_transport_t {
   uint16_t arrived;       /* received bytes of it */
   uint8_t length_arrived; /* received bytes of its length */
   uint8_t length[XRCE_TCP_PREFIX];
-  uint8_t output[XRCE_TCP_PREFIX + MICROROS_MTU];
+  uint8_t output[XRCE_TCP_PREFIX + XRCE_LARGEST_SENT];
 } xrce_transport_t;
 
 static inline const char * xrce_transport_name(const xrce_transport_t * transport)
@@ -52,12 +54,10 @@ static inline intptr_t xrce_transport_handle(const xrce_transport_t * transport)
   return transport->tcp.handle;
 }
 
-/* Returns whether two transports share one line: sockets never do. */
+/* Returns whether two transports cannot be open at once: two connections can, if their agent keeps a session with each. */
 static inline bool xrce_transport_is_same_line(const xrce_transport_t * a, const xrce_transport_t * b)
 {
-  (void)a;
-  (void)b;
-  return false;
+  return XRCE_MESSAGES_ONE_SOCKET && a->port == b->port && strcmp(a->host, b->host) == 0;
 }
 
 /* Called at the start of a pump. */
@@ -86,25 +86,6 @@ static inline bool xrce_transport_is_idle(xrce_transport_t * transport)
 {
   return transport->closed || transport->unsent == 0u;
 }
-
-/* Starts to connect, without blocking. Returns false without a network or for an invalid address. */
-bool xrce_transport_open(xrce_transport_t * transport);
-
-void xrce_transport_close(xrce_transport_t * transport);
-
-/*
- * Sends one message without blocking. Bytes for which the connection has no room follow with later calls,
- * including receive calls, as does a first message while the connection is being established. Returns
- * false if the message was not accepted; nothing of it is sent then.
- */
-bool xrce_transport_send(xrce_transport_t * transport, const uint8_t * message, size_t size);
-
-/*
- * Receives one message without blocking. Returns its size, 0 if none has arrived, -1 for a discarded one: longer than
- * `capacity`, or empty; XRCE_TURN_PARTIAL (xrce_turn_bytes.h): a part of one, and perhaps more. `buffer` keeps a partial message: pass the same one until a message
- * was received.
- */
-int32_t xrce_transport_receive(xrce_transport_t * transport, uint8_t * buffer, size_t capacity);
 
 /* Returns an upper bound of the bytes of the buffer that the partial message occupies. */
 uint32_t xrce_transport_arrived(const xrce_transport_t * transport);
