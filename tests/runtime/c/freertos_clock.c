@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * A kernel with ticks of 1 ms and a timer of microseconds, both simulated. A task runs 3 to 25 us after the tick that
- * releases it. freertos_clock PHASE TIMER: microseconds after a tick at which the task starts, and what the timer shows then.
+ * releases it. Now and then the kernel misses ticks. freertos_clock PHASE TIMER: microseconds after a tick at which the task starts, and what the timer shows then.
  */
 #include "unit.h"
 
@@ -14,9 +14,18 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-enum { TICK_US = 1000, RUNS = 5000, LEAST_US = 3, MOST_US = 25, WORK_US = 300 };
+enum {
+  TICK_US = 1000,
+  RUNS = 5000,
+  LEAST_US = 3,
+  MOST_US = 25,
+  WORK_US = 300,
+  STALL_RUNS = 100,
+  STALL_US = 50000
+};
 
-static uint64_t true_us; /* since tick 0 */
+static uint64_t true_us;
+static uint64_t lost_us; /* the ticks that the kernel has missed */
 static uint32_t timer_lead;
 static uint32_t suspended;
 static uint32_t woken;
@@ -28,7 +37,7 @@ uint32_t kernel_time_us(void)
 
 uint64_t port_freertos_now(void)
 {
-  return true_us / TICK_US;
+  return (true_us - lost_us) / TICK_US;
 }
 
 TickType_t xTaskGetTickCount(void)
@@ -152,6 +161,11 @@ int main(int count, char * arguments[])
     CHECK(time_us() - next_us <= (uint32_t)MOST_US);
     true_us += WORK_US;
     CHECK(time_us() - next_us >= (uint32_t)WORK_US && time_us() - next_us <= (uint32_t)(WORK_US + MOST_US));
+    if (run % (uint32_t)STALL_RUNS == 0u) {
+      true_us += (uint64_t)STALL_US;
+      lost_us += (uint64_t)STALL_US;
+      CHECK(time_us() - next_us < (uint32_t)TICK_US);
+    }
     next_us += (uint32_t)TICK_US;
   }
   true_us += (uint64_t)5 * TICK_US; /* a time that has passed */

@@ -155,18 +155,25 @@ static uint32_t tick_time_us(uint64_t ticks)
 /* What the timer of the application showed at a tick, less the time of the tick: the least that was seen, because it is
  * read after the tick. Written while no other task runs. */
 static uint32_t timer_lead_us;
+static uint32_t timer_lost_us; /* the tick at which it was unknown */
 static bool timer_is_known;
 
-/* Returns the microseconds since the tick at `tick_us`, less than a tick. If the timer is far ahead, they begin again at 0. */
+/* Returns the microseconds since the tick at `tick_us`, less than a tick. If the timer is far ahead, the kernel has missed
+ * ticks: then the time stays until the next one. */
 static uint32_t since_tick_us(uint32_t tick_us, uint32_t timer_us)
 {
   const uint32_t most_us = (uint32_t)(us_per_s / (uint64_t)configTICK_RATE_HZ) - 1u;
   uint32_t since_us = timer_us - tick_us - timer_lead_us;
 
-  if (!timer_is_known || since_us > most_us + most_us) { /* behind the tick, too: it wraps */
+  if (since_us > (uint32_t)INT32_MAX || (!timer_is_known && tick_us != timer_lost_us)) {
     timer_is_known = true;
     timer_lead_us = timer_us - tick_us;
     since_us = 0;
+  } else if (since_us > most_us + most_us) {
+    timer_is_known = false;
+    timer_lost_us = tick_us;
+  } else {
+    /* as it was expected */
   }
   return since_us < most_us ? since_us : most_us;
 }
