@@ -76,3 +76,8 @@ def test_samples_arrive_and_a_node_without_the_server_sees_nothing(monkeypatch: 
                 assert [sample["data"] for _, sample in samples] == list(range(1, 20))
                 assert other.ask(do="samples") == []
                 assert "board" not in str(other.ask(do="graph"))
+            monkeypatch.setenv(VARIABLE, address)
+            monkeypatch.setenv("ROS_SUPER_CLIENT", "TRUE")
+            with observing(domain) as tool:  # it subscribes to nothing
+                graph = tool.see(lambda graph: "/served" in str(graph) and "/board" in str(graph))
+                assert "/observer" in str(graph)
