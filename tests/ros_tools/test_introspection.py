@@ -86,7 +86,7 @@ def test_service_without_introspection_gives_a_reason(node: Running) -> None:
 
 
 def test_unknown_service_has_a_proposal(node: Running) -> None:
-    done = command("service", "echo", "/enables")
+    done = command("service", "echo", "/enabled")
     assert done.returncode == 1
     assert "Did you mean '/enable'?" in done.stderr
     assert "[MG-9813]" in done.stderr
