@@ -110,11 +110,6 @@ void xrce_entities_renew(xrce_client_t * client)
   entities_wake(&client->entities);
 }
 
-bool xrce_entities_settled(const xrce_client_t * client)
-{
-  return client->entities.pending == (uint8_t)XRCE_PENDING_NONE;
-}
-
 static void entities_refuse(xrce_client_t * client, uint8_t status, uint32_t now)
 {
   xrce_entities_t * entities = &client->entities;

@@ -57,8 +57,11 @@ static rclc_executor_handle_t * executor_take(const rclc_executor_t * executor)
     return NULL;
   }
   place->owner = executor;
+  (void)memset(place->handles, 0, sizeof(place->handles)); /* once: all as rclc_executor_handle_init leaves one */
   for (size_t i = 0; i < MICROROS_HANDLES_MAX; ++i) {
-    (void)rclc_executor_handle_init(&place->handles[i], MICROROS_HANDLES_MAX); /* cannot fail: not NULL */
+    place->handles[i].type = RCLC_NONE;
+    place->handles[i].invocation = ON_NEW_DATA;
+    place->handles[i].index = MICROROS_HANDLES_MAX;
   }
   return place->handles;
 }

@@ -49,9 +49,6 @@ void xrce_entities_renew(xrce_client_t * client);
 void xrce_entities_step(xrce_client_t * client, uint32_t now);
 void xrce_entities_on_status(xrce_client_t * client, const uint8_t * submessage, size_t size, uint32_t now);
 
-/* Returns whether the agent holds every wanted entity. */
-bool xrce_entities_settled(const xrce_client_t * client);
-
 /* Returns the endpoint of a place. */
 const xrce_endpoint_t * xrce_entities_endpoint(const xrce_client_t * client, uint16_t place);
 

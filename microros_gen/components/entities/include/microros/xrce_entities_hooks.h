@@ -10,6 +10,12 @@
 extern "C" {
 #endif
 
+/* Returns whether the agent holds every wanted entity. */
+static inline bool xrce_entities_settled(const xrce_client_t * client)
+{
+  return client->entities.pending == (uint8_t)XRCE_PENDING_NONE;
+}
+
 /* Returns whether the application may write to the reliable stream: no CREATE or DELETE occupies it. */
 static inline bool xrce_entities_leave_stream(const xrce_client_t * client)
 {
