@@ -21,6 +21,7 @@ from microros_gen.application.transport_decl import Transport
 from microros_gen.application.watchdog import WatchdogDecl
 from microros_gen.diagnostics import Span
 from microros_gen.documents.named import Named
+from microros_gen.interfaces.types import Message, TypeName
 from microros_gen.records import dataclass
 
 
@@ -324,10 +325,10 @@ class SessionTimes:
 
 @dataclass(frozen=True)
 class ChipImage:
-    """The other image of this one's chip: the board that it is in the system, and its application.
+    """Another image of this one's chip: the board that it is in the system, its `position`, and its application.
 
-    `position`: whether this one is the chip's first (0) or second image.
-    `hashes`: of the types that its own interface files define, by name. `files` were read for it.
+    `hashes`: of the types that its own interface files define, by name; with more than two images of all types at its
+    ends, whose `messages` are closed. `files` were read for it.
     """
 
     board: str
@@ -335,6 +336,17 @@ class ChipImage:
     application: Application
     hashes: Mapping[str, str]
     files: tuple[Path, ...]
+    messages: Mapping[TypeName, Message] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Chip:
+    """The chip that this image is on: its position there, the other images, and the bytes of its `memory`, if known."""
+
+    position: int
+    images: tuple[ChipImage, ...]
+    memory: int | None = None
+    span: Span | None = None
 
 
 @dataclass(frozen=True)
@@ -347,8 +359,8 @@ class Application:
     the file. `implied` are the endpoints of the library itself where there are no nodes (with nodes they are among
     their endpoints), `endpoints` what the file changes of those. `spans` holds the places of top-level keys and of
     the keys of `pools` (as `pools.history`), for later steps. `exact_float64`: what would
-    round a float64 is an error. `links` are those of this board in its `system`, `chip` the image that has the other
-    core there. `bus_senders`: what others send on its CAN buses; `bus_files`: read for boards of the same bus that
+    round a float64 is an error. `links` are those of this board in its `system`, `chip` the images of the other
+    cores there. `bus_senders`: what others send on its CAN buses; `bus_files`: read for boards of the same bus that
     exchange nothing with this one, and for what they send.
     """
 
@@ -385,5 +397,5 @@ class Application:
     bus_files: tuple[Path, ...] = ()
     bus_senders: tuple[BusSender, ...] = ()
     tasks: tuple[TaskDecl, ...] = ()
-    chip: ChipImage | None = None
+    chip: Chip | None = None
     spans: Mapping[str, Span] = field(default_factory=dict)

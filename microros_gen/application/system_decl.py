@@ -46,6 +46,23 @@ class PeerEnd:
 
 
 @dataclass(frozen=True)
+class ChipDecl:
+    """A chip of a system file: the boards that are its images, in their order, and the bytes of its shared memory.
+
+    `memory` None: the file does not say it. `span`: where it does.
+    """
+
+    images: tuple[Named, ...]
+    memory: int | None = None
+    span: Span | None = None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Return the names of the boards."""
+        return tuple(image.name for image in self.images)
+
+
+@dataclass(frozen=True)
 class LinkDecl:
     """A link of a system file; `ends` are its boards, each with its address or device. Only CAN FD has more than two.
 

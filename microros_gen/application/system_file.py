@@ -9,11 +9,20 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from microros_gen.application.system_can import CANFD_LINK_MTU, DEFAULT_ID, check_buses, check_end
-from microros_gen.application.system_decl import LinkDecl
+from microros_gen.application.system_decl import ChipDecl, LinkDecl
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest, reads
 from microros_gen.documents.named import Named
 from microros_gen.documents.schema import load_schema, validate
-from microros_gen.documents.tree_values import child, entries, int_of, items, named_of, text_of
+from microros_gen.documents.tree_values import (
+    child,
+    entries,
+    int_of,
+    items,
+    named_of,
+    size_of,
+    span_of,
+    text_of,
+)
 from microros_gen.documents.yaml_tree import MappingNode, YamlNode, parse_yaml
 from microros_gen.records import dataclass
 
@@ -21,6 +30,8 @@ SCHEMA = Path(__file__).with_name("system.schema.json")
 DEFAULT_MTU, DEFAULT_HISTORY = 512, 4
 LARGEST_MTU = 16384
 """Of a link, bytes; system.schema.json says it too."""
+MOST_IMAGES = 16
+"""Of a chip: the position of one is in four bits of what its publishers and clients write (rmw_shared_sign.h)."""
 UART = "uart"
 """What a serial link calls the line of a board without an operating system."""
 
@@ -29,12 +40,12 @@ UART = "uart"
 class SystemFile:
     """`boards`: the path of the application file of each, relative to the system file.
 
-    `chips`: pairs of boards that are images of one chip.
+    `chips`: boards that are images of one chip.
     """
 
     boards: Mapping[str, Named]
     links: tuple[LinkDecl, ...]
-    chips: tuple[tuple[Named, ...], ...] = ()
+    chips: tuple[ChipDecl, ...] = ()
 
 
 @reads
@@ -117,23 +128,24 @@ def _check_board(name: str, span: Span | None, boards: Mapping[str, Named], diag
         diagnostics.error(f"the system has no board '{name}'", span, hint, id="MG-3191")
 
 
-def _chip(item: YamlNode, boards: Mapping[str, Named], diagnostics: Diagnostics) -> tuple[Named, ...]:
-    images = tuple(named for image in items(item) if (named := named_of(image)) is not None)
+def _chip(item: YamlNode, boards: Mapping[str, Named], diagnostics: Diagnostics) -> ChipDecl:
+    """Return a chip: a list of boards, or a mapping with `images` and `memory`."""
+    listed = child(item, "images") or item
+    images = tuple(named for image in items(listed) if (named := named_of(image)) is not None)
     for image in images:
         _check_board(image.name, image.span, boards, diagnostics)
-    if len(images) != 2:
-        message = f"a chip has two images, one at each end of the shared memory; this one has {len(images)}"
-        hint = (
-            "Name the two boards that share a memory; further images exchange messages with them by `links`"
-        )
-        diagnostics.error(message, item.span, hint, id="MG-3199")
-    return images
+    if not 2 <= len(images) <= MOST_IMAGES:
+        message = f"a chip has 2 to {MOST_IMAGES} images; this one has {len(images)}"
+        hint = "Name the boards that share a memory; further images exchange messages with them by `links`"
+        diagnostics.error(message, listed.span, hint, id="MG-3199")
+    memory = child(item, "memory")
+    return ChipDecl(images, size_of(memory), span_of(memory))
 
 
-def _check_chips(chips: tuple[tuple[Named, ...], ...], diagnostics: Diagnostics) -> None:
+def _check_chips(chips: tuple[ChipDecl, ...], diagnostics: Diagnostics) -> None:
     """Report a board that is named twice."""
     seen: dict[str, Named] = {}
-    for image in (image for chip in chips for image in chip):
+    for image in (image for chip in chips for image in chip.images):
         first = seen.setdefault(image.name, image)
         if first is not image:
             where = f", first in line {first.span.line}" if first.span else ""
@@ -141,7 +153,7 @@ def _check_chips(chips: tuple[tuple[Named, ...], ...], diagnostics: Diagnostics)
             diagnostics.error(
                 message,
                 image.span,
-                "Name it once: it shares a memory with one other, and is joined with further ones by `links`",
+                "Name it once: it shares a memory with the images of one chip, and is joined with others by `links`",
                 id="MG-3198",
             )
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from microros_gen.application.find import APPLICATION_FILE
 from microros_gen.application.kinds import KIND, NAMES, other_end
-from microros_gen.application.model import Application, ChipImage, EndpointDecl, NodeDecl
+from microros_gen.application.model import Application, Chip, ChipImage, EndpointDecl, NodeDecl
 from microros_gen.application.names import expand_topic_name
 from microros_gen.application.parser import parse_application
 from microros_gen.application.system_can import bus_identifiers, can_ends, identifier
@@ -22,16 +22,20 @@ from microros_gen.documents.named import Named
 from microros_gen.interfaces.closure import resolve_interfaces, split_type_name
 from microros_gen.interfaces.derived import SERVICE_PARTS, derived_name
 from microros_gen.interfaces.find import InterfaceFinder
-from microros_gen.interfaces.types import TypeName
+from microros_gen.interfaces.types import Message, TypeName
 from microros_gen.records import dataclass
 
 
 def with_system(
-    application: Application, config: Path | None, near: Path, diagnostics: Diagnostics
+    application: Application,
+    config: Path | None,
+    near: Path,
+    diagnostics: Diagnostics,
+    interface_paths: tuple[Path, ...] = (),
 ) -> tuple[Application, Mapping[str, Source]]:
     """Return the application with the links and the chip of its board, and the files that were read for them, by name.
 
-    What the other applications say wrong is an error at its place there.
+    What the other applications say wrong is an error at its place there. `interface_paths` are those of this build.
     """
     reference = application.system
     if reference is None:
@@ -56,10 +60,7 @@ def with_system(
                 links.append(linked)
             else:
                 idle += linked.files
-    image = _image(reference.board.name, system, path, diagnostics)
-    if image is not None:
-        files[f"{image[0].board}: {Path(image[1].name).name}"] = image[1]
-    chip = image[0] if image else None
+    chip = _chip(own_place, interface_paths, files, diagnostics)
     return replace(application, links=tuple(links), bus_files=tuple(idle), chip=chip), files
 
 
@@ -95,8 +96,8 @@ def system_paths(application: Application, near: Path) -> Iterator[Path]:
     for link in application.links:
         yield from link.files
     yield from application.bus_files
-    if application.chip is not None:
-        yield from application.chip.files
+    for image in application.chip.images if application.chip else ():
+        yield from image.files
 
 
 def peer_ends(application: Application) -> Iterator[tuple[int, EndpointDecl, PeerEnd]]:
@@ -191,7 +192,7 @@ def _link(
         return None
     other, source, file = found
     ends = tuple(end for _, _, end in peer_ends(other))
-    hashes, files = _hashes(other, ends, file.parent, diagnostics)
+    types = _types(other, ends, file.parent, diagnostics)
     linked = Link(
         kind=link.kind,
         board=board,
@@ -202,8 +203,8 @@ def _link(
         history=link.history,
         baud=other.transport.baud,
         transport=other.transport.type,
-        ends=tuple(replace(end, type_hash=hashes.get(end.type)) for end in ends),
-        files=(file, *files),
+        ends=tuple(replace(end, type_hash=types.hashes.get(end.type)) for end in ends),
+        files=(file, *types.files),
         span=link.span,
         limits=other.limits,
         client_key=client_key(other),
@@ -281,22 +282,25 @@ def other_board(
     return other, source, file
 
 
-def _image(
-    board: str, system: SystemFile, path: Path, diagnostics: Diagnostics
-) -> tuple[ChipImage, Source] | None:
-    """Return the other image of the chip that a board is an image of."""
-    chip = next((names for chip in system.chips if board in (names := [i.name for i in chip])), None)
+def _chip(
+    place: _Place, interface_paths: tuple[Path, ...], files: dict[str, Source], diagnostics: Diagnostics
+) -> Chip | None:
+    """Return the chip that a board is an image of, with the others; their application files are added to `files`."""
+    chip = next((chip for chip in place.system.chips if place.board in chip.names), None)
     if chip is None:
         return None
-    position = chip.index(board)
-    name = chip[1 - position]
-    found = other_board(name, system, path, diagnostics)
-    if found is None:
-        return None
-    other, source, file = found
-    ends = tuple(end_of(node, e) for node in other.nodes for e in node.endpoints if e.local == "chip")
-    hashes, files = _hashes(other, ends, file.parent, diagnostics)
-    return ChipImage(name, position, other, hashes, (file, *files)), source
+    places_all = len(chip.images) > 2
+    images = []
+    for position, name in enumerate(chip.names):
+        found = None if name == place.board else other_board(name, place.system, place.path, diagnostics)
+        if found is not None:
+            other, source, file = found
+            files[f"{name}: {Path(source.name).name}"] = source
+            ends = tuple(end_of(node, e) for node in other.nodes for e in node.endpoints if e.local == "chip")
+            types = _types(other, ends, file.parent, diagnostics, interface_paths if places_all else None)
+            read = (file, *types.files)
+            images.append(ChipImage(name, position, other, types.hashes, read, types.messages))
+    return Chip(chip.names.index(place.board), tuple(images), chip.memory, chip.span)
 
 
 def _check_names_system(
@@ -316,17 +320,31 @@ def _check_names_system(
     )
 
 
-def _hashes(
-    other: Application, ends: tuple[PeerEnd, ...], near: Path, diagnostics: Diagnostics
-) -> tuple[Mapping[str, str], tuple[Path, ...]]:
-    """Return the hashes of types that interface files of the other application define, and these files.
+@dataclass(frozen=True)
+class _Types:
+    """What interface files define: hashes by name, messages (closed), and these files."""
 
-    The hash of a service is those of its request and its response.
+    hashes: Mapping[str, str]
+    messages: Mapping[TypeName, Message]
+    files: tuple[Path, ...]
+
+
+def _types(
+    other: Application,
+    ends: tuple[PeerEnd, ...],
+    near: Path,
+    diagnostics: Diagnostics,
+    more_paths: tuple[Path, ...] | None = None,
+) -> _Types:
+    """Return the types of ends that interface files of the other application define.
+
+    With `more_paths` all types of the ends: they are looked for there first, and where a build looks. The hash of a
+    service is those of its request and its response.
     """
     paths = {near / path.name: path.span for path in other.interface_paths}
-    if not paths or not ends:
-        return {}, ()
-    finder = InterfaceFinder.from_environment(tuple(paths))
+    if (not paths and more_paths is None) or not ends:
+        return _Types({}, {}, ())
+    finder = InterfaceFinder.from_environment((*(more_paths or ()), *paths))
     finder.check_paths(diagnostics, paths)
     spans: dict[str, Span | None] = {}
     for end in ends:
@@ -334,13 +352,13 @@ def _hashes(
     wanted = tuple(Named(name, span) for name, span in spans.items())
     interfaces = resolve_interfaces(wanted, finder, diagnostics)
     if diagnostics.has_errors():
-        return {}, ()
+        return _Types({}, {}, ())
     hashes = {
         str(name): " ".join(interfaces.type_hash(message) for message in exchanged(name))
         for name in interfaces.roots
     }
     hashes |= {str(part): interfaces.type_hash(part) for name in interfaces.roots for part in exchanged(name)}
-    return hashes, tuple(Path(entry.source.name) for entry in interfaces)
+    return _Types(hashes, interfaces.messages, tuple(Path(entry.source.name) for entry in interfaces))
 
 
 def _read(path: Path, what: str, span: Span | None, diagnostics: Diagnostics) -> Source | None:

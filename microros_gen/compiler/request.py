@@ -80,7 +80,9 @@ def request_of(source: Source | None, near: Path, options: Options, diagnostics:
     application, of_image = with_image_files(application, config, diagnostics)
     diagnostics.check()
     inputs |= of_image
-    application, system_files = with_system(application, options.config, near, diagnostics)
+    application, system_files = with_system(
+        application, options.config, near, diagnostics, options.interface_paths
+    )
     diagnostics.check()
     application, bus_files = with_bus_senders(application, near, options.interface_paths, diagnostics)
     diagnostics.check()

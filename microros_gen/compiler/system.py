@@ -133,7 +133,7 @@ def check_system(path: Path, interface_paths: tuple[Path, ...] = ()) -> CheckedS
 
 def _neighbors(board: str, system: SystemFile) -> Iterator[Neighbor]:
     joined = [(link.kind, [name for name, _ in link.ends]) for link in system.links]
-    joined += [("chip", [image.name for image in chip]) for chip in system.chips]
+    joined += [("chip", list(chip.names)) for chip in system.chips]
     for over, names in joined:
         if board in names:
             yield from (Neighbor(name, over) for name in names if name != board)

@@ -91,7 +91,7 @@ def test_a_slow_reader(programs: tuple[Path, Path], memory: Path) -> None:
         before = first.counts("dropped")["dropped"]
         shown = [first.publish(SURE, str(number)) for number in range(DEPTH + 1)]
         assert shown[:DEPTH] == [""] * DEPTH
-        assert shown[DEPTH].startswith("/first/sure: the other image has not taken earlier messages")
+        assert shown[DEPTH].startswith("/first/sure: another image has not taken earlier messages")
         assert [first.publish(BEST, str(number)) for number in range(DEPTH + 2)] == [""] * (DEPTH + 2)
         assert first.counts("dropped")["dropped"] == before + 2
         found = heard(second, 2 * DEPTH)
@@ -177,7 +177,7 @@ def test_requests_that_wait(programs: tuple[Path, Path], memory: Path) -> None:
         assert [first.ask(number, 0)[0] for number in (1, 2)] == ["", ""]
         second.spin()
         assert [first.ask(number, 0)[0] for number in (3, 4)] == ["", ""]
-        full = "/second/sum: the other image has not taken earlier messages: raise its depth or queue"
+        full = "/second/sum: another image has not taken earlier messages: raise its depth or queue"
         assert first.ask(5, 0) == (full, [])
         for number in range(1, 5):
             assert served(second, "serve") == [f"asked {number} 0"]
@@ -274,7 +274,7 @@ def refused(image: Image, other: str, words: str) -> None:
 def test_an_image_of_another_build(programs: tuple[Path, Path], memory: Path, tmp_path: Path) -> None:
     """Its depth differs: the calls of both images say so."""
     other = program(tmp_path, "second", TOPICS.replace("depth: 3", "depth: 4"))
-    words = "the other image was built for other topics, types, limits or depths"
+    words = "another image was built for other topics, types, limits or depths"
     with both(programs, memory) as (first, second):
         assert [first.publish(SURE, text) for text in "xy"] == ["", ""]
         second.kill()
@@ -296,7 +296,7 @@ def test_a_platform_without_such_memory(programs: tuple[Path, Path], tmp_path: P
     memory = tmp_path / "memory"
     memory.mkdir()  # a folder cannot be mapped
     with Image(programs[0], memory) as first:
-        words = "the platform has no memory that two images share"
+        words = "the platform has no memory that images share"
         assert first.publish(BEST, "a") == f"/first/best: {words}"
         refused(first, "second", words)
         memory.rmdir()

@@ -14,7 +14,7 @@ from microros_gen import compiler
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.toolchain.toolchain import WARNINGS
 from tests.support.paths import ROOT
-from tests.support.quality.corpus import APPLICATIONS, EVERY_PARAMETER, OTHERS, SYSTEMS
+from tests.support.quality.corpus import APPLICATIONS, EVERY_PARAMETER, OTHERS, SYSTEMS, THIRDS
 
 DEMO = ROOT / "examples" / "demo" / "microros.yaml"
 
@@ -201,6 +201,7 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
                 "peer_canfd",
                 "peer_fragments_joined",
                 "local_chip_tasks",
+                "local_group_tasks",
             )
         },
         "diagnosis": _BUSY
@@ -326,6 +327,8 @@ def make_tree(name: str, text: str, folder: Path) -> Tree:
     if name in SYSTEMS:
         (folder / "system.yaml").write_text(SYSTEMS[name], encoding="utf-8")
         (folder / "other.yaml").write_text(_of_numbers(OTHERS[name]), encoding="utf-8")
+    if name in THIRDS:
+        (folder / "third.yaml").write_text(_of_numbers(THIRDS[name]), encoding="utf-8")
     options = compiler.Options(config=config, interface_paths=(shipped_folder(),))
     out = compiler.generate(options, folder / "out").out
     return Tree(name, out)

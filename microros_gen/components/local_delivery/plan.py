@@ -12,9 +12,18 @@ from microros_gen.client.plan.features import PlanContext
 from microros_gen.components.agentless.plan import in_c, is_alone
 from microros_gen.components.local_delivery.check import MOST_SLOTS, check_topics
 from microros_gen.components.local_delivery.check_services import SERVICE_SLOTS, check_services
-from microros_gen.components.local_delivery.check_shared import check_shared
+from microros_gen.components.local_delivery.check_shared import check_count, check_memory, check_shared
 from microros_gen.components.local_delivery.copies import copy_lines, get_body, put_body
-from microros_gen.components.local_delivery.shared import IMAGE_WORDS, SharedRing, key_of, rings
+from microros_gen.components.local_delivery.shared import (
+    IMAGE_WORDS,
+    WORD,
+    ChipRing,
+    SharedRing,
+    chip_rings,
+    key_of,
+    own_rings,
+    shown_pairs,
+)
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.derived import derived_name
 from microros_gen.interfaces.types import TypeName
@@ -128,8 +137,10 @@ class LocalPlan:
     """`queue_of`: of each receiver, as C.
 
     `server_of`: the queue of each client's server, as C, and an end. `services`: there is such a server, or one in
-    another image. `rings` are those of topics and services between two images, `ring_of`: of each endpoint (that of the
-    requests of a service), as C. `shared_image`: whether this image is the first (0) or the second one of its chip.
+    another image. `chip_rings` are those of topics and services between the images of the chip, `rings` those with an
+    end in this image, `ring_of`: the first one of each endpoint (that of the requests of a service), as C.
+    `chip_images`: how many there are, `shared_image`: the position of this one among them. `memory_limit`: bytes of the
+    shared memory, if known.
     `copies` are functions that the queues call, as lines of C; `headers`: of the types and of their storage.
     """
 
@@ -140,9 +151,12 @@ class LocalPlan:
     routes: tuple[LocalRoute, ...]
     copies: tuple[str, ...]
     headers: tuple[str, ...]
+    chip_rings: tuple[ChipRing, ...]
     rings: tuple[SharedRing, ...]
     ring_of: tuple[str, ...]
+    chip_images: int
     shared_image: int
+    memory_limit: int | None
     shown: str
 
     @property
@@ -153,7 +167,7 @@ class LocalPlan:
     @property
     def calls(self) -> bool:
         """Return whether a service does."""
-        return any(ring.part for ring in self.rings)
+        return any(ring.ring.part for ring in self.rings)
 
     @property
     def hears(self) -> bool:
@@ -161,9 +175,19 @@ class LocalPlan:
         return any(not ring.sends for ring in self.rings)
 
     @property
+    def group(self) -> bool:
+        """Return whether the chip has more than two images, so that an endpoint can have several rings."""
+        return self.shared and self.chip_images > 2
+
+    @property
+    def pair(self) -> bool:
+        """Return whether it has two."""
+        return self.shared and not self.group
+
+    @property
     def shared_key(self) -> int:
-        """Return the number that both images have."""
-        return key_of(self.rings)
+        """Return the number that all images have."""
+        return key_of(self.chip_rings, self.chip_images)
 
     @property
     def shared_own(self) -> int:
@@ -172,7 +196,7 @@ class LocalPlan:
 
     @property
     def shared_other(self) -> int:
-        """Return where those of the other image are."""
+        """Return where those of the other image are, if there are two."""
         return IMAGE_WORDS - self.shared_own
 
     @property
@@ -183,7 +207,18 @@ class LocalPlan:
     @property
     def ring_words(self) -> int:
         """Return the size of the shared memory, words of 4 bytes."""
-        return max((ring.at + ring.slots * ring.words for ring in self.rings), default=0)
+        return max((ring.end for ring in self.chip_rings), default=0)
+
+    @property
+    def shared_bytes(self) -> int:
+        """Return the same in bytes."""
+        return self.ring_words * WORD
+
+    @property
+    def shared_shown(self) -> str:
+        """Return what a report says of the shared memory."""
+        limit = "" if self.memory_limit is None else f" of {self.memory_limit}"
+        return f"{self.shared_bytes} bytes{limit}: {', '.join(shown_pairs(self.chip_rings))}"
 
     @property
     def queue_count(self) -> int:
@@ -194,6 +229,7 @@ class LocalPlan:
 def plan(context: PlanContext, diagnostics: Diagnostics) -> LocalPlan:
     """Return the queues and routes; ends of a topic that do not agree are reported."""
     application = context.application
+    chip = application.chip
     check_topics(context, diagnostics)
     check_services(context, diagnostics)
     check_shared(context, diagnostics)
@@ -201,8 +237,13 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LocalPlan:
     receivers = [_NONE] * sum(context.runtime.entities.places(kind.name).max for kind in RECEIVING)
     for queue in queues:
         receivers[queue.receiver] = str(queue.index)
-    shared = rings(context)
-    ring_of = {ring.endpoint: str(index) for index, ring in enumerate(shared) if ring.part != "Response"}
+    all_rings = chip_rings(context)
+    check_memory(all_rings, application, diagnostics)
+    shared = own_rings(all_rings, context)
+    check_count(shared, diagnostics)
+    ring_of: dict[int, str] = {}
+    for index, ring in enumerate(shared):
+        ring_of.setdefault(ring.endpoint, str(index))
     endpoints = context.runtime.entities.publisher_places + len(receivers)
     servers = tuple(_servers(context, queues))
     types = [queue.type for queue in queues]
@@ -211,12 +252,15 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LocalPlan:
         queues=queues,
         queue_of=tuple(receivers),
         server_of=(*servers, _NONE),
-        services=any(ring.part for ring in shared) or any(server != _NONE for server in servers),
+        services=any(ring.ring.part for ring in shared) or any(server != _NONE for server in servers),
         routes=tuple(_routes(context, queues)),
         copies=copy_lines(types, messages),
         headers=tuple(sorted({h for name in types for h in _headers(context.types[name])})),
+        chip_rings=all_rings,
         rings=shared,
-        shared_image=application.chip.position if application.chip else 0,
+        chip_images=len(chip.images) + 1 if chip else 0,
+        shared_image=chip.position if chip else 0,
+        memory_limit=chip.memory if chip else None,
         ring_of=tuple(ring_of.get(place, _NONE) for place in range(endpoints)),
         shown=_shown(application, is_alone(application)),
     )

@@ -16,7 +16,9 @@
  *   attend                 from now on `spin` answers requests and prints replies
  *   available              `available COUNT` of servers that the client has in the other image
  *   unsubscribe            closes the subscriptions
- *   close, open            shuts the context down, begins again */
+ *   close, open            shuts the context down, begins again
+ * Of a chip with three images (tests/runtime/test_shared_group.py), OUT_NAMES and IN_NAMES are the topics, the first of which is best
+ * effort, SERVED and ASKED the services, if it has any. */
 #include <example_interfaces/srv/add_two_ints.h>
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
@@ -34,12 +36,22 @@
 #include "microros/port.h"
 #include "microros/rmw_local_service.h"
 
-enum { TOPICS = 2, ENDS = 2, LINE = 80, TEXT = 41, NUMBER = 10, BYTES = 64 };
+#ifndef OUT_NAMES
+#define OUT_NAMES "/" OWN "/best", "/" OWN "/sure"
+#define IN_NAMES "/" OTHER "/best", "/" OTHER "/sure"
+#define SERVED "/" OWN "/sum"
+#define ASKED "/" OTHER "/sum"
+#endif
 
-static const char * const out_names[TOPICS] = {"/" OWN "/best", "/" OWN "/sure"};
-static const char * const in_names[TOPICS] = {"/" OTHER "/best", "/" OTHER "/sure"};
-static rcl_publisher_t publishers[TOPICS];
-static rcl_subscription_t subscriptions[TOPICS];
+enum { ENDS = 2, LINE = 80, TEXT = 41, NUMBER = 10, BYTES = 64 };
+
+static const char * const out_names[] = {OUT_NAMES};
+static const char * const in_names[] = {IN_NAMES};
+
+enum { OUTS = sizeof(out_names) / sizeof(out_names[0]), INS = sizeof(in_names) / sizeof(in_names[0]) };
+
+static rcl_publisher_t publishers[OUTS];
+static rcl_subscription_t subscriptions[INS];
 static rcl_service_t service;
 static rcl_client_t client;
 static rmw_request_id_t asked_by;
@@ -121,6 +133,7 @@ static rcl_ret_t take_reply(void)
   return code;
 }
 
+#ifdef SERVED
 static void on_request(const void * request, void * response)
 {
   const example_interfaces__srv__AddTwoInts_Request * in = request;
@@ -128,23 +141,34 @@ static void on_request(const void * request, void * response)
   (void)printf("asked %" PRId64 " %" PRId64 "\n", in->a, in->b);
   ((example_interfaces__srv__AddTwoInts_Response *)response)->sum = in->a + in->b;
 }
+#endif
 
+#ifdef ASKED
 static void on_reply(const void * response, rmw_request_id_t * id)
 {
   const example_interfaces__srv__AddTwoInts_Response * in = response;
 
   (void)printf("reply %" PRId64 " %" PRId64 "\n", id->sequence_number, in->sum);
 }
+#endif
 
 static rcl_ret_t attend(rclc_executor_t * executor)
 {
+  rcl_ret_t code = RCL_RET_OK;
+#ifdef SERVED
   static example_interfaces__srv__AddTwoInts_Request request;
   static example_interfaces__srv__AddTwoInts_Response response;
-  static example_interfaces__srv__AddTwoInts_Response reply;
-  const rcl_ret_t code = rclc_executor_add_service(executor, &service, &request, &response, on_request);
 
-  return code != RCL_RET_OK ? code
-                            : rclc_executor_add_client_with_request_id(executor, &client, &reply, on_reply);
+  code = rclc_executor_add_service(executor, &service, &request, &response, on_request);
+#endif
+#ifdef ASKED
+  static example_interfaces__srv__AddTwoInts_Response reply;
+
+  if (code == RCL_RET_OK) {
+    code = rclc_executor_add_client_with_request_id(executor, &client, &reply, on_reply);
+  }
+#endif
+  return code;
 }
 
 /* The question that rcl_service_server_is_available asks (component graph, which needs an agent). */
@@ -158,9 +182,12 @@ static void available(void)
 
 static rcl_ret_t unsubscribe(rcl_node_t * node)
 {
-  const rcl_ret_t code = rcl_subscription_fini(&subscriptions[0], node);
+  rcl_ret_t code = RCL_RET_OK;
 
-  return code != RCL_RET_OK ? code : rcl_subscription_fini(&subscriptions[1], node);
+  for (size_t i = 0; i < (size_t)INS && code == RCL_RET_OK; ++i) {
+    code = rcl_subscription_fini(&subscriptions[i], node);
+  }
+  return code;
 }
 
 static int answer(rcl_ret_t code)
@@ -258,36 +285,59 @@ static void listen(rclc_executor_t * executor, uint32_t duration_ms)
   (void)printf("heard %u\ntorn %u\nback %u\n", heard_count, torn_count, back_count);
 }
 
-static int open_all(rclc_support_t * support, rcl_node_t * node, rclc_executor_t * executor)
+static bool open_topics(rcl_node_t * node, rclc_executor_t * executor)
 {
-  static char topics[TOPICS][2] = {"0", "1"};
-  static std_msgs__msg__String heard[TOPICS];
+  static char topics[INS][2];
+  static std_msgs__msg__String heard[INS];
   const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, String);
+  bool is_open = true;
+
+  for (size_t i = 0; i < (size_t)OUTS; ++i) {
+    is_open = is_open &&
+              (i == 0 ? rclc_publisher_init_best_effort(&publishers[i], node, type, out_names[i])
+                      : rclc_publisher_init_default(&publishers[i], node, type, out_names[i])) == RCL_RET_OK;
+  }
+  for (size_t i = 0; i < (size_t)INS; ++i) {
+    topics[i][0] = (char)('0' + (int)i);
+    is_open =
+      is_open &&
+      (i == 0 ? rclc_subscription_init_best_effort(&subscriptions[i], node, type, in_names[i])
+              : rclc_subscription_init_default(&subscriptions[i], node, type, in_names[i])) == RCL_RET_OK &&
+      rclc_executor_add_subscription_with_context(
+        executor, &subscriptions[i], &heard[i], hear, topics[i], ON_NEW_DATA) == RCL_RET_OK;
+  }
+  return is_open;
+}
+
+static bool open_services(rcl_node_t * node)
+{
   const rosidl_service_type_support_t * sum =
     ROSIDL_GET_SRV_TYPE_SUPPORT(example_interfaces, srv, AddTwoInts);
+  bool is_open = true;
+
+#ifdef SERVED
+  is_open = rclc_service_init_default(&service, node, sum, SERVED) == RCL_RET_OK;
+#endif
+#ifdef ASKED
+  is_open = is_open && rclc_client_init_default(&client, node, sum, ASKED) == RCL_RET_OK;
+#endif
+  return is_open;
+}
+
+static int open_all(rclc_support_t * support, rcl_node_t * node, rclc_executor_t * executor)
+{
   rcl_allocator_t allocator = rcl_get_default_allocator();
 
   if (
     rclc_support_init(support, 0, NULL, &allocator) != RCL_RET_OK ||
     rclc_node_init_default(node, OWN, "", support) != RCL_RET_OK ||
-    rclc_executor_init(executor, &support->context, TOPICS + ENDS, &allocator) != RCL_RET_OK) {
+    rclc_executor_init(executor, &support->context, INS + ENDS, &allocator) != RCL_RET_OK) {
     return 2;
   }
-  for (size_t i = 0; i < (size_t)TOPICS; ++i) {
-    if (
-      (i == 0 ? rclc_publisher_init_best_effort(&publishers[i], node, type, out_names[i])
-              : rclc_publisher_init_default(&publishers[i], node, type, out_names[i])) != RCL_RET_OK ||
-      (i == 0 ? rclc_subscription_init_best_effort(&subscriptions[i], node, type, in_names[i])
-              : rclc_subscription_init_default(&subscriptions[i], node, type, in_names[i])) != RCL_RET_OK ||
-      rclc_executor_add_subscription_with_context(
-        executor, &subscriptions[i], &heard[i], hear, topics[i], ON_NEW_DATA) != RCL_RET_OK) {
-      return 3;
-    }
+  if (!open_topics(node, executor)) {
+    return 3;
   }
-  return rclc_service_init_default(&service, node, sum, "/" OWN "/sum") == RCL_RET_OK &&
-             rclc_client_init_default(&client, node, sum, "/" OTHER "/sum") == RCL_RET_OK
-           ? 0
-           : 3;
+  return open_services(node) ? 0 : 3;
 }
 
 /* Ends the context first, as an application may do that stops in a hurry. */
@@ -295,8 +345,10 @@ static rcl_ret_t close_all(rclc_support_t * support, rcl_node_t * node, rclc_exe
 {
   const rcl_ret_t code = rcl_shutdown(&support->context);
 
-  for (size_t i = 0; i < (size_t)TOPICS; ++i) {
+  for (size_t i = 0; i < (size_t)OUTS; ++i) {
     (void)rcl_publisher_fini(&publishers[i], node);
+  }
+  for (size_t i = 0; i < (size_t)INS; ++i) {
     (void)rcl_subscription_fini(&subscriptions[i], node);
   }
   (void)rcl_service_fini(&service, node);
@@ -327,11 +379,11 @@ int main(void)
   while (fgets(line, sizeof(line), stdin) != NULL) {
     rcl_ret_t code = RCL_RET_OK;
 
-    if (sscanf(line, "publish %u %79s", &topic, text) == 2 && topic < TOPICS) {
+    if (sscanf(line, "publish %u %79s", &topic, text) == 2 && topic < OUTS) {
       code = publish(topic, text);
-    } else if (sscanf(line, "bytes %u %79s", &topic, text) == 2 && topic < TOPICS) {
+    } else if (sscanf(line, "bytes %u %79s", &topic, text) == 2 && topic < OUTS) {
       code = publish_bytes(topic, text);
-    } else if (sscanf(line, "take %u", &topic) == 1 && topic < TOPICS) {
+    } else if (sscanf(line, "take %u", &topic) == 1 && topic < INS) {
       code = take(topic);
     } else if (sscanf(line, "spin %d", &value) == 1) {
       spin(&executor, (uint32_t)value);

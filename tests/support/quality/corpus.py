@@ -146,6 +146,18 @@ def _other(text: str) -> str:
     )
 
 
+def _third(text: str) -> str:
+    """Return the application of a third image of a chip, which serves nothing: a service has one server."""
+    lines = _other(text).replace("other", "third").splitlines(keepends=True)
+    return "".join(line for line in lines if "name: ask" not in line)
+
+
+_GROUP_SYSTEM = (
+    SYSTEM.removesuffix("links:\n").replace("}}", "}, third: {application: third.yaml}}")
+    + "chips: [{images: [own, other, third], memory: 64 KiB}]\n"
+)
+
+
 SYSTEMS: Mapping[str, str] = MappingProxyType(
     {
         "peer": SYSTEM + '  - {type: udp, ends: {own: "10.0.0.1:7500", other: "10.0.0.2:7500"}}\n',
@@ -162,6 +174,8 @@ SYSTEMS: Mapping[str, str] = MappingProxyType(
         "peer_fragments_serving": SYSTEM + "  - {type: serial, mtu: 64, ends: {own: uart, other: uart}}\n",
         "local_chip": SYSTEM.replace("links:", "chips: [[own, other]]"),
         "local_chip_tasks": SYSTEM.replace("links:", "chips: [[other, own]]"),
+        "local_group": _GROUP_SYSTEM,
+        "local_group_tasks": _GROUP_SYSTEM.replace("own, other, third", "other, third, own"),
     }
 )
 """The system files of applications that have one."""
@@ -178,9 +192,19 @@ OTHERS: Mapping[str, str] = MappingProxyType(
         "peer_fragments_serving": _other(_PEER_LARGE),
         "local_chip": _other(_CHIP),
         "local_chip_tasks": _other(_CHIP_CALLS),
+        "local_group": _other(_CHIP),
+        "local_group_tasks": _other(_CHIP_CALLS),
     }
 )
 """The applications of their other boards."""
+
+THIRDS: Mapping[str, str] = MappingProxyType(
+    {
+        "local_group": _third(_CHIP),
+        "local_group_tasks": _third(_CHIP_CALLS),
+    }
+)
+"""The applications of their third boards, where they have one."""
 
 APPLICATIONS: Mapping[str, str] = MappingProxyType(
     {
@@ -382,6 +406,8 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "local_services": _LOCAL_SERVICES,
         "local_chip": _CHIP,
         "local_chip_tasks": _CHIP_CALLS + "components: [+services, +multithread, +executor]\nerrors: code\n",
+        "local_group": _CHIP,
+        "local_group_tasks": _CHIP_CALLS + "components: [+services, +multithread, +executor]\nerrors: code\n",
         "local_also": _LOCAL.replace("local: only", "local: also", 1)
         + "components: [+multithread]\nerrors: code\n",
         "peer": _PEER,
@@ -492,6 +518,8 @@ def make_tree(name: str, folder: Path) -> Tree:
     if name in SYSTEMS:
         (place / "system.yaml").write_text(SYSTEMS[name], encoding="utf-8")
         (place / "other.yaml").write_text(OTHERS[name], encoding="utf-8")
+    if name in THIRDS:
+        (place / "third.yaml").write_text(THIRDS[name], encoding="utf-8")
     options = compiler.Options(
         config=place / "microros.yaml", interface_paths=(INTERFACES / "quality_msgs", shipped_folder())
     )

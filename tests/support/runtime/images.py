@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Two images of one chip, here two processes with a file as the memory that both have."""
+"""Images of one chip, here processes with a file as the memory that all have."""
 
 from __future__ import annotations
 
 import os
 import subprocess
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 from tests.support.components.rendered import SANITIZE, UNITS, rendered
 from tests.support.e2e.commanded import CommandedProgram
@@ -65,6 +68,92 @@ nodes:
 BOARDS = ("first", "second")
 
 
+GROUP_SYSTEM = """\
+version: 1
+boards:
+  first: {application: first/microros.yaml}
+  second: {application: second/microros.yaml}
+  third: {application: third/microros.yaml}
+chips:
+  - {images: [first, second, third], memory: 4 KiB}
+"""
+GROUP = ("first", "second", "third")
+_GROUP_HEAD = """\
+version: 1
+profiles: [pure_sender, pure_reader]
+components: [+executor, +services]
+limits: {"*": {string: 40}}
+system: {file: ../system.yaml, board: OWN}
+nodes:
+  - name: OWN
+"""
+_BEST, _SURE = "{depth: 3, reliability: best_effort}", "{depth: 3}"
+
+
+def _topics(names: tuple[str, ...], more: str = "") -> str:
+    return "".join(
+        f"      - {{topic: {name}, type: std_msgs/msg/String, local: chip, qos: {qos}{more}}}\n"
+        for name, qos in zip(names, (_BEST, _SURE, _SURE), strict=False)
+    )
+
+
+@dataclass(frozen=True)
+class Member:
+    """An image of a chip with three: its topics, the first of which is best effort, and its services."""
+
+    sends: tuple[str, ...]
+    receives: tuple[str, ...]
+    served: str = ""
+    requested: str = ""
+
+    def application(self, own: str) -> str:
+        """Return its application file."""
+        text = _GROUP_HEAD.replace("OWN", own)
+        text += f"    publishers:\n{_topics(self.sends)}    subscriptions:\n{_topics(self.receives, ', queue: 8')}"
+        for key, name in (("services", self.served), ("clients", self.requested)):
+            if name:
+                text += f"    {key}:\n      - name: {name}\n        type: example_interfaces/srv/AddTwoInts\n"
+                text += "        local: chip\n        queue: 2\n"
+        return text
+
+    @property
+    def flags(self) -> tuple[str, ...]:
+        """Return the definitions for c/shared_image.c."""
+        listed = (", ".join(f'"{name}"' for name in names) for names in (self.sends, self.receives))
+        named = (f'"{name}"' for name in (self.served, self.requested))
+        texts = zip(("OUT_NAMES", "IN_NAMES", "SERVED", "ASKED"), (*listed, *named), strict=True)
+        return tuple(f"-D{name}={text}" for name, text in texts if text != '""')
+
+
+NEWS, TALK = ("/news/best", "/news/sure"), ("/talk/best", "/talk/sure")
+MEMBERS: Mapping[str, Member] = MappingProxyType(
+    {
+        "first": Member(NEWS, TALK, served="/sum"),
+        "second": Member((*TALK, "/side"), NEWS, requested="/sum"),
+        "third": Member(TALK, (*NEWS, "/side"), requested="/sum"),
+    }
+)
+"""One image sends to two others and serves both; two send to one; and there is a topic between these two."""
+
+
+def write_group(folder: Path, system: str = GROUP_SYSTEM, **applications: str) -> Path:
+    """Write a system with three images of one chip, some of them with another application; return the folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "system.yaml").write_text(system)
+    for board, member in MEMBERS.items():
+        (folder / board).mkdir(exist_ok=True)
+        text = applications.get(board, member.application(board))
+        (folder / board / "microros.yaml").write_text(text)
+    return folder
+
+
+def group_program(folder: Path, own: str, old: str = "", new: str = "") -> Path:
+    """Build the image `own` of three, in all of whose applications `old` is replaced by `new`."""
+    texts = {board: member.application(board).replace(old, new) for board, member in MEMBERS.items()}
+    home = write_group(folder / f"of_{own}", **(texts if old else {}))
+    return _linked(home, own, (f'-DOWN="{own}"', *MEMBERS[own].flags))
+
+
 def written(folder: Path, system: str = SYSTEM, first: str = FIRST, second: str = SECOND) -> Path:
     """Write a system and the applications of its two images; return the folder."""
     (folder / "system.yaml").write_text(system)
@@ -80,8 +169,13 @@ def program(folder: Path, own: str, text: str = TOPICS) -> Path:
     home = folder / f"of_{own}"
     home.mkdir()
     written(home, SYSTEM, first, second)
+    return _linked(home, own, (f'-DOWN="{own}"', f'-DOTHER="{BOARDS[1 - BOARDS.index(own)]}"'))
+
+
+def _linked(home: Path, own: str, names: tuple[str, ...]) -> Path:
+    """Build the image of an application below a folder with its system."""
     out = rendered(home / own, (home / own / "microros.yaml").read_text())
-    flags = (*SANITIZE, f'-DOWN="{own}"', f'-DOTHER="{BOARDS[1 - BOARDS.index(own)]}"')
+    flags = (*SANITIZE, *names)
     sources = sorted((out / "src").rglob("*.c"))
     objects = compile_merged(Tree(out, ()), sources, [UNITS / "shared_image.c"], SANITIZER, flags)
     return link(objects, SANITIZER, flags, out / "unit")

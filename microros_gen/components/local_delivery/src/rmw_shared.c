@@ -10,6 +10,7 @@
 #include "microros/rmw_local_shared.h"
 #include "microros/rmw_local_wake.h"
 #include "microros/rmw_shared_call.h"
+#include "microros/rmw_shared_fan.h"
 #include "microros/rmw_shared_ring.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_drops.h"
@@ -39,7 +40,7 @@ bool rmw_shared_has_ring(const xrce_endpoint_t * endpoint)
   return shared_ring(endpoint) != NULL;
 }
 
-/* Returns whether the other image gets a message, and in *count where it is to be; otherwise *result is that of the call. */
+/* Returns whether the reader of a ring gets a message, and in *count where it is to be; otherwise *result is that of the call. */
 static bool shared_may_write(
   const xrce_endpoint_t * writer, const rmw_shared_ring_t * ring, uint32_t * count, rmw_ret_t * result)
 {
@@ -59,9 +60,49 @@ static bool shared_may_write(
   return room == RMW_SHARED_ROOM;
 }
 
+/* Looks from *ring on for the first ring whose reader gets a message; *result is RMW_RET_ERROR if one does not. */
+static bool shared_find_room(
+  const xrce_endpoint_t * writer, const rmw_shared_ring_t ** ring, uint32_t * count, rmw_ret_t * result)
+{
+  bool found = shared_may_write(writer, *ring, count, result);
+  const rmw_shared_ring_t * next = rmw_shared_next(*ring);
+
+  while (!found && next != NULL && xrce_gate_is_open(writer)) {
+    rmw_ret_t other;
+
+    *ring = next;
+    found = shared_may_write(writer, next, count, &other);
+    *result = other != RMW_RET_OK ? other : *result;
+    next = rmw_shared_next(next);
+  }
+  return found;
+}
+
 static uint8_t * shared_body(const rmw_shared_ring_t * ring, uint32_t count)
 {
   return (uint8_t *)&rmw_shared_slot(ring, count)[1];
+}
+
+/* Copies a message, which the reader of its ring got, to those of the further rings. Returns `result`, or RMW_RET_ERROR. */
+static rmw_ret_t shared_spread(
+  const xrce_endpoint_t * writer, const rmw_shared_ring_t * ring, uint32_t count, rmw_ret_t result)
+{
+  const rmw_shared_ring_t * next = rmw_shared_next(ring);
+  rmw_ret_t last = result;
+
+  while (next != NULL) {
+    const uint32_t * sent = rmw_shared_slot(ring, count); /* stays until this image writes it again */
+    uint32_t place;
+    rmw_ret_t other;
+
+    if (shared_may_write(writer, next, &place, &other)) {
+      (void)memcpy(shared_body(next, place), &sent[1], sent[0]);
+      rmw_shared_commit(next, place, sent[0]);
+    }
+    last = other != RMW_RET_OK ? other : last;
+    next = rmw_shared_next(next);
+  }
+  return last;
 }
 
 rmw_ret_t rmw_shared_publish(const xrce_endpoint_t * writer, const void * message)
@@ -72,7 +113,7 @@ rmw_ret_t rmw_shared_publish(const xrce_endpoint_t * writer, const void * messag
   uint32_t count;
   uint32_t size;
 
-  if (ring == NULL || !shared_may_write(writer, ring, &count, &result)) {
+  if (ring == NULL || !shared_find_room(writer, &ring, &count, &result)) {
     return result;
   }
   size = writer->type->encode(message, shared_body(ring, count), &fault);
@@ -80,7 +121,7 @@ rmw_ret_t rmw_shared_publish(const xrce_endpoint_t * writer, const void * messag
     return rmw_encode_refuse(writer->type, &fault);
   }
   rmw_shared_commit(ring, count, size);
-  return RMW_RET_OK;
+  return shared_spread(writer, ring, count, result);
 }
 
 rmw_ret_t rmw_shared_publish_body(const xrce_endpoint_t * writer, const uint8_t * body, size_t size)
@@ -89,7 +130,7 @@ rmw_ret_t rmw_shared_publish_body(const xrce_endpoint_t * writer, const uint8_t 
   rmw_ret_t result = RMW_RET_ERROR;
   uint32_t count;
 
-  if (ring == NULL || !shared_may_write(writer, ring, &count, &result)) {
+  if (ring == NULL || !shared_find_room(writer, &ring, &count, &result)) {
     return result;
   }
   if (size > writer->type->max_encoded_size) {
@@ -97,7 +138,7 @@ rmw_ret_t rmw_shared_publish_body(const xrce_endpoint_t * writer, const uint8_t 
   }
   (void)memcpy(shared_body(ring, count), body, size);
   rmw_shared_commit(ring, count, (uint32_t)size);
-  return RMW_RET_OK;
+  return shared_spread(writer, ring, count, result);
 }
 
 static uint8_t shared_queue(const rmw_shared_ring_t * ring)
@@ -163,14 +204,17 @@ void rmw_shared_step(xrce_client_t * client)
     return; /* an endpoint reports it */
   }
   for (size_t i = 0; i < (size_t)MICROROS_SHARED_RINGS; ++i) {
-    if (rmw_shared_rings[i].sends) {
-      (void)rmw_shared_writer(&rmw_shared_rings[i]); /* a reader follows it before its first message */
-    } else if (shared_read(client, &rmw_shared_rings[i], &shared_states[i])) {
+    const size_t index = rmw_shared_turn(i);
+
+    if (rmw_shared_rings[index].sends) {
+      (void)rmw_shared_writer(&rmw_shared_rings[index]); /* a reader follows it before its first message */
+    } else if (shared_read(client, &rmw_shared_rings[index], &shared_states[index])) {
       moves = true;
     } else {
       /* nothing was written */
     }
   }
+  rmw_shared_turned();
   if (moves) {
     rmw_local_wake(); /* the messages may be for another task */
   }

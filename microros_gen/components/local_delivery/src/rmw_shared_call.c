@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Requests and replies between two images: a service has a ring for each, and one client. */
+/* Requests and replies between images: a service has a ring of each for each image with a client. */
 #include "microros/rmw_shared_call.h"
 
 #include "microros/error.h"
 #include "microros/rmw_encode.h"
+#include "microros/rmw_shared_fan.h"
 #include "microros/rmw_shared_ring.h"
 #include "microros/xrce_client.h"
 
@@ -17,15 +18,10 @@ enum { CALL_FIRST_SERVICE = XRCE_REPLIERS_AT - MICROROS_NODES_MAX };
 
 enum { CALL_FIRST_CLIENT = XRCE_REQUESTERS_AT - MICROROS_NODES_MAX };
 
-/* Returns the ring of a client's requests or of a server's, which have one. That of the replies is the next one. */
+/* Returns the ring of a client's requests, or the first one of a server's. That of the replies is the next one. */
 static const rmw_shared_ring_t * call_requests(uint16_t endpoint)
 {
   return &rmw_shared_rings[rmw_shared_ring_of[endpoint]];
-}
-
-static const rmw_shared_ring_t * call_replies(uint16_t endpoint)
-{
-  return &rmw_shared_rings[rmw_shared_ring_of[endpoint] + 1u];
 }
 
 uint32_t rmw_shared_call_words(const rmw_shared_ring_t * ring)
@@ -127,7 +123,11 @@ rmw_ret_t rmw_shared_call_reply(
   const xrce_endpoint_t * service, const microros_message_type_t * sent, const rmw_local_origin_t * origin,
   const void * message)
 {
-  const call_way_t way = {call_replies(service->index), service};
+  const call_way_t way = {rmw_shared_replies(call_requests(service->index), origin->client), service};
 
+  if (way.ring == NULL) {
+    ++service->client->session.statistics.dropped; /* the client waits for other replies, or for none */
+    return RMW_RET_OK;
+  }
   return call_write(&way, sent, origin, message);
 }

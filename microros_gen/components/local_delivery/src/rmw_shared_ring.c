@@ -3,19 +3,15 @@
 
 #include "microros/error.h"
 #include "microros/port_shared.h"
+#include "microros/rmw_shared_sign.h"
 
 #include <stddef.h>
-
-/* The memory begins with two words of each image, which say how it was built. Only that image writes them, the mark last. */
-enum { SHARED_MARK, SHARED_KEY };
 
 /*
  * Words of an end of a ring. Only its owner writes them; the key is 0 while the others change. A count runs from 0 to twice the
  * slots, so that a full ring differs from an empty one. A writer whose end is not valid begins a run at 0. A reader names the run
  * that it follows, and is not there for the writer of another one: what was in the memory before is never read as messages. */
 enum { SHARED_VALID, SHARED_RUN, SHARED_COUNT, SHARED_END_WORDS };
-
-static const uint32_t shared_mark = 0x6d726f73u;
 
 static uint32_t * shared_region; /* NULL: not opened, or the platform has no such memory */
 static bool shared_is_absent;    /* the platform said so */
@@ -25,32 +21,16 @@ static volatile uint32_t * shared_end(const rmw_shared_ring_t * ring, bool write
   return &shared_region[ring->ends + (writes ? 0u : (uint32_t)SHARED_END_WORDS)];
 }
 
-/* Ends what this image has in the rings: another build may have written anything there. */
-static void shared_clear(void)
+void rmw_shared_clear(void)
 {
   for (size_t i = 0; i < (size_t)MICROROS_SHARED_RINGS; ++i) {
     rmw_shared_end(&rmw_shared_rings[i]);
   }
 }
 
-/* Says how this image was built. */
-static void shared_sign(void)
-{
-  volatile uint32_t * own = &shared_region[MICROROS_SHARED_OWN];
-
-  if (own[SHARED_MARK] != shared_mark || own[SHARED_KEY] != MICROROS_SHARED_KEY) {
-    own[SHARED_MARK] = 0;
-    port_shared_barrier();
-    shared_clear();
-    own[SHARED_KEY] = MICROROS_SHARED_KEY;
-    port_shared_barrier();
-    own[SHARED_MARK] = shared_mark;
-  }
-}
-
 void rmw_shared_end(const rmw_shared_ring_t * ring)
 {
-  if (shared_region != NULL) {
+  if (shared_region != NULL && rmw_shared_may_end(shared_region)) {
     volatile uint32_t * own = shared_end(ring, ring->sends);
 
     own[SHARED_VALID] = 0;
@@ -64,8 +44,6 @@ void rmw_shared_retry(void)
 
 rmw_shared_room_t rmw_shared_look(void)
 {
-  const volatile uint32_t * other;
-
   if (shared_region == NULL && !shared_is_absent) {
     shared_region = port_shared_region(MICROROS_SHARED_WORDS * sizeof(uint32_t));
     shared_is_absent = shared_region == NULL;
@@ -73,13 +51,7 @@ rmw_shared_room_t rmw_shared_look(void)
   if (shared_region == NULL) {
     return RMW_SHARED_NONE;
   }
-  shared_sign();
-  other = &shared_region[MICROROS_SHARED_OTHER];
-  if (other[SHARED_MARK] == shared_mark && other[SHARED_KEY] != MICROROS_SHARED_KEY) {
-    shared_clear();
-    return RMW_SHARED_OTHER;
-  }
-  return RMW_SHARED_ROOM;
+  return rmw_shared_agrees(shared_region) ? RMW_SHARED_ROOM : RMW_SHARED_OTHER;
 }
 
 uint32_t * rmw_shared_slot(const rmw_shared_ring_t * ring, uint32_t count)
@@ -138,7 +110,7 @@ rmw_shared_place_t rmw_shared_writer(const rmw_shared_ring_t * ring)
 void rmw_shared_renew(const rmw_shared_ring_t * ring)
 {
   volatile uint32_t * end = shared_end(ring, true);
-  const rmw_shared_place_t place = {.run = end[SHARED_RUN] + 1u, .count = 0};
+  const rmw_shared_place_t place = {.run = rmw_shared_next_run(end[SHARED_RUN]), .count = 0};
 
   shared_begin(end, &place);
 }

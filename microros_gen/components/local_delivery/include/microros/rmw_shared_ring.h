@@ -21,7 +21,7 @@ typedef enum rmw_shared_room_t {
   RMW_SHARED_ROOM,
   RMW_SHARED_FULL,
   RMW_SHARED_ABSENT, /* nobody reads in the other image */
-  RMW_SHARED_OTHER,  /* that was built for other rings */
+  RMW_SHARED_OTHER,  /* another image was built for other rings */
   RMW_SHARED_NONE    /* the platform has no memory */
 } rmw_shared_room_t;
 
@@ -31,7 +31,7 @@ typedef struct rmw_shared_place_t {
   uint32_t count;
 } rmw_shared_place_t;
 
-/* Returns whether the memory is there; RMW_SHARED_ROOM: both images were built for the same rings. */
+/* Returns whether the memory is there; RMW_SHARED_ROOM: all images were built for the same rings. */
 rmw_shared_room_t rmw_shared_look(void);
 
 /* Returns whether a message can be written, and in *count where it is to be. */
@@ -60,6 +60,9 @@ void rmw_shared_free(const rmw_shared_ring_t * ring, uint32_t * count);
 
 /* Ends what this image has in a ring; it begins again with the next look at it. */
 void rmw_shared_end(const rmw_shared_ring_t * ring);
+
+/* Ends what this image has in all rings: another build may have written anything there. */
+void rmw_shared_clear(void);
 
 /* Asks the platform for the memory again, if it had none. */
 void rmw_shared_retry(void);
