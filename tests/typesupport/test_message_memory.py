@@ -160,6 +160,7 @@ def _sources(out: Path) -> list[Path]:
     types = ("sensor_msgs", "std_msgs", "builtin_interfaces", "service_msgs")
     sources = [s for f in (*folders, *types) for s in sorted((out / "src" / f).glob("*.c"))]
     sources += sorted((out / "src" / "support").glob("error_*.c"))
+    sources.append(out / "src" / "session" / "microros_text.c")
     return [source for source in sources if "rmw" not in source.name]
 
 

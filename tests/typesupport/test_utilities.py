@@ -81,6 +81,7 @@ def program(out: Path) -> Callable[[str], Path]:
         types.write_text("".join(f'#include "{p}"\n' for p in generated if p.name.endswith(endings)))
         library = [*(out / "src/micro_ros_utilities").glob("*.c"), *(out / "src/memory").glob("*.c")]
         library += [*(out / "src/support").glob("error_*.c"), *(out / "src/rosidl_runtime").glob("*.c")]
+        library += [out / "src/session/microros_text.c"]
         image = out.parent / f"program-{variant.replace(' ', '')}"
         probe = ["-x", "c", "-", "-o", "/dev/null"]
         empty = subprocess.run(

@@ -35,7 +35,7 @@ from tests.support.objects.made import digest, headers_digest, made, version
 from tests.support.paths import ROOT
 
 COMPONENTS = ROOT / "microros_gen" / "components"
-COMPONENT_HEADERS = ("cdr", "cdr_decode", "rosidl_runtime", "memory")
+COMPONENT_HEADERS = ("base", "cdr", "cdr_decode", "rosidl_runtime", "memory")
 DECODING = sorted(
     path for path in (COMPONENTS / "cdr_decode" / "src").glob("cdr_*.c") if "double" not in path.name
 )

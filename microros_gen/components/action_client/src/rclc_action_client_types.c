@@ -22,10 +22,10 @@ static uint32_t action_encode_id(const void * uuid, uint8_t * body, cdr_fault_t 
 }
 
 const microros_message_type_t rclc_action_client_response_type = {
-  .dds_type_name = MICROROS_ERROR_WORDS("SendGoal_Response_"),
+  .dds_type_name = MICROROS_ERROR_TYPE("SendGoal_Response_"),
   .max_encoded_size = ACTION_RESPONSE_SIZE,
   .decode = action_decode_response};
 const microros_message_type_t rclc_action_client_id_type = {
-  .dds_type_name = MICROROS_ERROR_WORDS("GetResult_Request_"),
+  .dds_type_name = MICROROS_ERROR_TYPE("GetResult_Request_"),
   .max_encoded_size = UUID_SIZE,
   .encode = action_encode_id};

@@ -103,10 +103,10 @@ uint32_t rclc_action_encode_outcome(const void * outcome, uint8_t * body, cdr_fa
 }
 
 const microros_message_type_t rclc_action_answer_type = {
-  .dds_type_name = MICROROS_ERROR_WORDS("SendGoal_Response_"),
+  .dds_type_name = MICROROS_ERROR_TYPE("SendGoal_Response_"),
   .max_encoded_size = RCLC_ACTION_ANSWER_SIZE,
   .encode = rclc_action_encode_answer};
 const microros_message_type_t rclc_action_id_type = {
-  .dds_type_name = MICROROS_ERROR_WORDS("GetResult_Request_"),
+  .dds_type_name = MICROROS_ERROR_TYPE("GetResult_Request_"),
   .max_encoded_size = UUID_SIZE,
   .decode = rclc_action_decode_id};

@@ -23,7 +23,7 @@ enum { DIAGNOSIS_REPORTS = 2, DIAGNOSIS_REPORTS_MS = 5000 };
 
 /* Statuses are encoded when they are sent. */
 static const microros_message_type_t diagnosis_message = {
-  .dds_type_name = "diagnostic_msgs::msg::dds_::DiagnosticArray_",
+  .dds_type_name = MICROROS_FLASH_NAME("diagnostic_msgs::msg::dds_::DiagnosticArray_"),
   .max_encoded_size = MICROROS_DIAGNOSIS_SIZE};
 
 static const rosidl_message_type_support_t diagnosis_type = {

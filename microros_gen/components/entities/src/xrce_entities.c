@@ -25,8 +25,10 @@ enum {
   DELETE_SIZE = 8
 };
 
-static const uint8_t writer_kinds[] = {XRCE_KIND_TOPIC, XRCE_KIND_PUBLISHER, XRCE_KIND_DATAWRITER};
-static const uint8_t reader_kinds[] = {XRCE_KIND_TOPIC, XRCE_KIND_SUBSCRIBER, XRCE_KIND_DATAREADER};
+static const MICROROS_FLASH uint8_t writer_kinds[] = {
+  XRCE_KIND_TOPIC, XRCE_KIND_PUBLISHER, XRCE_KIND_DATAWRITER};
+static const MICROROS_FLASH uint8_t reader_kinds[] = {
+  XRCE_KIND_TOPIC, XRCE_KIND_SUBSCRIBER, XRCE_KIND_DATAREADER};
 
 /* Returns the kind of an endpoint's object that is created after `level` others. */
 static uint8_t entities_kind(uint16_t place, uint8_t level)
@@ -42,7 +44,7 @@ const xrce_endpoint_t * xrce_entities_endpoint(const xrce_client_t * client, uin
   return &client->endpoints[place - MICROROS_NODES_MAX];
 }
 
-uint8_t * xrce_describe_text(uint8_t * at, const char * text)
+uint8_t * xrce_describe_text(uint8_t * at, const MICROROS_ANYWHERE char * text)
 {
   while (*text != '\0') { /* at most MICROROS_CREATION_SIZE or MICROROS_MTU rounds */
     *at++ = (uint8_t)*text++;

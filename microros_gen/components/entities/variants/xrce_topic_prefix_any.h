@@ -3,18 +3,19 @@
 #ifndef MICROROS_XRCE_TOPIC_PREFIX_H
 #define MICROROS_XRCE_TOPIC_PREFIX_H
 
+#include "microros/flash.h"
 #include "microros/xrce_objects.h"
 
 /* Returns what precedes the name of an endpoint's topic in DDS: nothing for a name that ROS does not have. */
-static inline const char * xrce_topic_prefix(const xrce_endpoint_t * endpoint)
+static inline const MICROROS_FLASH char * xrce_topic_prefix(const xrce_endpoint_t * endpoint)
 {
-  return endpoint->name[0] == '/' ? "rt" : "";
+  return endpoint->name[0] == '/' ? MICROROS_FLASH_TEXT("rt") : MICROROS_FLASH_TEXT("");
 }
 
 /* Returns the same after the element that contains the name in XML. */
-static inline const char * xrce_topic_prefix_xml(const xrce_endpoint_t * endpoint)
+static inline const MICROROS_FLASH char * xrce_topic_prefix_xml(const xrce_endpoint_t * endpoint)
 {
-  return endpoint->name[0] == '/' ? "<name>rt" : "<name>";
+  return endpoint->name[0] == '/' ? MICROROS_FLASH_TEXT("<name>rt") : MICROROS_FLASH_TEXT("<name>");
 }
 
 #endif /* MICROROS_XRCE_TOPIC_PREFIX_H */

@@ -26,7 +26,8 @@ typedef struct service_part_t {
 
 /* An aligned string: a text, what is repeated, another text. */
 static uint8_t * service_put_string(
-  const uint8_t * blob, uint8_t * at, const char * first, const service_part_t * repeated, const char * last)
+  const uint8_t * blob, uint8_t * at, const MICROROS_ANYWHERE char * first, const service_part_t * repeated,
+  const char * last)
 {
   uint8_t * const begin = service_align(blob, at);
   uint8_t * end = xrce_describe_text(&begin[SERVICE_LENGTH], first);

@@ -11,7 +11,7 @@
 #include <stddef.h>
 
 /* Copies texts up to a NULL entry. */
-static uint8_t * xml_put(uint8_t * at, const char * const * texts)
+static uint8_t * xml_put(uint8_t * at, const MICROROS_ANYWHERE char * const * texts)
 {
   while (*texts != NULL) {
     at = xrce_describe_text(at, *texts++);
@@ -22,12 +22,12 @@ static uint8_t * xml_put(uint8_t * at, const char * const * texts)
 static uint8_t * xml_put_participant(uint8_t * at, const xrce_participant_t * participant)
 {
   const bool is_root = participant->namespace_[1] == '\0';
-  const char * const texts[] = {
-    "<dds><participant><rtps><name>",
+  const MICROROS_ANYWHERE char * const texts[] = {
+    MICROROS_FLASH_TEXT("<dds><participant><rtps><name>"),
     is_root ? "" : participant->namespace_,
     is_root ? "" : "/",
     participant->name,
-    "</name></rtps></participant></dds>",
+    MICROROS_FLASH_TEXT("</name></rtps></participant></dds>"),
     NULL};
 
   return xml_put(at, texts);
@@ -35,15 +35,16 @@ static uint8_t * xml_put_participant(uint8_t * at, const xrce_participant_t * pa
 
 /* Writes name and type of an endpoint's topic in their elements. */
 static uint8_t * xml_put_topic(
-  uint8_t * at, const xrce_endpoint_t * endpoint, const char * before, const char * after)
+  uint8_t * at, const xrce_endpoint_t * endpoint, const MICROROS_FLASH char * before,
+  const MICROROS_FLASH char * after)
 {
-  const char * const texts[] = {
+  const MICROROS_ANYWHERE char * const texts[] = {
     before,
     xrce_topic_prefix_xml(endpoint),
     endpoint->name,
-    "</name><dataType>",
+    MICROROS_FLASH_TEXT("</name><dataType>"),
     endpoint->type->dds_type_name,
-    "</dataType>",
+    MICROROS_FLASH_TEXT("</dataType>"),
     after,
     NULL};
 
@@ -69,26 +70,31 @@ static uint8_t * xml_put_depth(uint8_t * at, uint16_t depth)
   if (depth == 0u) {
     return at;
   }
-  at = xml_put_number(xrce_describe_text(at, "<depth>"), depth);
-  return xrce_describe_text(at, "</depth>");
+  at = xml_put_number(xrce_describe_text(at, MICROROS_FLASH_TEXT("<depth>")), depth);
+  return xrce_describe_text(at, MICROROS_FLASH_TEXT("</depth>"));
 }
 
 static uint8_t * xml_put_data(uint8_t * at, const xrce_endpoint_t * endpoint, bool reads)
 {
-  const char * const texts[] = {
-    "</historyQos></topic><qos><durability><kind>",
-    (endpoint->qos & XRCE_QOS_TRANSIENT_LOCAL) != 0u ? "TRANSIENT_LOCAL" : "VOLATILE",
-    "</kind></durability><reliability><kind>",
-    (endpoint->qos & XRCE_QOS_RELIABLE) != 0u ? "RELIABLE" : "BEST_EFFORT",
-    reads ? "</kind></reliability></qos></data_reader></dds>"
-          : "</kind></reliability></qos></data_writer></dds>",
+  const MICROROS_ANYWHERE char * const texts[] = {
+    MICROROS_FLASH_TEXT("</historyQos></topic><qos><durability><kind>"),
+    (endpoint->qos & XRCE_QOS_TRANSIENT_LOCAL) != 0u ? MICROROS_FLASH_TEXT("TRANSIENT_LOCAL")
+                                                     : MICROROS_FLASH_TEXT("VOLATILE"),
+    MICROROS_FLASH_TEXT("</kind></durability><reliability><kind>"),
+    (endpoint->qos & XRCE_QOS_RELIABLE) != 0u ? MICROROS_FLASH_TEXT("RELIABLE")
+                                              : MICROROS_FLASH_TEXT("BEST_EFFORT"),
+    reads ? MICROROS_FLASH_TEXT("</kind></reliability></qos></data_reader></dds>")
+          : MICROROS_FLASH_TEXT("</kind></reliability></qos></data_writer></dds>"),
     NULL};
 
   at = xml_put_topic(
     at, endpoint,
-    reads ? "<dds><data_reader><topic><kind>NO_KEY</kind>" : "<dds><data_writer><topic><kind>NO_KEY</kind>",
-    "<historyQos><kind>KEEP_");
-  at = xrce_describe_text(at, (endpoint->qos & XRCE_QOS_KEEP_LAST) != 0u ? "LAST</kind>" : "ALL</kind>");
+    reads ? MICROROS_FLASH_TEXT("<dds><data_reader><topic><kind>NO_KEY</kind>")
+          : MICROROS_FLASH_TEXT("<dds><data_writer><topic><kind>NO_KEY</kind>"),
+    MICROROS_FLASH_TEXT("<historyQos><kind>KEEP_"));
+  at = xrce_describe_text(
+    at, (endpoint->qos & XRCE_QOS_KEEP_LAST) != 0u ? MICROROS_FLASH_TEXT("LAST</kind>")
+                                                   : MICROROS_FLASH_TEXT("ALL</kind>"));
   return xml_put(xml_put_depth(at, endpoint->depth), texts);
 }
 
@@ -105,7 +111,9 @@ uint8_t * xrce_describe(
   if (kind == XRCE_KIND_PARTICIPANT) {
     end = xml_put_participant(blob, &client->participants[place]);
   } else if (kind == XRCE_KIND_TOPIC) {
-    end = xml_put_topic(blob, xrce_entities_endpoint(client, place), "<dds><topic>", "</topic></dds>");
+    end = xml_put_topic(
+      blob, xrce_entities_endpoint(client, place), MICROROS_FLASH_TEXT("<dds><topic>"),
+      MICROROS_FLASH_TEXT("</topic></dds>"));
   } else if (kind == XRCE_KIND_DATAWRITER) {
     end = xml_put_data(blob, xrce_entities_endpoint(client, place), false);
   } else if (xrce_place_is_reader(place) && kind == XRCE_KIND_DATAREADER) {

@@ -10,37 +10,38 @@
 uint8_t * xrce_describe_service(
   const xrce_client_t * client, uint16_t place, uint8_t * blob, uint8_t * format)
 {
-  static const char depth[] = "<topic><historyQos><depth>10</depth></historyQos></topic>";
+  static const MICROROS_FLASH char depth[] = "<topic><historyQos><depth>10</depth></historyQos></topic>";
   const char * name = client->endpoints[place - MICROROS_NODES_MAX].name;
-  const char * type = client->services[place - XRCE_REPLIERS_AT].type->dds_type_name;
-  const char * kind = place < XRCE_REQUESTERS_AT ? "replier" : "requester";
-  const char * const texts[] = {
-    "<dds><",
+  const MICROROS_FLASH char * type = client->services[place - XRCE_REPLIERS_AT].type->dds_type_name;
+  const MICROROS_FLASH char * kind =
+    place < XRCE_REQUESTERS_AT ? MICROROS_FLASH_TEXT("replier") : MICROROS_FLASH_TEXT("requester");
+  const MICROROS_ANYWHERE char * const texts[] = {
+    MICROROS_FLASH_TEXT("<dds><"),
     kind,
-    " profile_name=\"",
+    MICROROS_FLASH_TEXT(" profile_name=\""),
     name,
-    "\" service_name=\"",
+    MICROROS_FLASH_TEXT("\" service_name=\""),
     name,
-    "\" request_type=\"",
+    MICROROS_FLASH_TEXT("\" request_type=\""),
     type,
-    "Request_\" reply_type=\"",
+    MICROROS_FLASH_TEXT("Request_\" reply_type=\""),
     type,
-    "Response_\"><request_topic_name>rq",
+    MICROROS_FLASH_TEXT("Response_\"><request_topic_name>rq"),
     name,
-    "Request</request_topic_name><reply_topic_name>rr",
+    MICROROS_FLASH_TEXT("Request</request_topic_name><reply_topic_name>rr"),
     name,
-    "Reply</reply_topic_name><publisher>",
+    MICROROS_FLASH_TEXT("Reply</reply_topic_name><publisher>"),
     depth,
-    "</publisher><subscriber>",
+    MICROROS_FLASH_TEXT("</publisher><subscriber>"),
     depth,
-    "</subscriber></",
+    MICROROS_FLASH_TEXT("</subscriber></"),
     kind,
-    "></dds>",
+    MICROROS_FLASH_TEXT("></dds>"),
     NULL};
   uint8_t * end = blob;
 
   *format = XRCE_FORMAT_XML;
-  for (const char * const * text = texts; *text != NULL; ++text) {
+  for (const MICROROS_ANYWHERE char * const * text = texts; *text != NULL; ++text) {
     end = xrce_describe_text(end, *text);
   }
   *end++ = 0;

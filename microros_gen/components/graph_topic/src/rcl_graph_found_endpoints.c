@@ -124,15 +124,27 @@ static rcl_ret_t endpoints_check(const char * name)
   return RCL_RET_INVALID_ARGUMENT;
 }
 
-/* Writes the name in ROS of a type: `std_msgs/msg/Int32` for `std_msgs::msg::dds_::Int32_`. */
-static void endpoints_write_type(const char * dds_type, char type[MICROROS_GRAPH_NAME_SIZE])
+static const char in_dds[] = "dds_::";
+
+/* Returns whether a text begins with in_dds. */
+static bool endpoints_begins(const MICROROS_ANYWHERE char * text)
 {
-  static const char in_dds[] = "dds_::";
-  const char * from = dds_type;
+  size_t i = 0;
+
+  while (i < sizeof(in_dds) - 1u && text[i] == in_dds[i]) {
+    ++i;
+  }
+  return i == sizeof(in_dds) - 1u;
+}
+
+/* Writes the name in ROS of a type: `std_msgs/msg/Int32` for `std_msgs::msg::dds_::Int32_`. */
+static void endpoints_write_type(const MICROROS_ANYWHERE char * dds_type, char type[MICROROS_GRAPH_NAME_SIZE])
+{
+  const MICROROS_ANYWHERE char * from = dds_type;
   size_t size = 0;
 
   while (*from != '\0' && size + 1u < MICROROS_GRAPH_NAME_SIZE) {
-    if (strncmp(from, in_dds, sizeof(in_dds) - 1u) == 0) {
+    if (endpoints_begins(from)) {
       from = &from[sizeof(in_dds) - 1u];
     } else if (*from == ':') {
       type[size] = '/';

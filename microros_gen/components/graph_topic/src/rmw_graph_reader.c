@@ -10,6 +10,10 @@
 #include "microros/xrce_read.h"
 #include "microros/xrce_wire.h"
 
+/* Its samples are never encoded or decoded as a whole. */
+static const microros_message_type_t graph_type = {
+  MICROROS_FLASH_NAME("micro_ros_msgs::msg::dds_::Graph_"), 0, NULL, NULL, NULL};
+
 static xrce_endpoint_t * reader_endpoint; /* NULL: never opened */
 
 /* Takes the declared place, which the library alone uses. */
@@ -34,11 +38,9 @@ static rmw_ret_t reader_open(xrce_endpoint_t * wanted, const xrce_sink_t * sink)
 
 rmw_ret_t rmw_graph_reader_open(const rmw_node_t * node, const xrce_sink_t * sink)
 {
-  /* Its samples are never encoded or decoded as a whole. */
-  static const microros_message_type_t type = {"micro_ros_msgs::msg::dds_::Graph_", 0, NULL, NULL, NULL};
   xrce_endpoint_t wanted = {
     .client = node->context->impl,
-    .type = &type,
+    .type = &graph_type,
     .participant = rmw_node_index(node),
     .depth = 1,
     .qos = XRCE_QOS_RELIABLE | XRCE_QOS_TRANSIENT_LOCAL | XRCE_QOS_KEEP_LAST};

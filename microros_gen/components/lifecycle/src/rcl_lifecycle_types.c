@@ -130,45 +130,45 @@ static void types_decode(cdr_in_t * in, void * message)
 }
 
 static const microros_message_type_t lifecycle_request_type = {
-  .dds_type_name = MICROROS_ERROR_WORDS("lifecycle_msgs::srv::dds_::GetState_Request_"),
+  .dds_type_name = MICROROS_ERROR_TYPE("lifecycle_msgs::srv::dds_::GetState_Request_"),
   .max_encoded_size = lifecycle_msgs__srv__GetState_Request__MAX_ENCODED_SIZE,
   .decode = types_decode};
 
 static const microros_message_type_t transitions_response = {
-  .dds_type_name = MICROROS_ERROR_WORDS("lifecycle_msgs::srv::dds_::GetAvailableTransitions_Response_"),
+  .dds_type_name = MICROROS_ERROR_TYPE("lifecycle_msgs::srv::dds_::GetAvailableTransitions_Response_"),
   .max_encoded_size = lifecycle_msgs__srv__GetAvailableTransitions_Response__MAX_ENCODED_SIZE,
   .encode = types_encode_transitions};
 static const microros_service_type_t transitions_service = {
-  .dds_type_name = "lifecycle_msgs::srv::dds_::GetAvailableTransitions_",
+  .dds_type_name = MICROROS_FLASH_NAME("lifecycle_msgs::srv::dds_::GetAvailableTransitions_"),
   .request = &lifecycle_request_type,
   .response = &transitions_response};
 const rosidl_service_type_support_t rcl_lifecycle_transitions_type = {
   .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &transitions_service};
 
 static const microros_message_type_t get_state_response = {
-  .dds_type_name = MICROROS_ERROR_WORDS("lifecycle_msgs::srv::dds_::GetState_Response_"),
+  .dds_type_name = MICROROS_ERROR_TYPE("lifecycle_msgs::srv::dds_::GetState_Response_"),
   .max_encoded_size = lifecycle_msgs__srv__GetState_Response__MAX_ENCODED_SIZE,
   .encode = types_encode_state};
 static const microros_service_type_t get_state_service = {
-  .dds_type_name = "lifecycle_msgs::srv::dds_::GetState_",
+  .dds_type_name = MICROROS_FLASH_NAME("lifecycle_msgs::srv::dds_::GetState_"),
   .request = &lifecycle_request_type,
   .response = &get_state_response};
 const rosidl_service_type_support_t rcl_lifecycle_state_type = {
   .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &get_state_service};
 
 static const microros_message_type_t get_states_response = {
-  .dds_type_name = MICROROS_ERROR_WORDS("lifecycle_msgs::srv::dds_::GetAvailableStates_Response_"),
+  .dds_type_name = MICROROS_ERROR_TYPE("lifecycle_msgs::srv::dds_::GetAvailableStates_Response_"),
   .max_encoded_size = lifecycle_msgs__srv__GetAvailableStates_Response__MAX_ENCODED_SIZE,
   .encode = types_encode_states};
 static const microros_service_type_t get_states_service = {
-  .dds_type_name = "lifecycle_msgs::srv::dds_::GetAvailableStates_",
+  .dds_type_name = MICROROS_FLASH_NAME("lifecycle_msgs::srv::dds_::GetAvailableStates_"),
   .request = &lifecycle_request_type,
   .response = &get_states_response};
 const rosidl_service_type_support_t rcl_lifecycle_states_type = {
   .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &get_states_service};
 
 static const microros_message_type_t transition_event_message = {
-  .dds_type_name = "lifecycle_msgs::msg::dds_::TransitionEvent_",
+  .dds_type_name = MICROROS_FLASH_NAME("lifecycle_msgs::msg::dds_::TransitionEvent_"),
   .max_encoded_size = lifecycle_msgs__msg__TransitionEvent__MAX_ENCODED_SIZE,
   .encode = types_encode_event};
 const rosidl_message_type_support_t rcl_lifecycle_event_type = {

@@ -63,15 +63,15 @@ static uint32_t change_encode(const void * message, uint8_t * body, cdr_fault_t 
 }
 
 static const microros_message_type_t change_request = {
-  .dds_type_name = MICROROS_ERROR_WORDS("lifecycle_msgs::srv::dds_::ChangeState_Request_"),
+  .dds_type_name = MICROROS_ERROR_TYPE("lifecycle_msgs::srv::dds_::ChangeState_Request_"),
   .max_encoded_size = lifecycle_msgs__srv__ChangeState_Request__MAX_ENCODED_SIZE,
   .decode = change_decode};
 static const microros_message_type_t change_response = {
-  .dds_type_name = MICROROS_ERROR_WORDS("lifecycle_msgs::srv::dds_::ChangeState_Response_"),
+  .dds_type_name = MICROROS_ERROR_TYPE("lifecycle_msgs::srv::dds_::ChangeState_Response_"),
   .max_encoded_size = lifecycle_msgs__srv__ChangeState_Response__MAX_ENCODED_SIZE,
   .encode = change_encode};
 static const microros_service_type_t change_service = {
-  .dds_type_name = "lifecycle_msgs::srv::dds_::ChangeState_",
+  .dds_type_name = MICROROS_FLASH_NAME("lifecycle_msgs::srv::dds_::ChangeState_"),
   .request = &change_request,
   .response = &change_response};
 const rosidl_service_type_support_t rclc_lifecycle_change_type = {

@@ -17,7 +17,7 @@ enum { ROSOUT_DEPTH = 1000 }; /* lines that the agent keeps for late subscribers
 
 /* Lines are encoded when they are logged (rcutils_rosout.c). */
 static const microros_message_type_t rosout_message = {
-  .dds_type_name = "rcl_interfaces::msg::dds_::Log_",
+  .dds_type_name = MICROROS_FLASH_NAME("rcl_interfaces::msg::dds_::Log_"),
   .max_encoded_size = rcl_interfaces__msg__Log__MAX_ENCODED_SIZE};
 
 static const rosidl_message_type_support_t rosout_type = {

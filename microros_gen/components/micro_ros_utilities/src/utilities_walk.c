@@ -3,6 +3,7 @@
 
 #include "microros/cdr.h"
 #include "microros/error.h"
+#include "microros/text.h"
 
 #include <string.h>
 
@@ -18,7 +19,7 @@ const microros_type_members_t * utilities_type(const rosidl_message_type_support
   }
   type = type_support->data;
   for (const microros_type_members_t * const * at = microros_type_tables; *at != NULL; ++at) {
-    if (strcmp((*at)->dds_type_name, type->dds_type_name) == 0) {
+    if (microros_text_equals((*at)->dds_type_name, type->dds_type_name)) {
       return *at;
     }
   }

@@ -14,7 +14,7 @@ uint16_t rmw_node_take(xrce_client_t * client, const char * name, const char * n
   microros_error_t error = microros_error_node_undeclared;
 
   for (uint16_t i = 0; i < MICROROS_NODES_MAX; ++i) {
-    const microros_declared_node_t * declared = &microros_declared_nodes[i];
+    const MICROROS_FLASH microros_declared_node_t * declared = &microros_declared_nodes[i];
     xrce_participant_t * participant = &client->participants[i];
 
     if (

@@ -108,49 +108,49 @@ static uint32_t modes_encode_event(const void * message, uint8_t * body, cdr_fau
 }
 
 static const microros_message_type_t modes_request = {
-  .dds_type_name = MICROROS_ERROR_WORDS("system_modes_msgs::srv::dds_::GetMode_Request_"),
+  .dds_type_name = MICROROS_ERROR_TYPE("system_modes_msgs::srv::dds_::GetMode_Request_"),
   .max_encoded_size = system_modes_msgs__srv__GetMode_Request__MAX_ENCODED_SIZE,
   .decode = modes_decode};
 
 static const microros_message_type_t modes_change_request = {
-  .dds_type_name = MICROROS_ERROR_WORDS("system_modes_msgs::srv::dds_::ChangeMode_Request_"),
+  .dds_type_name = MICROROS_ERROR_TYPE("system_modes_msgs::srv::dds_::ChangeMode_Request_"),
   .max_encoded_size = system_modes_msgs__srv__ChangeMode_Request__MAX_ENCODED_SIZE,
   .decode = modes_decode_change};
 static const microros_message_type_t modes_change_response = {
-  .dds_type_name = MICROROS_ERROR_WORDS("system_modes_msgs::srv::dds_::ChangeMode_Response_"),
+  .dds_type_name = MICROROS_ERROR_TYPE("system_modes_msgs::srv::dds_::ChangeMode_Response_"),
   .max_encoded_size = system_modes_msgs__srv__ChangeMode_Response__MAX_ENCODED_SIZE,
   .encode = modes_encode_change};
 static const microros_service_type_t modes_change_service = {
-  .dds_type_name = "system_modes_msgs::srv::dds_::ChangeMode_",
+  .dds_type_name = MICROROS_FLASH_NAME("system_modes_msgs::srv::dds_::ChangeMode_"),
   .request = &modes_change_request,
   .response = &modes_change_response};
 const rosidl_service_type_support_t rclc_modes_change_type = {
   .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &modes_change_service};
 
 static const microros_message_type_t modes_available_response = {
-  .dds_type_name = MICROROS_ERROR_WORDS("system_modes_msgs::srv::dds_::GetAvailableModes_Response_"),
+  .dds_type_name = MICROROS_ERROR_TYPE("system_modes_msgs::srv::dds_::GetAvailableModes_Response_"),
   .max_encoded_size = system_modes_msgs__srv__GetAvailableModes_Response__MAX_ENCODED_SIZE,
   .encode = modes_encode_available};
 static const microros_service_type_t modes_available_service = {
-  .dds_type_name = "system_modes_msgs::srv::dds_::GetAvailableModes_",
+  .dds_type_name = MICROROS_FLASH_NAME("system_modes_msgs::srv::dds_::GetAvailableModes_"),
   .request = &modes_request,
   .response = &modes_available_response};
 const rosidl_service_type_support_t rclc_modes_get_available_type = {
   .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &modes_available_service};
 
 static const microros_message_type_t modes_get_response = {
-  .dds_type_name = MICROROS_ERROR_WORDS("system_modes_msgs::srv::dds_::GetMode_Response_"),
+  .dds_type_name = MICROROS_ERROR_TYPE("system_modes_msgs::srv::dds_::GetMode_Response_"),
   .max_encoded_size = system_modes_msgs__srv__GetMode_Response__MAX_ENCODED_SIZE,
   .encode = modes_encode_get};
 static const microros_service_type_t modes_get_service = {
-  .dds_type_name = "system_modes_msgs::srv::dds_::GetMode_",
+  .dds_type_name = MICROROS_FLASH_NAME("system_modes_msgs::srv::dds_::GetMode_"),
   .request = &modes_request,
   .response = &modes_get_response};
 const rosidl_service_type_support_t rclc_modes_get_type = {
   .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &modes_get_service};
 
 static const microros_message_type_t modes_event_message = {
-  .dds_type_name = "system_modes_msgs::msg::dds_::ModeEvent_",
+  .dds_type_name = MICROROS_FLASH_NAME("system_modes_msgs::msg::dds_::ModeEvent_"),
   .max_encoded_size = system_modes_msgs__msg__ModeEvent__MAX_ENCODED_SIZE,
   .encode = modes_encode_event};
 const rosidl_message_type_support_t rclc_modes_event_type = {

@@ -58,7 +58,7 @@ static uint32_t event_encode(const void * message, uint8_t * body, cdr_fault_t *
 }
 
 static const microros_message_type_t event_message = {
-  .dds_type_name = "rcl_interfaces::msg::dds_::ParameterEvent_",
+  .dds_type_name = MICROROS_FLASH_NAME("rcl_interfaces::msg::dds_::ParameterEvent_"),
   .max_encoded_size = rcl_interfaces__msg__ParameterEvent__MAX_ENCODED_SIZE,
   .encode = event_encode};
 

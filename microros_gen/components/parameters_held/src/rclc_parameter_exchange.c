@@ -262,15 +262,15 @@ static uint32_t exchange_encode(const void * message, uint8_t * body, cdr_fault_
 }
 
 static const microros_message_type_t exchange_request = {
-  .dds_type_name = MICROROS_ERROR_WORDS("microros_parameter_msgs::srv::dds_::Exchange_Request_"),
+  .dds_type_name = MICROROS_ERROR_TYPE("microros_parameter_msgs::srv::dds_::Exchange_Request_"),
   .max_encoded_size = microros_parameter_msgs__srv__Exchange_Request__MAX_ENCODED_SIZE,
   .decode = exchange_decode};
 static const microros_message_type_t exchange_response = {
-  .dds_type_name = MICROROS_ERROR_WORDS("microros_parameter_msgs::srv::dds_::Exchange_Response_"),
+  .dds_type_name = MICROROS_ERROR_TYPE("microros_parameter_msgs::srv::dds_::Exchange_Response_"),
   .max_encoded_size = microros_parameter_msgs__srv__Exchange_Response__MAX_ENCODED_SIZE,
   .encode = exchange_encode};
 static const microros_service_type_t exchange_service = {
-  .dds_type_name = "microros_parameter_msgs::srv::dds_::Exchange_",
+  .dds_type_name = MICROROS_FLASH_NAME("microros_parameter_msgs::srv::dds_::Exchange_"),
   .request = &exchange_request,
   .response = &exchange_response};
 const rosidl_service_type_support_t rclc_parameter_exchange_type = {

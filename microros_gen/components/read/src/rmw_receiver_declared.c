@@ -13,7 +13,7 @@ bool rmw_receiver_take(
 {
   const xrce_object_state_t * states = &wanted->client->states[MICROROS_NODES_MAX];
   const uint32_t end = (uint32_t)section->first + section->count;
-  const microros_declared_endpoint_t * declared;
+  const MICROROS_FLASH microros_declared_endpoint_t * declared;
   bool is_free = false;
   uint32_t i;
 

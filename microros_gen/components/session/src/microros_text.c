@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/text.h"
 
-size_t microros_text_size(const char * text)
+size_t microros_text_size(const MICROROS_ANYWHERE char * text)
 {
   size_t size = 0;
 
@@ -12,7 +12,7 @@ size_t microros_text_size(const char * text)
 }
 
 /* The linker stores equal constants once, so that the names of types mostly have one address. */
-bool microros_text_equals(const char * a, const char * b)
+bool microros_text_equals(const MICROROS_ANYWHERE char * a, const MICROROS_ANYWHERE char * b)
 {
   while (*a == *b) {
     if (a == b || *a == '\0') {

@@ -19,8 +19,11 @@ const MICROROS_FLASH char microros_error_agent_refused[] =
   "the agent at " XRCE_PLACE_M " refuses the session: %a";
 
 /* From status 0x80 on (OMG DDS-XRCE 1.0, 7.7.2). */
-static const char * const statuses[] = {"DDS_ERROR",         "MISMATCH",     "ALREADY_EXISTS", "DENIED",
-                                        "UNKNOWN_REFERENCE", "INVALID_DATA", "INCOMPATIBLE",   "RESOURCES"};
+static const MICROROS_FLASH char * const MICROROS_FLASH statuses[] = {
+  MICROROS_FLASH_NAME("DDS_ERROR"),         MICROROS_FLASH_NAME("MISMATCH"),
+  MICROROS_FLASH_NAME("ALREADY_EXISTS"),    MICROROS_FLASH_NAME("DENIED"),
+  MICROROS_FLASH_NAME("UNKNOWN_REFERENCE"), MICROROS_FLASH_NAME("INVALID_DATA"),
+  MICROROS_FLASH_NAME("INCOMPATIBLE"),      MICROROS_FLASH_NAME("RESOURCES")};
 
 enum { STATUS_FIRST = 0x80, STATUS_LAST = 0x87 };
 
@@ -36,7 +39,7 @@ static void text_put(text_t * text, char c)
   }
 }
 
-static void text_put_string(text_t * text, const char * words)
+static void text_put_string(text_t * text, const MICROROS_ANYWHERE char * words)
 {
   while (words != NULL && *words != '\0') {
     text_put(text, *words++);
@@ -58,11 +61,11 @@ static void text_put_number(text_t * text, uint32_t number)
 }
 
 /* "std_msgs::msg::dds_::Int32_" becomes "std_msgs/msg/Int32". */
-static void text_put_type(text_t * text, const char * dds_type)
+static void text_put_type(text_t * text, const MICROROS_ANYWHERE char * dds_type)
 {
   uint32_t part = 0;
 
-  for (const char * at = dds_type; *at != '\0'; ++at) {
+  for (const MICROROS_ANYWHERE char * at = dds_type; *at != '\0'; ++at) {
     if (at[0] == ':') {
       ++at;
       if (part != 2u) {
@@ -96,7 +99,8 @@ static text_t error_begin(const char * file, size_t line_number)
 }
 
 void microros_error_set(
-  microros_error_t error, const char * name, const char * detail, uint32_t found, uint32_t fits)
+  microros_error_t error, const MICROROS_ANYWHERE char * name, const MICROROS_ANYWHERE char * detail,
+  uint32_t found, uint32_t fits)
 {
   text_t text;
 
@@ -150,7 +154,7 @@ void rcutils_set_error_state(const char * error_string, const char * file, size_
   microros_unlock();
 }
 
-int32_t microros_error_named(int32_t result, microros_error_t error, const char * name)
+int32_t microros_error_named(int32_t result, microros_error_t error, const MICROROS_ANYWHERE char * name)
 {
   microros_error_set(error, name, "", 0, 0);
   return result;

@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-#ifdef __FLASH
+#ifdef MICROROS_FLASH_IS_SEPARATE
 /* The name of an argument, or of several: longer ones are truncated. */
 enum { ARGUMENT_SIZE = 48 };
 

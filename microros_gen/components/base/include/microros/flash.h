@@ -10,17 +10,25 @@
 #ifndef MICROROS_FLASH_H
 #define MICROROS_FLASH_H
 
-#ifdef __FLASH
+/* With -std=c99, avr-gcc defines __FLASH, but does not know the word. */
+#if defined(__FLASH) && !defined(__STRICT_ANSI__)
+#define MICROROS_FLASH_IS_SEPARATE
 #define MICROROS_FLASH __flash
+/* What a parameter points to that takes texts in RAM and in program memory: 3 bytes, so in no structure. */
+#define MICROROS_ANYWHERE __memx
 /* A pointer to a string literal in program memory. */
 #define MICROROS_FLASH_TEXT(words) \
   __extension__({ \
     static const __flash char flash_text[] = words; \
     &flash_text[0]; \
   })
+/* The same for an initializer outside of functions. */
+#define MICROROS_FLASH_NAME(words) ((const __flash char[]){words})
 #else
 #define MICROROS_FLASH
+#define MICROROS_ANYWHERE
 #define MICROROS_FLASH_TEXT(words) (words)
+#define MICROROS_FLASH_NAME(words) (words)
 #endif
 
 #endif /* MICROROS_FLASH_H */

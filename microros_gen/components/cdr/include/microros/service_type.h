@@ -6,7 +6,7 @@
 #include "microros/message_type.h"
 
 typedef struct microros_service_type_t {
-  const char *
+  const MICROROS_FLASH char *
     dds_type_name; /* "std_srvs::srv::dds_::SetBool_"; Request_ or Response_ is appended for its messages */
   const microros_message_type_t * request;
   const microros_message_type_t * response;

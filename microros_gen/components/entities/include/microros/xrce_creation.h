@@ -85,7 +85,7 @@ uint8_t * xrce_describe_service(
   const xrce_client_t * client, uint16_t place, uint8_t * blob, uint8_t * format);
 
 /* Copies the characters of `text` without the terminator; returns their end. */
-uint8_t * xrce_describe_text(uint8_t * at, const char * text);
+uint8_t * xrce_describe_text(uint8_t * at, const MICROROS_ANYWHERE char * text);
 
 #ifdef __cplusplus
 }

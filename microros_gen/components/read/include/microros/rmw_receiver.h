@@ -24,7 +24,7 @@ typedef struct rmw_section_t {
   microros_error_t undeclared; /* name, type */
   microros_error_t taken;      /* name: already open */
   microros_error_t full;       /* name, found: number of places, fits: number that would suffice */
-  const char * dds_type_name;  /* of the message, or of the service */
+  const MICROROS_FLASH char * dds_type_name; /* of the message, or of the service */
 } rmw_section_t;
 
 /*

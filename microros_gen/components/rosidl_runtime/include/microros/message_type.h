@@ -3,6 +3,8 @@
 #ifndef MICROROS_MESSAGE_TYPE_H
 #define MICROROS_MESSAGE_TYPE_H
 
+#include "microros/flash.h"
+
 #include <stdint.h>
 
 struct cdr_in_t;
@@ -40,8 +42,8 @@ typedef struct cdr_fault_t {
  * messages.
  */
 typedef struct microros_message_type_t {
-  const char * dds_type_name; /* "std_msgs::msg::dds_::Int32_" */
-  uint32_t max_encoded_size;  /* largest body within the limits */
+  const MICROROS_FLASH char * dds_type_name; /* "std_msgs::msg::dds_::Int32_" */
+  uint32_t max_encoded_size;                 /* largest body within the limits */
   /* Writes the body and returns its length, never 0; 0 if refused, with *fault filled. `body` holds
    * encoded_size bytes. */
   uint32_t (*encode)(const void * message, uint8_t * body, cdr_fault_t * fault);

@@ -3,6 +3,8 @@
 #ifndef MICROROS_TEXT_H
 #define MICROROS_TEXT_H
 
+#include "microros/flash.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -11,9 +13,9 @@ extern "C" {
 #endif
 
 /* Returns the number of bytes before the NUL. */
-size_t microros_text_size(const char * text);
+size_t microros_text_size(const MICROROS_ANYWHERE char * text);
 
-bool microros_text_equals(const char * a, const char * b);
+bool microros_text_equals(const MICROROS_ANYWHERE char * a, const MICROROS_ANYWHERE char * b);
 
 #ifdef __cplusplus
 }

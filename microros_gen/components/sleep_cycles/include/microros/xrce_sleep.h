@@ -55,7 +55,7 @@ bool xrce_sleep_was_restored(const xrce_client_t * client, uint16_t place);
 void xrce_sleep_clear(xrce_client_t * client);
 
 /* Returns the CRC-32 (IEEE 802.3) of `before` continued by these bytes; `before` is 0 for the first ones. */
-uint32_t xrce_sleep_check(uint32_t before, const uint8_t * bytes, size_t size);
+uint32_t xrce_sleep_check(uint32_t before, const MICROROS_ANYWHERE uint8_t * bytes, size_t size);
 
 /* --- implemented by one of xrce_sleep_<transport>.c --- */
 

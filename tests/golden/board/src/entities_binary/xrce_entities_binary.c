@@ -8,7 +8,8 @@
 #include <string.h>
 
 /* A string of up to three parts: total length, the parts, one NUL. Below 64 KiB, since a message is. */
-static uint8_t * binary_put_string(uint8_t * at, const char * first, const char * second, const char * third)
+static uint8_t * binary_put_string(
+  uint8_t * at, const MICROROS_ANYWHERE char * first, const char * second, const MICROROS_ANYWHERE char * third)
 {
   uint8_t * end = xrce_describe_text(xrce_describe_text(xrce_describe_text(&at[4], first), second), third);
 

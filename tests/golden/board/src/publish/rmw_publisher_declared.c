@@ -8,11 +8,11 @@
 
 bool rmw_publisher_take(xrce_endpoint_t * writer, const rmw_name_t * topic, const char * given)
 {
-  const char * type = writer->type->dds_type_name;
+  const MICROROS_FLASH char * type = writer->type->dds_type_name;
   microros_error_t error = microros_error_publisher_undeclared;
 
   for (uint16_t i = 0; i < MICROROS_PUBLISHERS_MAX; ++i) {
-    const microros_declared_endpoint_t * declared = &microros_declared_endpoints[i];
+    const MICROROS_FLASH microros_declared_endpoint_t * declared = &microros_declared_endpoints[i];
 
     if (
       declared->node != writer->participant || !rmw_name_equals(topic, microros_declared_name(declared)) ||

@@ -48,7 +48,7 @@ static uint32_t std_msgs__msg__Header__encoded_size(
 }
 
 static const microros_message_type_t std_msgs__msg__Header__message_type = {
-  .dds_type_name = "std_msgs::msg::dds_::Header_",
+  .dds_type_name = MICROROS_FLASH_NAME("std_msgs::msg::dds_::Header_"),
   .max_encoded_size = std_msgs__msg__Header__MAX_ENCODED_SIZE,
   .encode = std_msgs__msg__Header__encode,
   .encoded_size = std_msgs__msg__Header__encoded_size,

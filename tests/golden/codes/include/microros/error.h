@@ -6,6 +6,8 @@
 #ifndef MICROROS_ERROR_H
 #define MICROROS_ERROR_H
 
+#include "microros/flash.h"
+
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -14,6 +16,8 @@ extern "C" {
 
 /* Keeps words that would become `detail` out of the image: callers only test whether they are NULL. */
 #define MICROROS_ERROR_WORDS(words) ("?")
+/* The same of the name of a message type, for an initializer outside of functions. */
+#define MICROROS_ERROR_TYPE(words) MICROROS_FLASH_NAME("?")
 
 typedef uint8_t microros_error_t;
 
@@ -59,7 +63,8 @@ enum {
 int32_t microros_error_code(int32_t result, microros_error_t error);
 
 static inline void microros_error_set(
-  microros_error_t error, const char * name, const char * detail, uint32_t found, uint32_t fits)
+  microros_error_t error, const MICROROS_ANYWHERE char * name, const MICROROS_ANYWHERE char * detail,
+  uint32_t found, uint32_t fits)
 {
   (void)name;
   (void)detail;
@@ -74,7 +79,8 @@ static inline int32_t microros_error_refuse(int32_t result, const char * argumen
   return microros_error_code(result, microros_error_argument);
 }
 
-static inline int32_t microros_error_named(int32_t result, microros_error_t error, const char * name)
+static inline int32_t microros_error_named(
+  int32_t result, microros_error_t error, const MICROROS_ANYWHERE char * name)
 {
   (void)name;
   return microros_error_code(result, error);

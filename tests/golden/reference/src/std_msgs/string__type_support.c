@@ -42,7 +42,7 @@ static uint32_t std_msgs__msg__String__encoded_size(
 }
 
 static const microros_message_type_t std_msgs__msg__String__message_type = {
-  .dds_type_name = "std_msgs::msg::dds_::String_",
+  .dds_type_name = MICROROS_FLASH_NAME("std_msgs::msg::dds_::String_"),
   .max_encoded_size = std_msgs__msg__String__MAX_ENCODED_SIZE,
   .encode = std_msgs__msg__String__encode,
   .encoded_size = std_msgs__msg__String__encoded_size,

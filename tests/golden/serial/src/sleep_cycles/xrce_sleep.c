@@ -8,7 +8,7 @@
 #include "microros/xrce_ping_hooks.h"
 #include "microros/xrce_wire.h"
 
-uint32_t xrce_sleep_check(uint32_t before, const uint8_t * bytes, size_t size)
+uint32_t xrce_sleep_check(uint32_t before, const MICROROS_ANYWHERE uint8_t * bytes, size_t size)
 {
   static const uint32_t polynomial = 0xedb88320u;
   uint32_t check = ~before;
@@ -22,9 +22,9 @@ uint32_t xrce_sleep_check(uint32_t before, const uint8_t * bytes, size_t size)
   return ~check;
 }
 
-static uint32_t sleep_check_text(uint32_t before, const char * text)
+static uint32_t sleep_check_text(uint32_t before, const MICROROS_ANYWHERE char * text)
 {
-  return xrce_sleep_check(before, (const uint8_t *)text, microros_text_size(text) + 1u);
+  return xrce_sleep_check(before, (const MICROROS_ANYWHERE uint8_t *)text, microros_text_size(text) + 1u);
 }
 
 static uint32_t sleep_check_number(uint32_t before, uint16_t number)

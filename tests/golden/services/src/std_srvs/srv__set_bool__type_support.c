@@ -35,7 +35,7 @@ static uint32_t std_srvs__srv__SetBool_Request__encoded_size(
 }
 
 static const microros_message_type_t std_srvs__srv__SetBool_Request__message_type = {
-  .dds_type_name = "std_srvs::srv::dds_::SetBool_Request_",
+  .dds_type_name = MICROROS_FLASH_NAME("std_srvs::srv::dds_::SetBool_Request_"),
   .max_encoded_size = std_srvs__srv__SetBool_Request__MAX_ENCODED_SIZE,
   .encode = std_srvs__srv__SetBool_Request__encode,
   .encoded_size = std_srvs__srv__SetBool_Request__encoded_size,
@@ -89,7 +89,7 @@ static uint32_t std_srvs__srv__SetBool_Response__encoded_size(
 }
 
 static const microros_message_type_t std_srvs__srv__SetBool_Response__message_type = {
-  .dds_type_name = "std_srvs::srv::dds_::SetBool_Response_",
+  .dds_type_name = MICROROS_FLASH_NAME("std_srvs::srv::dds_::SetBool_Response_"),
   .max_encoded_size = std_srvs__srv__SetBool_Response__MAX_ENCODED_SIZE,
   .encode = std_srvs__srv__SetBool_Response__encode,
   .encoded_size = std_srvs__srv__SetBool_Response__encoded_size,
@@ -108,7 +108,7 @@ rosidl_typesupport_c__get_message_type_support_handle__std_srvs__srv__SetBool_Re
 }
 
 static const microros_service_type_t std_srvs__srv__SetBool__service_type = {
-  .dds_type_name = "std_srvs::srv::dds_::SetBool_",
+  .dds_type_name = MICROROS_FLASH_NAME("std_srvs::srv::dds_::SetBool_"),
   .request = &std_srvs__srv__SetBool_Request__message_type,
   .response = &std_srvs__srv__SetBool_Response__message_type
 };

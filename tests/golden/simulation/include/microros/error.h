@@ -16,6 +16,8 @@ extern "C" {
 
 /* Words that become `detail`. */
 #define MICROROS_ERROR_WORDS(words) (words)
+/* The name of a message type, for an initializer outside of functions. */
+#define MICROROS_ERROR_TYPE(words) MICROROS_FLASH_NAME(words)
 
 typedef const MICROROS_FLASH char * microros_error_t;
 
@@ -61,12 +63,14 @@ extern const MICROROS_FLASH char microros_error_blocks_taken[];
  * read during the call.
  */
 void microros_error_set(
-  microros_error_t error, const char * name, const char * detail, uint32_t found, uint32_t fits);
+  microros_error_t error, const MICROROS_ANYWHERE char * name, const MICROROS_ANYWHERE char * detail,
+  uint32_t found, uint32_t fits);
 
 /* Shorthands for microros_error_argument, and for errors with only a name. Both return `result`. */
 int32_t microros_error_refuse(int32_t result, const char * argument);
-int32_t microros_error_named(int32_t result, microros_error_t error, const char * name);
-#ifdef __FLASH
+int32_t microros_error_named(
+  int32_t result, microros_error_t error, const MICROROS_ANYWHERE char * name);
+#ifdef MICROROS_FLASH_IS_SEPARATE
 int32_t microros_error_refuse_flash(int32_t result, const MICROROS_FLASH char * argument);
 #define microros_error_refuse(result, argument) \
   microros_error_refuse_flash((result), MICROROS_FLASH_TEXT(argument))

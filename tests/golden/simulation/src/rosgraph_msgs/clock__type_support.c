@@ -40,7 +40,7 @@ static uint32_t rosgraph_msgs__msg__Clock__encoded_size(
 }
 
 static const microros_message_type_t rosgraph_msgs__msg__Clock__message_type = {
-  .dds_type_name = "rosgraph_msgs::msg::dds_::Clock_",
+  .dds_type_name = MICROROS_FLASH_NAME("rosgraph_msgs::msg::dds_::Clock_"),
   .max_encoded_size = rosgraph_msgs__msg__Clock__MAX_ENCODED_SIZE,
   .encode = rosgraph_msgs__msg__Clock__encode,
   .encoded_size = rosgraph_msgs__msg__Clock__encoded_size,

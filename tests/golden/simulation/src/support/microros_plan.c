@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/plan.h"
 
-const microros_declared_node_t microros_declared_nodes[MICROROS_NODES_MAX] = {
+const MICROROS_FLASH microros_declared_node_t microros_declared_nodes[MICROROS_NODES_MAX] = {
   {"probe", "/", 0},
 };
 
-const microros_declared_endpoint_t microros_declared_endpoints[XRCE_ENDPOINTS] = {
-  {"/clock", "rosgraph_msgs::msg::dds_::Clock_", 0},
-  {"/heard", "std_msgs::msg::dds_::Int32_", 0},
-  {"/said", "std_msgs::msg::dds_::String_", 0},
+const MICROROS_FLASH microros_declared_endpoint_t microros_declared_endpoints[XRCE_ENDPOINTS] = {
+  {"/clock", MICROROS_FLASH_NAME("rosgraph_msgs::msg::dds_::Clock_"), 0},
+  {"/heard", MICROROS_FLASH_NAME("std_msgs::msg::dds_::Int32_"), 0},
+  {"/said", MICROROS_FLASH_NAME("std_msgs::msg::dds_::String_"), 0},
 };
