@@ -360,8 +360,7 @@ class Application:
     their endpoints), `endpoints` what the file changes of those. `spans` holds the places of top-level keys and of
     the keys of `pools` (as `pools.history`), for later steps. `exact_float64`: what would
     round a float64 is an error. `links` are those of this board in its `system`, `chip` the images of the other
-    cores there. `bus_senders`: what others send on its CAN buses; `bus_files`: read for boards of the same bus that
-    exchange nothing with this one, and for what they send.
+    cores there, `bus_senders` what others send on its CAN buses. `bus_files` were read for these boards alone.
     """
 
     distro: str = DISTRIBUTIONS[0]

@@ -57,7 +57,8 @@ static rclc_executor_handle_t * executor_take(const rclc_executor_t * executor)
     return NULL;
   }
   place->owner = executor;
-  (void)memset(place->handles, 0, sizeof(place->handles)); /* once: all as rclc_executor_handle_init leaves one */
+  /* All at once, as rclc_executor_handle_init leaves one. */
+  (void)memset(place->handles, 0, sizeof(place->handles));
   for (size_t i = 0; i < MICROROS_HANDLES_MAX; ++i) {
     place->handles[i].type = RCLC_NONE;
     place->handles[i].invocation = ON_NEW_DATA;
