@@ -252,10 +252,8 @@ def test_no_message_is_torn(programs: tuple[Path, Path], memory: Path) -> None:
             with Image(programs[0], memory) as first:
                 for image in (first, second, first):
                     image.spin()  # the ring may have the last numbers of the former writer
-                second.begin("listen 150")
-                first.begin(f"flood 1000 {start}")  # killed in the middle
-                _, _, lines = second.result()
-            counts = {name: int(count) for name, count in map(str.split, lines)}
+                first.begin(f"flood 20000 {start}")  # killed in the middle
+                counts = second.listened(total)
             assert (counts["torn"], counts["back"]) == (0, 0)
             assert counts["heard"] > total
             total = counts["heard"]

@@ -127,6 +127,7 @@ _CHIP_CALLS = (
     + "    services: [{name: sum, type: std_srvs/srv/Trigger, local: chip, queue: 3}]\n"
     "    clients: [{name: ask, type: std_srvs/srv/Trigger, local: chip}]\n"
 )
+_CHIP_SERVES = "".join(line for line in _CHIP_CALLS.splitlines(keepends=True) if "ask" not in line)
 SYSTEM = "version: 1\nboards: {own: {application: microros.yaml}, other: {application: other.yaml}}\nlinks:\n"
 
 
@@ -174,6 +175,7 @@ SYSTEMS: Mapping[str, str] = MappingProxyType(
         "peer_fragments_serving": SYSTEM + "  - {type: serial, mtu: 64, ends: {own: uart, other: uart}}\n",
         "local_chip": SYSTEM.replace("links:", "chips: [[own, other]]"),
         "local_chip_tasks": SYSTEM.replace("links:", "chips: [[other, own]]"),
+        "local_chip_serving": SYSTEM.replace("links:", "chips: [[own, other]]"),
         "local_group": _GROUP_SYSTEM,
         "local_group_tasks": _GROUP_SYSTEM.replace("own, other, third", "other, third, own"),
     }
@@ -192,6 +194,7 @@ OTHERS: Mapping[str, str] = MappingProxyType(
         "peer_fragments_serving": _other(_PEER_LARGE),
         "local_chip": _other(_CHIP),
         "local_chip_tasks": _other(_CHIP_CALLS),
+        "local_chip_serving": _other(_CHIP_SERVES),
         "local_group": _other(_CHIP),
         "local_group_tasks": _other(_CHIP_CALLS),
     }
@@ -406,6 +409,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "local_services": _LOCAL_SERVICES,
         "local_chip": _CHIP,
         "local_chip_tasks": _CHIP_CALLS + "components: [+services, +multithread, +executor]\nerrors: code\n",
+        "local_chip_serving": _CHIP_SERVES + "components: [+services]\n",
         "local_group": _CHIP,
         "local_group_tasks": _CHIP_CALLS + "components: [+services, +multithread, +executor]\nerrors: code\n",
         "local_also": _LOCAL.replace("local: only", "local: also", 1)

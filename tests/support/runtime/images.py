@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import subprocess
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +13,7 @@ from types import MappingProxyType
 
 from tests.support.components.rendered import SANITIZE, UNITS, rendered
 from tests.support.e2e.commanded import CommandedProgram
+from tests.support.patience import deadline
 from tests.support.runtime.harness import SANITIZER, Tree, compile_merged, link
 
 SYSTEM = """\
@@ -215,6 +217,14 @@ class Image(CommandedProgram):
     def counts(self, command: str) -> dict[str, int]:
         """Return the numbers that a command prints, by their names."""
         return {name: int(count) for name, count in (line.split() for line in self.call(command)[2])}
+
+    def listened(self, heard: int) -> dict[str, int]:
+        """Listen until it heard more than `heard` messages; return its counts."""
+        end = deadline(10)
+        counts = self.counts("listen 150")
+        while counts["heard"] <= heard and time.monotonic() < end:
+            counts = self.counts("listen 150")
+        return counts
 
     def kill(self) -> None:
         """End it as if it lost its supply."""

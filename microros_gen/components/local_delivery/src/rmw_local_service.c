@@ -141,6 +141,12 @@ static void local_reply(
   }
 }
 
+/* A function, since a comparison with a constant 0 is one that compilers warn about: there may be no client. */
+static bool local_is_below(uint16_t client, uint16_t count)
+{
+  return client < count;
+}
+
 rmw_ret_t rmw_local_respond(
   const xrce_endpoint_t * service, const microros_message_type_t * sent, const rmw_request_id_t * request,
   const void * ros_response)
@@ -155,7 +161,7 @@ rmw_ret_t rmw_local_respond(
     return rmw_shared_call_reply(service, sent, &origin, ros_response);
   }
   result = local_check(sent, ros_response);
-  if (result == RMW_RET_OK && origin.client < MICROROS_CLIENTS_MAX) {
+  if (result == RMW_RET_OK && local_is_below(origin.client, MICROROS_CLIENTS_MAX)) {
     local_reply(service, &origin, ros_response);
   }
   return result;

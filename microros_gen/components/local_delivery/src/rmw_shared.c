@@ -91,13 +91,13 @@ static rmw_ret_t shared_spread(
   rmw_ret_t last = result;
 
   while (next != NULL) {
-    const uint32_t * sent = rmw_shared_slot(ring, count); /* stays until this image writes it again */
+    const uint32_t size = *rmw_shared_slot(ring, count); /* the slot stays until this image writes it again */
     uint32_t place;
     rmw_ret_t other;
 
     if (shared_may_write(writer, next, &place, &other)) {
-      (void)memcpy(shared_body(next, place), &sent[1], sent[0]);
-      rmw_shared_commit(next, place, sent[0]);
+      (void)memcpy(shared_body(next, place), shared_body(ring, count), size);
+      rmw_shared_commit(next, place, size);
     }
     last = other != RMW_RET_OK ? other : last;
     next = rmw_shared_next(next);

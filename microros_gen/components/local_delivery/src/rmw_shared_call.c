@@ -30,15 +30,15 @@ uint32_t rmw_shared_call_words(const rmw_shared_ring_t * ring)
 }
 
 /* Returns the part of a client's run that its requests carry: a client that was opened again gets no replies to earlier ones. */
-static uint16_t call_run(uint16_t client)
+static uint16_t call_run(const rmw_shared_ring_t * requests)
 {
-  return (uint16_t)(rmw_shared_writer(call_requests(client)).run & UINT16_MAX);
+  return (uint16_t)(rmw_shared_writer(requests).run & UINT16_MAX);
 }
 
 bool rmw_shared_call_is_wanted(const rmw_shared_ring_t * ring, const uint32_t * slot)
 {
   return ring->endpoint < (uint16_t)CALL_FIRST_CLIENT ||
-         slot[CALL_NUMBER] >> 16 == (uint32_t)call_run(ring->endpoint);
+         slot[CALL_NUMBER] >> 16 == (uint32_t)call_run(&ring[-1]);
 }
 
 void rmw_shared_call_note(
@@ -112,7 +112,7 @@ rmw_ret_t rmw_shared_call_request(
 {
   const call_way_t way = {call_requests(client->index), client};
   const rmw_local_origin_t origin = {
-    .client = rmw_shared_look() == RMW_SHARED_ROOM ? call_run(client->index) : 0u,
+    .client = rmw_shared_look() == RMW_SHARED_ROOM ? call_run(call_requests(client->index)) : 0u,
     .number = number->request,
     .sequence = number->sequence};
 

@@ -21,13 +21,6 @@ static volatile uint32_t * shared_end(const rmw_shared_ring_t * ring, bool write
   return &shared_region[ring->ends + (writes ? 0u : (uint32_t)SHARED_END_WORDS)];
 }
 
-void rmw_shared_clear(void)
-{
-  for (size_t i = 0; i < (size_t)MICROROS_SHARED_RINGS; ++i) {
-    rmw_shared_end(&rmw_shared_rings[i]);
-  }
-}
-
 void rmw_shared_end(const rmw_shared_ring_t * ring)
 {
   if (shared_region != NULL && rmw_shared_may_end(shared_region)) {

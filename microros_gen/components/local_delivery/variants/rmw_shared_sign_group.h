@@ -67,7 +67,7 @@ enum { SHARED_RUN_IMAGES = 15 };
 /* Returns the number of the run after `run`. */
 static inline uint32_t rmw_shared_next_run(uint32_t run)
 {
-  return ((run | (uint32_t)SHARED_RUN_IMAGES) + 1u) | MICROROS_SHARED_OWN / (uint32_t)SHARED_WORDS;
+  return (run | (uint32_t)SHARED_RUN_IMAGES) + 1u + MICROROS_SHARED_OWN / (uint32_t)SHARED_WORDS;
 }
 
 #endif /* MICROROS_RMW_SHARED_SIGN_H */

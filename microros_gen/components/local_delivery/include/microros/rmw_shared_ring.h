@@ -7,6 +7,7 @@
 #define MICROROS_RMW_SHARED_RING_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "microros/rmw_shared.h"
@@ -62,7 +63,12 @@ void rmw_shared_free(const rmw_shared_ring_t * ring, uint32_t * count);
 void rmw_shared_end(const rmw_shared_ring_t * ring);
 
 /* Ends what this image has in all rings: another build may have written anything there. */
-void rmw_shared_clear(void);
+static inline void rmw_shared_clear(void)
+{
+  for (size_t i = 0; i < (size_t)MICROROS_SHARED_RINGS; ++i) {
+    rmw_shared_end(&rmw_shared_rings[i]);
+  }
+}
 
 /* Asks the platform for the memory again, if it had none. */
 void rmw_shared_retry(void);
