@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Rings of messages in memory that two images of one chip share: one for each topic of `local: chip`, two for each service. One
- * image writes, the other one reads. A message is in its slot as CDR, whose bytes do not depend on the compilers of the images.
+ * Rings of messages in memory that the images of one chip share: for each pair of ends of a topic of `local: chip` one, for each client
+ * of a service two. One image writes, the other one reads. A message is in its slot as CDR, whose bytes do not depend on the compilers of the images.
  * Internal.
  */
 #ifndef MICROROS_RMW_SHARED_H
@@ -27,10 +27,10 @@ typedef struct rmw_shared_ring_t {
   bool sends;
 } rmw_shared_ring_t;
 
-/* A service has two rings: that of its requests, and after it that of its replies. */
+/* Those of an endpoint are neighbors. A service has two for each client: that of the requests, and after it that of the replies. */
 extern const rmw_shared_ring_t rmw_shared_rings[MICROROS_SHARED_RINGS];
 
-/* The ring of each endpoint, of a service that of its requests, or RMW_LOCAL_NONE. */
+/* The first ring of each endpoint, of a service that of requests, or RMW_LOCAL_NONE. */
 extern const uint8_t rmw_shared_ring_of[XRCE_ENDPOINTS];
 
 /* Moves what the other image has written to the queues of endpoints. Called by each pump, with the lock held. */
