@@ -232,8 +232,8 @@ static void peer_receive(xrce_client_t * client, uint8_t index, uint32_t now)
       peer->more = false;
       return;
     }
-    /* cppcheck-suppress knownConditionTrueFalse ; without a task for the session a partial message is none */
-    if (size == (int32_t)XRCE_TURN_PARTIAL) {
+    /* cppcheck-suppress knownConditionTrueFalse ; without a task for the session nothing is partial */
+    if (xrce_turn_is_partial(size)) {
       continue;
     }
     ++client->session.statistics.received;

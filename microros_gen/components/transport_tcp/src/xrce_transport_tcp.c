@@ -118,7 +118,7 @@ int32_t xrce_plain_receive(xrce_transport_t * transport, uint8_t * buffer, size_
     }
     transport->arrived = (uint16_t)(transport->arrived + size);
     /* cppcheck-suppress knownConditionTrueFalse ; without a task for the session it reads until nothing has arrived */
-    if (XRCE_TURN_PARTIAL != 0 && transport->arrived != transport->size) {
+    if (xrce_turn_ends_with_read() && transport->arrived != transport->size) {
       return XRCE_TURN_PARTIAL; /* it may arrive one byte at a time: the lock is released in between */
     }
   }

@@ -34,9 +34,12 @@ static inline bool xrce_session_take(xrce_client_t * client, uint32_t now)
   xrce_session_t * session = &client->session;
   const int32_t size = xrce_transport_receive(&session->transport, client->input, MICROROS_INPUT_SIZE);
 
-  /* cppcheck-suppress knownConditionTrueFalse ; without a task for the session a partial message is none */
-  if (size == 0 || size == (int32_t)XRCE_TURN_PARTIAL) {
-    return size != 0;
+  if (size == 0) {
+    return false;
+  }
+  /* cppcheck-suppress knownConditionTrueFalse ; without a task for the session nothing is partial */
+  if (xrce_turn_is_partial(size)) {
+    return true;
   }
   ++session->statistics.received;
   if (size < 0 || !session_take_message(client, client->input, (size_t)size, now)) {
