@@ -6,7 +6,7 @@
 
 enum { FRAME_ADDRESSES = 2 };
 
-enum { CHUNKS_PER_CALL = XRCE_TURN_BYTES / XRCE_FRAMING_CHUNK };
+enum { CHUNKS_PER_CALL = (int)XRCE_TURN_BYTES / (int)XRCE_FRAMING_CHUNK };
 
 /*
  * CRC-16/ARC: x^16 + x^15 + x^2 + 1, reflected, initial value 0, no final XOR. With so few terms an entry

@@ -51,7 +51,7 @@ static bool task_count(uint8_t task)
   return is_late;
 }
 
-static void task_report_overrun(uint8_t task, bool is_late, uint32_t missed)
+static void task_report(uint8_t task, bool is_late, uint32_t missed)
 {
   const rclc_task_state_t * state = &rclc_task_states[task];
 
@@ -113,7 +113,7 @@ void rclc_tasks_run_period(uint8_t task)
     if (rclc_task_plans[task].overrun != RCLC_TASK_CATCH_UP) {
       missed = task_skip(task);
     }
-    task_report_overrun(task, is_late, missed);
+    task_report(task, is_late, missed);
     rclc_tasks_watch_period(task, state->next_us);
   }
 }
@@ -172,7 +172,7 @@ void rclc_tasks_round_ends(const rclc_executor_t * executor)
     microros_lock();
     rclc_task_states[task].is_in_round = false;
     microros_unlock();
-    task_report_overrun(task, task_count(task), 0);
+    task_report(task, task_count(task), 0);
     rclc_tasks_watch_rest(task);
   }
 }
