@@ -194,7 +194,11 @@ static uint32_t publish_for_a_while(rclc_support_t * support)
   CHECK(rclc_executor_init(&executor, &support->context, 1, &allocator) == RCL_RET_OK);
   CHECK(rclc_task_set_executor(RCLC_TASK_CONTROL, &executor, on_release) == RCL_RET_OK);
   CHECK(rclc_tasks_start() == RCL_RET_OK);
-  port_sleep_ms(20); /* the task of the session runs, most likely */
+  do { /* before its first round each task sends by itself */
+    port_sleep_ms(1);
+    CHECK(rclc_task_get_counters(RCLC_TASK_LINE, &counters) == RCL_RET_OK);
+    CHECK(microseconds(CLOCK_MONOTONIC) - begin_us < (uint64_t)MOST_S * US_PER_S);
+  } while (counters.runs == 0u);
   is_saturated = true;
   while (goes_on(begin_us)) {
     port_sleep_ms(10);
