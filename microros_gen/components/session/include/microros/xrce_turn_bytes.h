@@ -11,7 +11,7 @@
 enum { XRCE_TURN_BYTES = 2048 };
 
 /* Reads of a connection for one message: until nothing more has arrived. */
-enum { XRCE_TURN_READS = 65535 };
+#define XRCE_TURN_READS 65535u
 
 /* What xrce_transport_receive returns where it stopped before it had read all that has arrived: as if it had. */
 enum { XRCE_TURN_PARTIAL = 0 };

@@ -11,7 +11,7 @@
 enum { XRCE_TURN_BYTES = 64 };
 
 /* Reads of a connection for one message. The same applies. */
-enum { XRCE_TURN_READS = 1 };
+#define XRCE_TURN_READS 1u
 
 /* What xrce_transport_receive returns where it stopped before it had read all that has arrived. */
 enum { XRCE_TURN_PARTIAL = -2 };
