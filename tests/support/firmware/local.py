@@ -29,7 +29,7 @@ chips: [[device, other]]
 REFERENCE = "system: {file: system.yaml, board: device}\n"
 MESSAGES = {"Int32": ("std_msgs/msg/Int32", ()), "Pose": ("geometry_msgs/msg/Pose", ("-DMEASURED_POSE",))}
 MEASURED = {"only": (), "never": ("-DMEASURED_AGENT",), "chip": ("-DMEASURED_CHIP",)}
-TRANSPORTS = {"udp": (), "serial": ("-DMEASUREDLINE_FUNCTIONS",)}
+TRANSPORTS = {"udp": (), "serial": ("-DMEASURED_LINE",)}
 LINE_FUNCTIONS = (
     *("line_take", "line_stuff", "line_crc", "line_frame", "port_serial_open", "port_serial_close"),
     *("port_serial_room", "port_serial_write", "port_serial_send_kept", "port_serial_break_off"),
