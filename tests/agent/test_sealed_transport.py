@@ -22,9 +22,9 @@ from microros_gen.agent.log import EventLog
 from microros_gen.agent.seal.keys import read_keys
 from microros_gen.agent.seal.noise import NAME
 from microros_gen.agent.seal.session import FIRST, LABEL, RECORD, Kind
-from microros_gen.agent.transport.base import Receive, Transport
+from microros_gen.agent.transport.base import Receive, SealedAddress, Transport
 from microros_gen.agent.transport.outbox import SealedRecord
-from microros_gen.agent.transport.sealed import SealedAddress, SealedTransport
+from microros_gen.agent.transport.sealed import SealedTransport
 from microros_gen.agent.transport.sockets import UDP4
 from microros_gen.agent.transport.udp import Udp
 from microros_gen.agent.wire.constants import Status

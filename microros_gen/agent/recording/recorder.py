@@ -26,7 +26,7 @@ from microros_gen.agent.representation.description import (
     UnsupportedKindError,
 )
 from microros_gen.agent.representation.reference import UnknownReferenceError
-from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.transport.base import SealedAddress, Transport
 from microros_gen.agent.transport.observed import ObservedTransport
 from microros_gen.agent.wire.constants import ObjectKind, SubmessageId
 from microros_gen.agent.wire.entity_messages import Create
@@ -208,7 +208,8 @@ def _refused(path: Path, why: str) -> Diagnostic:
 
 def _number(address: Hashable) -> int:
     """Return a client's address on a line, or its identifier on a bus; 0 for others."""
-    number = address[1] if isinstance(address, tuple) and len(address) == 2 else 0
+    place = address.within if isinstance(address, SealedAddress) else address
+    number = place[1] if isinstance(place, tuple) and len(place) == 2 else 0
     return number if isinstance(number, int) else 0
 
 

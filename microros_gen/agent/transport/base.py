@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable
 from ipaddress import IPv4Address, IPv6Address
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from microros_gen.agent.fairness import Account
 
@@ -13,6 +13,13 @@ Receive = Callable[[bytes, Hashable, "Transport"], None]
 """Function that gets one message, its source address, and the transport."""
 Origin = IPv4Address | IPv6Address | str
 """Where a client is: the address of its host, or the path of its line, or the name of its CAN interface."""
+
+
+class SealedAddress(NamedTuple):
+    """Where a client is (`within` the transport that carries the records), and the client key that it has proved."""
+
+    within: Hashable
+    client_key: int
 
 
 class Transport(Protocol):

@@ -9,13 +9,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Hashable, Mapping
-from typing import NamedTuple
 
 from microros_gen.agent.fairness import Account
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.seal.handshakes import Handshakes
 from microros_gen.agent.seal.session import Kind, RecordError
-from microros_gen.agent.transport.base import Origin, Receive, Transport
+from microros_gen.agent.transport.base import Origin, Receive, SealedAddress, Transport
 from microros_gen.agent.transport.observed import ObservedTransport
 from microros_gen.agent.transport.outbox import SealedRecord, is_sample
 from microros_gen.agent.wire.constants import STREAM_NONE, Status, SubmessageId
@@ -23,13 +22,6 @@ from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.message import Header, header_size, split
 from microros_gen.agent.wire.session_messages import CreateClient, StatusAgent
 from microros_gen.agent.wire.submessages import decode, encode
-
-
-class SealedAddress(NamedTuple):
-    """Where a client is (`within` the transport that carries the records), and the client key that it has proved."""
-
-    within: Hashable
-    client_key: int
 
 
 class SealedTransport(ObservedTransport):

@@ -19,6 +19,7 @@ import pytest
 from microros_gen.agent.recording import pcapng
 from microros_gen.agent.recording.packets import decode
 from microros_gen.agent.recording.recorder import Recorder
+from microros_gen.agent.transport.base import SealedAddress
 from microros_gen.cli.agent.options import AgentOptions
 from microros_gen.diagnostics import UserError
 from tests.support.agent import captured
@@ -67,17 +68,21 @@ def test_an_interface_for_each_transport(tmp_path: Path) -> None:
     recorder.write(fake("serial /dev/ttyUSB0"), ("serial /dev/ttyUSB0", 3), b"x" * 20, inbound=True)
     recorder.write(fake("canfd can0"), ("canfd can0", 0x1FFF_FFFF), b"y" * 9, inbound=False)
     recorder.write(fake("udp6 [::1]:8888"), "[::2]:99", b"", inbound=True)
+    sealed = SealedAddress(("serial /dev/ttyUSB0", 4), 0xA1B2C3D4)
+    recorder.write(fake("serial /dev/ttyUSB0"), sealed, b"z", inbound=True)
     recorder.close()
     assert [p.interface.name for p in pcapng.read_packets(BytesIO(path.read_bytes()))] == [
         "serial /dev/ttyUSB0",
         "canfd can0",
         "udp6 [::1]:8888",
+        "serial /dev/ttyUSB0",
     ]
     agent = "fd58:5243:4500::1:0:0.8888"
     assert dumped(path) == [
         ("fd58:5243:4500::3.8888", agent, 20),
         (agent, "fd58:5243:4500::1fff:ffff.8888", 9),
         ("::2.99", "::1.8888", 0),
+        ("fd58:5243:4500::4.8888", agent, 1),
     ]
 
 
