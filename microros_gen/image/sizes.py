@@ -19,12 +19,14 @@ _LOST_BY_CALLS = frozenset({"r0", "r1", "r2", "r3", "ip", "lr"})
 _REGISTER = re.compile(r"\b(?:r\d+|sl|fp|ip|lr)\b")
 _ONE_RESULT = re.compile(
     r"^(?:mov|movs|movw|mvn|mvns|add|adds|addw|adc|adcs|sub|subs|subw|sbc|sbcs|rsb|rsbs|mul|muls|mla|mls|and|ands|orr|orrs"
-    r"|orn|eor|eors|bic|bics|lsl|lsls|lsr|lsrs|asr|asrs|ror|rors|sdiv|udiv|uxtb|uxth|sxtb|sxth|ubfx|sbfx|clz|rev|rev16"
-    r"|adr|ldr|ldrb|ldrh|ldrsb|ldrsh)$"
+    r"|orn|eor|eors|bic|bics|lsl|lsls|lsr|lsrs|asr|asrs|ror|rors|sdiv|udiv|uxtb|uxth|sxtb|sxth|ubfx|sbfx|bfi|bfc|clz|rev"
+    r"|rev16|adr|ldr|ldrb|ldrh|ldrsb|ldrsh)$"
 )
 _NO_RESULT = re.compile(
     r"^(?:cmp|cmn|tst|teq|str|strb|strh|strd|push|nop|b\w{0,2}|cbz|cbnz|it[te]*|stm\w*|tb[bh])$"
 )
+_CALL = re.compile(r"^bl(?!e$|t$|s$)")
+"""A call, also one with a condition; `ble`, `blt` and `bls` are jumps."""
 _MOVES_ON = re.compile(r"\[(\w+)[^\]]*\](?:!|, )|^(\w+)!")
 
 
@@ -54,7 +56,7 @@ def sizes_before(lines: Sequence[Line], following: Mapping[int, Sequence[int]]) 
 def _after(values: Mapping[str, int], mnemonic: str, operands: str) -> dict[str, int]:
     """Return what registers are after an instruction."""
     word, plain = mnemonic.split(".")[0], operands.split("@")[0].strip()
-    if word in ("bl", "blx"):
+    if _CALL.match(word):
         return {name: value for name, value in values.items() if name not in _LOST_BY_CALLS}
     changed = set(_changed(word, plain, _REGISTER.findall(plain)))
     left = {name: value for name, value in values.items() if name not in changed}

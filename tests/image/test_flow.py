@@ -156,6 +156,10 @@ CALL, FILL = "bl\t200 <fill>", function("200:\tbx\tlr", name="fill", begin=0x200
         (("it\teq", "moveq\tr2, #3", CALL), None, False),
         (("cmp\tr2, #3", CALL), None, True),
         (("umull\tr1, r2, r3, r4", CALL), None, False),
+        (("bfi\tr2, r3, #0, #8", CALL), None, False),
+        (("bfc\tr2, #4, #2", CALL), None, False),
+        (("movs\tr2, #4", "bic.w\tr2, r2, #3", CALL), None, False),
+        (("it\teq", "bleq\t200 <fill>", CALL), None, False),
     ],
 )
 def test_the_third_argument_of_a_call(lines: tuple[str, ...], size: int | None, passes: bool) -> None:
