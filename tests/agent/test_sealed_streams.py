@@ -12,6 +12,7 @@ import pytest
 from microros_gen.agent.configuration.model import SocketChoice
 from microros_gen.agent.fairness import Account
 from microros_gen.agent.seal.handshakes import Handshakes
+from microros_gen.agent.seal.session import RecordError
 from microros_gen.agent.transport.outbox import Outbox, SealedRecord, is_sample
 from microros_gen.agent.transport.sealed import SealedTransport
 from microros_gen.agent.transport.serial import Pty
@@ -26,7 +27,7 @@ from tests.support.agent.served import Served, wait_until
 from tests.support.agent.tcp_agent import tcp
 from tests.support.agent.tcp_link import TcpLink
 
-KEY, PSK = 0x0A0B0C0D, bytes(range(32))
+KEY, PSK, PEER = 0x0A0B0C0D, bytes(range(32)), "peer"
 OTHER = bytes(range(1, 33))
 
 
@@ -82,7 +83,7 @@ def test_repeated_records_are_refused(sealed: Sealed) -> None:
 def test_plain_client_is_denied(sealed: Sealed) -> None:
     plain = XrceClient(sealed.link(), KEY)  # type: ignore[arg-type]
     assert plain.connect() == Status.DENIED
-    assert sealed.served.count("seal_missing") >= 1
+    wait_until(lambda: sealed.served.count("seal_missing") >= 1, "it is counted, after the answer")
 
 
 def test_record_of_another_connection_is_refused() -> None:
@@ -156,9 +157,46 @@ def test_file_is_read_again(tmp_path: Path) -> None:
         wait_until(lambda: f"chmod 600 {file}" in bench.text.getvalue(), "the open file is reported")
 
 
+class Direct:
+    """A link to the handshakes of an agent in this process."""
+
+    def __init__(self, agent: Handshakes) -> None:
+        self._agent = agent
+        self._answer = b""
+
+    def settimeout(self, seconds: float) -> None:
+        """Nothing is waited for."""
+
+    def send(self, payload: bytes) -> None:
+        self._answer, fault = self._agent.answer(payload, PEER, 0.0)
+        assert fault == ""
+
+    def recv(self, size: int) -> bytes:
+        return self._answer
+
+    def close(self) -> None:
+        """Nothing is open."""
+
+
+def handshake(agent: Handshakes, key: int, psk: bytes) -> SealedLink:
+    return SealedLink(Direct(agent), key, psk)
+
+
 def test_sessions_of_keys_that_are_gone_are_forgotten() -> None:
-    agent = Handshakes({KEY: PSK})
-    agent.use({KEY: OTHER})
-    assert agent.answer(bytes(60), "peer", 0.0)[1] == "seal_other_version"
+    """Open ones and those without a record yet; those of a key that stays go on, and a new key counts at once."""
+    agent = Handshakes({KEY: PSK, 5: PSK, 6: PSK})
+    stays, changes, leaves = (handshake(agent, key, PSK) for key in (KEY, 5, 6))
+    for link in (stays, changes, leaves):
+        assert agent.open(link.record(b"hello"), PEER)[0] == b"hello"
+    for key in (KEY, 5, 6):
+        handshake(agent, key, PSK)
+    agent.use({KEY: PSK, 5: OTHER})
+    assert agent.open(stays.record(b"again"), PEER)[0] == b"again"
+    for link, key in ((changes, 5), (leaves, 6)):
+        assert agent.seal(b"answer", key, PEER) is None
+        with pytest.raises(RecordError, match="seal_no_session"):
+            agent.open(link.record(b"again"), PEER)
+    renewed = handshake(agent, 5, OTHER)
+    assert agent.open(renewed.record(b"hello"), PEER)[0] == b"hello"
     agent.use({})
     assert (agent._by_index, agent._answers, agent._current, agent._unconfirmed) == ({}, {}, {}, {})
