@@ -8,8 +8,10 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from importlib import import_module
+from itertools import product
+from typing import Any
 
 import pytest
 import yaml
@@ -42,16 +44,18 @@ def command(*arguments: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-def until(pattern: str, *arguments: str, calls: tuple[str, ...] = ()) -> list[str]:
-    """Run a command without an end until a line of its output fits; make calls of /enable meanwhile."""
+def until(
+    done: Callable[[list[str]], object], *arguments: str, calls: tuple[str, ...] = ()
+) -> list[str]:
+    """Run a command without an end until its output is what is wanted; make calls of /enable meanwhile."""
     with running(own_domain(), "microros_gen", *arguments) as started:
         end, turn = deadline(60), 0
-        while not started.says_match(pattern):
+        while not (started.says("") and done(started.lines)):
             assert time.monotonic() < end, started.lines
             assert started.process.poll() is None, started.lines
             if calls:
-                done = command("service", "call", "/enable", "std_srvs/srv/SetBool", calls[turn % len(calls)])
-                assert done.returncode == 0, done.stderr
+                made = command("service", "call", "/enable", "std_srvs/srv/SetBool", calls[turn % len(calls)])
+                assert made.returncode == 0, made.stderr
                 turn += 1
             time.sleep(0.05)
         started.process.send_signal(signal.SIGINT)
@@ -60,28 +64,50 @@ def until(pattern: str, *arguments: str, calls: tuple[str, ...] = ()) -> list[st
     return started.lines
 
 
+def each(*patterns: str) -> Callable[[list[str]], bool]:
+    """Want a line for each of these regular expressions."""
+    return lambda lines: all(any(re.search(pattern, line) for line in lines) for pattern in patterns)
+
+
+def echo(*arguments: str, patience_s: float = 5) -> tuple[str, ...]:
+    """Return the command; it looks longer for what it needs where the machine has other work."""
+    return ("service", "echo", *arguments, "--spin-time", f"{seconds(patience_s):.0f}")
+
+
+def call_in(lines: list[str]) -> tuple[Any, Any] | None:
+    """Return request and reply of a call of which both are printed: of one during the discovery only the reply may be."""
+    whole = "\n".join(lines).rpartition("---")[0]
+    events = [event for event in yaml.safe_load_all(whole) if event]
+    for request, response in product(events, events):
+        about, answer = dict(request["info"]), dict(response["info"])
+        kinds = about.pop("event_type"), answer.pop("event_type")
+        del about["stamp"], answer["stamp"]
+        if kinds == ("REQUEST_RECEIVED", "RESPONSE_SENT") and about == answer:
+            return request, response
+    return None
+
+
 def test_calls_of_a_service_are_printed(node: Running) -> None:
-    lines = until("event_type: RESPONSE_SENT", "service", "echo", "/enable", calls=("data: true",))
+    lines = until(call_in, *echo("/enable"), calls=("data: true",))
     assert not any("No publishers" in line for line in lines)
-    request, response = list(yaml.safe_load_all("\n".join(lines)))[:2]
-    assert request["info"]["event_type"] == "REQUEST_RECEIVED"
+    found = call_in(lines)
+    assert found is not None
+    request, response = found
     assert (request["request"], request["response"]) == ([{"data": True}], [])
-    assert response["info"]["event_type"] == "RESPONSE_SENT"
     assert (response["request"], response["response"]) == ([], [{"success": True, "message": "enabled"}])
-    assert request["info"]["sequence_number"] == response["info"]["sequence_number"]
     assert len(request["info"]["client_gid"]) == 16
 
 
 def test_options_of_the_text(node: Running) -> None:
-    arguments = ("service", "echo", "/enable", "std_srvs/srv/SetBool")
-    lines = until("RESPONSE_SENT", *arguments, "--flow-style", "--no-arr", calls=("data: false",))
-    assert any("request: '<sequence type: std_srvs/srv/SetBool_Request[1], length: 1>'" in x for x in lines)
-    lines = until(r"^2,.*disabled$", *arguments, "--csv", calls=("data: false",))
-    assert lines[0].startswith("1,"), "numbers, as ros2 prints them"
+    arguments = echo("/enable", "std_srvs/srv/SetBool")
+    request = r"request: '<sequence type: std_srvs/srv/SetBool_Request\[1\], length: 1>'"
+    until(each(request, "RESPONSE_SENT"), *arguments, "--flow-style", "--no-arr", calls=("data: false",))
+    numbers = each("^1,", "^2,.*disabled$")  # as ros2 prints them
+    until(numbers, *arguments, "--csv", calls=("data: false",))
 
 
 def test_service_without_introspection_gives_a_reason(node: Running) -> None:
-    (line,) = until("service introspection", "service", "echo", "/silent")
+    (line,) = until(each("service introspection"), *echo("/silent", patience_s=1.5))
     assert "No publishers on topic '/silent/_service_event'" in line
 
 
@@ -93,7 +119,7 @@ def test_unknown_service_has_a_proposal(node: Running) -> None:
 
 
 def rate(*options: str) -> float:
-    lines = until("average rate", "topic", "hz", "--window", "20", "/ticks", *options)
+    lines = until(each("average rate"), "topic", "hz", "--window", "20", "/ticks", *options)
     return float(next(found[1] for line in lines if (found := re.search(r"average rate: ([\d.]+)", line))))
 
 
@@ -101,16 +127,17 @@ def test_rates_in_both_times(node: Running) -> None:
     """One that the machine delays is measured again."""
     for options, expected in (((), 1.0), (("-s",), 1 / SPEED), (("-s", "--wall-time"), 1.0)):
         found: list[float] = []
+        end = deadline(30)
         while not found or found[-1] != pytest.approx(expected / PERIOD_S, rel=0.25):
-            assert len(found) < 5, (options, found)
+            assert time.monotonic() < end, (options, found)
             found.append(rate(*options))
 
 
 def test_delay_in_the_time_of_a_simulation(node: Running) -> None:
-    lines = until("average delay", "topic", "delay", "-s", "/ticks")
+    lines = until(each("average delay"), "topic", "delay", "-s", "/ticks")
     delay = float(next(found[1] for line in lines if (found := re.search(r"average delay: ([\d.]+)", line))))
     assert LATE_S - 1 < delay < LATE_S + 1
-    lines = until("average delay", "topic", "delay", "/ticks")
+    lines = until(each("average delay"), "topic", "delay", "/ticks")
     assert not any(re.search(r"average delay: [0-9]\.", line) for line in lines), "years, in real time"
 
 
