@@ -24,6 +24,7 @@ from tests.support.e2e.sealed import (
     wait_until_it_arrives,
     write_keys,
 )
+from tests.support.patience import seconds
 
 pytestmark = [pytest.mark.ros, pytest.mark.system]
 
@@ -85,7 +86,7 @@ def test_all_samples_arrive_over_a_bad_network(agent: AgentProcess, live: Live, 
         observer.ask(do="samples")
         for value in range(100, 140):
             live.ok(f"publish 0 {value}")
-            live.ok("flush 5000")
+            live.ok(f"flush {seconds(5) * 1000:.0f}")
         found: list[int] = []
         while 139 not in found:
             found += [v["data"] for _, v in observer.got(1, topic="/chatter")]

@@ -25,6 +25,7 @@ from tests.support.e2e.sealed import (
     write_keys,
 )
 from tests.support.free_ports import free_port
+from tests.support.patience import seconds
 
 pytestmark = [pytest.mark.ros, pytest.mark.system]
 PLAIN = f"""\
@@ -81,7 +82,7 @@ def publish_all(live: Live, observer: Observer, values: range) -> None:
     observer.ask(do="samples")
     for value in values:
         live.ok(f"publish 0 {value}")
-        live.ok("flush 10000")
+        live.ok(f"flush {seconds(10) * 1000:.0f}")
     found: list[int] = []
     while values[-1] not in found:
         found += [v["data"] for _, v in observer.got(1, topic="/chatter")]

@@ -24,7 +24,7 @@ session:
   key: {KEY}
   liveliness_period: 200 ms
   round_trip: 50 ms
-  liveliness_timeout: 1 s
+  liveliness_timeout: 4 s
   retry_max: 400 ms
   connect_timeout: 3 s
   create_timeout: 5 s
