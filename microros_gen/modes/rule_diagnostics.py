@@ -61,6 +61,8 @@ def _check_outside(wanted: RuleDiagnostics, parts: Mapping[str, Part], diagnosti
             message = f"'{named.name}' is a status of '{part}', which is a part: '{_HARDWARE}' leaves it out"
             what = f"names: [{own}]" if own.strip("*") else "no names"
             hint = f"Remove {_HARDWARE} and write {what}, in a rule on {part}"
+            if parts[part].is_system:
+                hint = "Name a status of no part: no rule waits for those of a system"
             diagnostics.error(message, named.span, hint, id="MG-9837")
 
 

@@ -71,7 +71,7 @@ def _is_possible(model: Model, found: Oscillation) -> bool:
 def _possible(model: Model, found: Oscillation) -> Diagnostic:
     """Return a warning: rules oscillate if two systems see different levels of one status."""
     rules = ", ".join(f"'{name}'" for name in found.rules)
-    message = f"not proven for '{found.system}': its rules {rules} end, as other systems have rules on such statuses"
+    message = f"not proven for '{found.system}': its rules {rules} oscillate if two systems see one status differently"
     hint = "Let only one system have rules with 'hardware'"
     block = tuple(f"  {_fault(*failure)}" for failure in found.failures)
     span = model.parts[found.system].span

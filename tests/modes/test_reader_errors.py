@@ -49,10 +49,16 @@ DIAGNOSED = [
         "is a status of 'joint', which is a part: 'hardware' leaves it out. Remove hardware and write names: [heat]",
     ),
     (
-        "{level: warn, hardware: '*', names: ['arm:*']}",
+        "{level: warn, hardware: '*', names: ['joint:*']}",
         "MG-9837",
-        "'arm:*']}",
-        "and write no names, in a rule on arm",
+        "'joint:*']}",
+        "and write no names, in a rule on joint",
+    ),
+    (
+        "{level: warn, hardware: '*', names: ['arm: x']}",
+        "MG-9837",
+        "'arm: x']}",
+        "Name a status of no part: no rule waits for those of a system",
     ),
     ("{level: error}", "MG-9835", "error}", "with these statuses 'joint' is in errorprocessing"),
 ]
