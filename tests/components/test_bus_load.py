@@ -164,6 +164,21 @@ def test_the_proposed_rate_is_enough_and_the_next_one_is_not(
     assert planned(system(tmp_path, ("60", "60", ""), bitrate=int(better)), board)
 
 
+def test_the_place_is_that_of_the_publisher_with_the_proposed_rate(tmp_path: Path) -> None:
+    """/x is more than /a on the way to one board, and less than /a to both of them."""
+    folder = system(tmp_path, ("80", "", ""), bitrate=125_000)
+    more = {
+        "sensor": ("peer: only, rate: 80 Hz}", ", {topic: /x, type: std_msgs/msg/Int64, peer: only, rate: 100 Hz}"),
+        "motor": ("Int32, peer: only}", ", {topic: /x, type: std_msgs/msg/Int64, peer: only}"),
+    }
+    for board, (before, after) in more.items():
+        path = folder / board / "microros.yaml"
+        path.write_text(path.read_text().replace(before, before + after))
+    text = refused(folder, "sensor")
+    assert "sensor/microros.yaml:7:74: error: the messages with a rate need 156260 bit/s" in text
+    assert "Write `rate: 51 Hz` at /a or" in text
+
+
 def test_a_type_of_another_board_that_does_not_exist(tmp_path: Path) -> None:
     folder = system(tmp_path, motor_type="std_msgs/msg/Strong")
     text = refused(folder, "sensor")

@@ -149,36 +149,52 @@ def _check_capacity(bus: BusLoad, span: Span | None, diagnostics: Diagnostics) -
     capacity = bus.medium.capacity
     if capacity is None or bus.load <= capacity:
         return
-    own = [publisher for each in bus.lines if not each.board for publisher in each.line.publishers]
-    largest = max(own, key=lambda publisher: publisher.load(bus.medium), default=None)
-    rate = _fitting(bus, capacity, of_this_board=True) or _fitting(bus, capacity, of_this_board=False)
+    own = _largest(bus, of_this_board=True)
+    rate = _fitting(bus, capacity, own) or _fitting(bus, capacity, _largest(bus, of_this_board=False))
     ways = [rate] if rate else []
     bits = next((each for each in BIT_RATES if each >= bus.load), math.ceil(bus.load))
     ways += [f"`transport: {{bitrate: {bits}}}` at all boards"] if bits <= MOST_RATE["canfd"] else []
     diagnostics.error(
         f"the messages with a rate need {math.ceil(bus.load)} bit/s on the bus '{bus.device}', and it carries "
         f"{bus.medium.rate} ({bus.parts})",
-        largest.rate_span if largest is not None else span,
+        own.span if own is not None else span,
         f"Write {' or '.join(ways)}, or lower the limits of the messages" if ways else "Lower several rates",
         id="MG-7269",
     )
 
 
-def _fitting(bus: BusLoad, capacity: Fraction, of_this_board: bool) -> str:
-    """Return the rate of the publisher with the largest load with which the bus carries everything; empty: none does.
+@dataclass(frozen=True)
+class _Publisher:
+    """A publisher of `board` (empty: this one), and the bits of one sample to all boards and the agent that get it."""
 
-    A publisher counts for all boards and the agent that it sends to. `of_this_board`: only those are looked at.
-    """
-    samples: dict[tuple[str, str, Fraction], int] = {}
+    board: str
+    topic: str
+    interval_us: Fraction
+    span: Span | None
+    sample: int
+
+    @property
+    def load(self) -> Fraction:
+        """Return the bits of its samples, in proportion to those of others."""
+        return self.sample / self.interval_us
+
+
+def _largest(bus: BusLoad, of_this_board: bool) -> _Publisher | None:
+    """Return the publisher with the largest load; `of_this_board`: only those are looked at."""
+    found: dict[tuple[str, str, Fraction], _Publisher] = {}
     for each in bus.lines:
         for publisher in each.line.publishers if not (each.board and of_this_board) else ():
             key = each.board, publisher.topic, publisher.interval_us
-            samples[key] = samples.get(key, 0) + publisher.sample(bus.medium)
-    if not samples:
+            before = found[key].sample if key in found else 0
+            found[key] = _Publisher(*key, publisher.rate_span, before + publisher.sample(bus.medium))
+    return max(found.values(), key=lambda publisher: publisher.load, default=None)
+
+
+def _fitting(bus: BusLoad, capacity: Fraction, publisher: _Publisher | None) -> str:
+    """Return the rate of a publisher with which the bus carries everything; empty: none does."""
+    if publisher is None:
         return ""
-    key, sample = max(samples.items(), key=lambda item: item[1] / item[0][2])
-    board, topic, interval_us = key
-    rate = (capacity - bus.load) / sample + _SECOND_US / interval_us
+    rate = (capacity - bus.load) / publisher.sample + _SECOND_US / publisher.interval_us
     rate = Fraction(math.floor(rate)) if rate >= 1 else rate
-    where = f" of the board '{board}'" if board else ""
-    return f"`rate: {rate_text(rate)}` at {topic}{where}" if rate * 1000 >= 1 else ""
+    where = f" of the board '{publisher.board}'" if publisher.board else ""
+    return f"`rate: {rate_text(rate)}` at {publisher.topic}{where}" if rate * 1000 >= 1 else ""
