@@ -147,7 +147,9 @@ def test_a_bus_that_goes_away_and_returns(observer: Observer, domain: int, talke
             assert agent.stop() == 0
             assert any("2 faults of input" in line for line in agent.rest())
     values = samples["/gone"]
-    assert values == sorted(set(values))
+    assert values == sorted(values)
+    if not counted["reconnects"]:  # a busy machine may take longer than the liveliness timeout for an outage
+        assert len(values) == len(set(values))
 
 
 def test_an_agent_that_restarts(observer: Observer, domain: int, bus: CanBus, talker: Path) -> None:
