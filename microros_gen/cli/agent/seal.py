@@ -77,9 +77,8 @@ class PskFile:
             return
         before, self._keys = self._keys or {}, keys
         ended = {client for client, key in before.items() if keys.get(client) != key}
-        agent.end_sessions(
-            ended, "disconnected: its key was removed or changed"
-        )  # told while it can be sealed
+        # They are told so while that can still be sealed.
+        agent.end_sessions(ended, "disconnected: its key was removed or changed")
         for transport in self._transports:
             transport.use_keys(keys)
         self._report(len(keys))
