@@ -119,7 +119,9 @@ def assert_fair(rates: Rates) -> None:
 @pytest.mark.parametrize("count", [250, pytest.param(1000, marks=pytest.mark.long)])
 def test_many_clients_are_served_alike_in_little_memory(count: int) -> None:
     domain = own_domain()
-    with running_agent(domain, "--max-clients", str(count)) as agent, fleet() as clients:
+    # Those that wait until the others have joined answer no probes.
+    options = ("--max-clients", str(count), "--client-timeout", "600")
+    with running_agent(domain, *options) as agent, fleet() as clients:
         before = resident_mb(agent.process.pid)
         clients.join(agent.port, domain, count)
         clients.write(2, 4)  # the last clients have just been created, which their first messages pay for
