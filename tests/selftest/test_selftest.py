@@ -244,6 +244,16 @@ def all_pass(program: Path, fault: str = "", one_processor: bool = False) -> str
     raise AssertionError(seen)
 
 
+def check_passes(program: Path, name: str) -> None:
+    """Run until a check passes: where a busy machine answered too late before the link went down, it is left out."""
+    seen = []
+    for _ in range(TRIES):
+        seen.append(results(all_pass(program))[name])
+        if seen[-1] == ("PASS", ""):
+            return
+    raise AssertionError(seen)
+
+
 def unseen(program: Path, fault: str, wanted: str) -> list[str]:
     """Return those of the wanted checks that pass with a fault; a busy machine may hide it, but not each time."""
     names = [wanted] if ": " in wanted else [f"{name}: seen " for name in wanted.split()]
@@ -398,7 +408,7 @@ def test_a_network_that_goes_down_and_up(outputs: Path) -> None:
         text = f"{HEAD}transport: {{type: udp, agent: '127.0.0.1:{port}'}}\n{SMALL}"
         out = generated(outputs / "link", text)
         program = link(["gcc", "-O1", "-DSELFTEST_LINK"], out, out / "faulty", LINK)
-        assert results(all_pass(program))["link_up_answers"] == ("PASS", "")
+        check_passes(program, "link_up_answers")
         check_faults(program, LINK_FAULTS)
     found = results(all_pass(program))
     assert (found["link_up_opens"][0], found["link_up_answers"][0]) == ("PASS", "SKIP")
@@ -440,7 +450,7 @@ def test_a_connection_whose_network_goes_down_and_up(outputs: Path) -> None:
         text = f"{HEAD}transport: {{type: tcp, agent: '127.0.0.1:{port}'}}\n{SMALL}"
         out = generated(outputs / "tcp_link", text)
         program = link(["gcc", "-O1", "-DSELFTEST_LINK"], out, out / "faulty", LINK)
-        assert results(all_pass(program))["tcp_link_up_answers"] == ("PASS", "")
+        check_passes(program, "tcp_link_up_answers")
         assert results(all_pass(program, "link_closes"))["tcp_link_down_receive_nothing"] == ("PASS", "")
         check_faults(program, TCP_LINK_FAULTS)
     found = results(all_pass(program))
@@ -452,7 +462,7 @@ def test_a_serial_line_that_is_unplugged_and_plugged_in(outputs: Path) -> None:
     out = generated(outputs / "serial_link", f"{HEAD}transport: {{type: serial, device: {line}}}\n{SMALL}")
     program = link(["gcc", "-O1", "-DSELFTEST_LINK"], out, out / "faulty", LINK)
     with looped_line(line):
-        assert results(all_pass(program))["serial_link_up_returns"] == ("PASS", "")
+        check_passes(program, "serial_link_up_returns")
         for fault in SERIAL_LINK_FAULTS:
             check_faults(program, {fault: SERIAL_LINK_FAULTS[fault]})
 
