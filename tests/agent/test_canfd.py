@@ -220,6 +220,24 @@ def test_a_kernel_without_can_is_named(log: io.StringIO) -> None:
     assert (found.id, found.message) == ("MG-9441", "this kernel has no CAN sockets")
 
 
+@pytest.mark.parametrize("error", [errno.EAFNOSUPPORT, errno.EPROTONOSUPPORT])
+def test_a_kernel_without_a_module_of_can_is_not_waited_for(
+    log: io.StringIO, monkeypatch: pytest.MonkeyPatch, error: int
+) -> None:
+    """Without `can` there is no family of addresses, without `can_raw` no protocol of it (net/can/af_can.c)."""
+
+    def none(*_: object) -> socket.socket:
+        raise OSError(error, "not there")
+
+    monkeypatch.setattr(socket, "socket", none)
+    with pytest.raises(UserError) as raised:
+        CanFd("can0", EventLog(log, False))
+    assert [(found.id, "can_raw" in (found.hint or "")) for found in raised.value.diagnostics] == [
+        ("MG-9441", True)
+    ]
+    assert log.getvalue() == ""
+
+
 class Interface(socket.socket):
     """A socket of an interface that is down, as the kernel has it: it can be bound, and then reports that."""
 

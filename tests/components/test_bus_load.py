@@ -168,7 +168,10 @@ def test_the_place_is_that_of_the_publisher_with_the_proposed_rate(tmp_path: Pat
     """/x is more than /a on the way to one board, and less than /a to both of them."""
     folder = system(tmp_path, ("80", "", ""), bitrate=125_000)
     more = {
-        "sensor": ("peer: only, rate: 80 Hz}", ", {topic: /x, type: std_msgs/msg/Int64, peer: only, rate: 100 Hz}"),
+        "sensor": (
+            "peer: only, rate: 80 Hz}",
+            ", {topic: /x, type: std_msgs/msg/Int64, peer: only, rate: 100 Hz}",
+        ),
         "motor": ("Int32, peer: only}", ", {topic: /x, type: std_msgs/msg/Int64, peer: only}"),
     }
     for board, (before, after) in more.items():

@@ -44,9 +44,7 @@ def command(*arguments: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-def until(
-    done: Callable[[list[str]], object], *arguments: str, calls: tuple[str, ...] = ()
-) -> list[str]:
+def until(done: Callable[[list[str]], object], *arguments: str, calls: tuple[str, ...] = ()) -> list[str]:
     """Run a command without an end until its output is what is wanted; make calls of /enable meanwhile."""
     with running(own_domain(), "microros_gen", *arguments) as started:
         end, turn = deadline(60), 0
@@ -75,7 +73,7 @@ def echo(*arguments: str, patience_s: float = 5) -> tuple[str, ...]:
 
 
 def call_in(lines: list[str]) -> tuple[Any, Any] | None:
-    """Return request and reply of a call of which both are printed: of one during the discovery only the reply may be."""
+    """Return request and reply of the first call with both; one during the discovery may have its reply alone."""
     whole = "\n".join(lines).rpartition("---")[0]
     events = [event for event in yaml.safe_load_all(whole) if event]
     for request, response in product(events, events):

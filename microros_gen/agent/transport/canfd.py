@@ -49,8 +49,10 @@ _REQUEST = struct.Struct("=16si20x")
 """A struct ifreq of linux/if.h with ifr_mtu."""
 _SOL_CAN_RAW = 101
 _LENGTHS = (*range(9), 12, 16, 20, 24, 32, 48, 64)
-_NO_FD = errno.EPROTONOSUPPORT
-"""An interface with classic frames alone; `ip link set can0 type can fd on` changes that."""
+_NO_FD = errno.EMEDIUMTYPE
+"""An interface with classic frames alone; `ip link set can0 type can fd on` changes that. No call of CAN has this."""
+_NO_SOCKETS = (errno.EAFNOSUPPORT, errno.EPROTONOSUPPORT)
+"""The kernel has no CAN, or not the module can_raw."""
 _ABSENT = (errno.ENODEV, errno.ENXIO, errno.ENOENT, errno.ECONNREFUSED, errno.ENETDOWN, _NO_FD)
 _FULL = (errno.EAGAIN, errno.ENOBUFS)
 
@@ -299,7 +301,7 @@ def _why(error: OSError) -> str:
 
 
 def _explain(error: OSError, device: str) -> Diagnostic:
-    if error.errno == errno.EAFNOSUPPORT:
+    if error.errno in _NO_SOCKETS:
         return Diagnostic(
             "this kernel has no CAN sockets",
             hint="Load the module can_raw (modprobe can_raw), or use a kernel with CAN",
