@@ -49,8 +49,8 @@ _REQUEST = struct.Struct("=16si20x")
 """A struct ifreq of linux/if.h with ifr_mtu."""
 _SOL_CAN_RAW = 101
 _LENGTHS = (*range(9), 12, 16, 20, 24, 32, 48, 64)
-_NO_FD = errno.EMEDIUMTYPE
-"""An interface with classic frames alone; `ip link set can0 type can fd on` changes that. No call of CAN has this."""
+_NO_FD = errno.EMSGSIZE
+"""With classic frames alone; `ip link set can0 type can fd on` changes that. No call that opens a bus fails so."""
 _NO_SOCKETS = (errno.EAFNOSUPPORT, errno.EPROTONOSUPPORT)
 """The kernel has no CAN, or not the module can_raw."""
 _ABSENT = (errno.ENODEV, errno.ENXIO, errno.ENOENT, errno.ECONNREFUSED, errno.ENETDOWN, _NO_FD)
