@@ -173,3 +173,20 @@ def test_the_loops_of_what_sends_and_receives_have_a_bound(component: str) -> No
     }
     assert bounds
     assert [place for place, most in bounds.items() if not isinstance(most, int)] == []
+
+
+@pytest.mark.parametrize(
+    "path", ["framing/src/xrce_framing_send.c", "transport_tcp/src/xrce_transport_tcp.c"]
+)
+def test_what_a_line_sends_is_longer_where_it_is_sealed(path: str) -> None:
+    """A record has 32 bytes more than its message."""
+    source, plain = COMPONENTS / path, "#define MICROROS_MTU 512u\nenum { XRCE_TCP_PREFIX = 2 };\n"
+    seal = (COMPONENTS / "seal" / "include" / "microros" / "xrce_messages.h").read_text()
+
+    def most(*headers: str) -> list[int]:
+        sources = Sources(lambda name: Path(name).read_text(), headers)
+        bounds = (sources.rounds([(str(source), loop.first)]) for loop in Source(source.read_text()).loops)
+        return [bound for bound in bounds if isinstance(bound, int) and bound > 2]
+
+    assert most(plain, seal) == [bound + 32 for bound in most(plain)]
+    assert most(plain)
