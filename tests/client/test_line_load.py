@@ -132,6 +132,26 @@ def test_the_numbers_are_in_resolve_and_in_what_generate_prints(tmp_path: Path, 
     )
 
 
+def test_a_sealed_message_takes_its_record_too(tmp_path: Path) -> None:
+    """32 bytes with each message: they count for the rates, and for how long the largest messages take."""
+    device = "liveliness: ping\nsession: {key: 7}\n"
+
+    def text(rate: str, more: str = "") -> str:
+        count = f"topic: count, type: std_msgs/msg/Int32, rate: {rate}, {BEST_EFFORT}"
+        return text_of(count, transport=f"serial{more}") + device
+
+    assert load_of(tmp_path, text("200 Hz")).load == 200 * usual_frame(16)
+    assert load_of(tmp_path, text("200 Hz", ", seal: psa")).load == 200 * usual_frame(16 + 32)
+    load_of(tmp_path, text("400 Hz"))
+    line = refusal(tmp_path, text("400 Hz", ", seal: psa"))
+    (rate,) = re.findall(r"rate: (\d+) Hz` at /count or", line)
+    load_of(tmp_path, text(f"{rate} Hz", ", seal: psa"))
+    assert "MG-7130" in refusal(tmp_path, text(f"{int(rate) + 1} Hz", ", seal: psa"))
+    slow = [planned(tmp_path, text("1 Hz", f", baud: 9600{seal}")) for seal in ("", ", seal: psa")]
+    plain, sealed = (found.project.runtime.times.retry_first_ms for found in slow)
+    assert 60 <= sealed - plain <= 70
+
+
 def test_a_line_of_which_nothing_is_known_carries_everything(tmp_path: Path) -> None:
     load = load_of(tmp_path, text_of(f"{IMU}, rate: 100 kHz, {BEST_EFFORT}", transport="udp"))
     (publisher,) = load.publishers

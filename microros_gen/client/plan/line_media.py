@@ -5,9 +5,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from microros_gen.application.transport_decl import Transport
+from microros_gen.application.model import Application
 from microros_gen.client.plan.session_times import LINE_BITS_PER_BYTE
 from microros_gen.client.plan.streams import longest_frame, usual_frame
+from microros_gen.client.plan.transport_sizes import seal_overhead
 from microros_gen.records import dataclass
 
 BAUD_RATES = (
@@ -35,11 +36,13 @@ class Medium:
 
     Loads are bits on CAN, and bytes on other lines. The agent sends on the same bus where it is `shared`; on a serial
     line each direction has its own wire. `stuffed`: each byte of a frame on a serial line counts as stuffed.
+    `overhead`: bytes of a record around each message, where they are sealed.
     """
 
     kind: str
     rate: int | None
     stuffed: bool = False
+    overhead: int = 0
 
     @property
     def unit(self) -> str:
@@ -70,19 +73,20 @@ class Medium:
 
     def usual(self, size: int) -> int:
         """Return what a message of `size` bytes takes: usually, at most where each byte is stuffed, and on CAN."""
+        carried = size + self.overhead
         if self.kind == "serial":
-            return longest_frame(size) if self.stuffed else usual_frame(size)
-        return can_frame_bits(size) if self.kind == "canfd" else size
+            return longest_frame(carried) if self.stuffed else usual_frame(carried)
+        return can_frame_bits(carried) if self.kind == "canfd" else carried
 
     def most(self, size: int) -> int:
         """Return what it takes at most."""
-        return longest_frame(size) if self.kind == "serial" else self.usual(size)
+        return longest_frame(size + self.overhead) if self.kind == "serial" else self.usual(size)
 
 
-def medium_of(kind: str, transport: Transport) -> Medium:
+def medium_of(kind: str, application: Application) -> Medium:
     """Return the line of the selected transport."""
-    rates = {"serial": transport.baud, "canfd": transport.bitrate}
-    return Medium(kind, rates.get(kind))
+    rates = {"serial": application.transport.baud, "canfd": application.transport.bitrate}
+    return Medium(kind, rates.get(kind), overhead=seal_overhead(application))
 
 
 def can_frame_bits(size: int) -> int:

@@ -172,11 +172,12 @@ def plan_project(
         application, selection, by_name, roots, services, models_of(target.data_model)
     )
 
-    medium = medium_of(selection.transport, application.transport)
+    medium = medium_of(selection.transport, application)
 
     def times(rate: int | None) -> TimesPlan:
         baud = rate if medium.kind == "serial" else None
-        return plan_times(application.times, baud, streams.mtu, streams.input_size)
+        sent, received = streams.mtu + medium.overhead, streams.input_size + medium.overhead
+        return plan_times(application.times, baud, sent, received)
 
     line = plan_line_load(
         application,
