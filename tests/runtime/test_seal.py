@@ -12,17 +12,20 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from cryptography.hazmat.primitives.asymmetric.x25519 import X25519PrivateKey
 from noise.connection import NoiseConnection
 
 from microros_gen.agent.seal.handshakes import HANDSHAKES_PER_SECOND, UNCONFIRMED, Handshakes
-from microros_gen.agent.seal.noise import NAME, HandshakeError, respond
+from microros_gen.agent.seal.noise import NAME, HandshakeError, _State, respond
 from microros_gen.agent.seal.session import (
     FIRST,
     LABEL,
     LAST_RECORD,
     RECORD,
+    REFUSAL,
     WINDOW,
     Kind,
+    Reason,
     RecordError,
 )
 from tests.support.paths import ROOT
@@ -33,7 +36,7 @@ PSK = bytes(range(1, 33))
 PEER = ("agent", ("192.0.2.1", 4000))
 LARGEST_OF_PLAN = 74
 """The larger one of MTU and input buffer in the application of `tests/support/runtime/sealed.py`."""
-SILENT, REFUSED, FORGED = 3, 4, 5
+NO_KEY, SILENT, REFUSED, FORGED = 1, 3, 4, 5
 """Values of xrce_seal_fault_t."""
 
 
@@ -347,6 +350,36 @@ def test_points_of_small_order_are_refused(device: Device, point: bytes) -> None
     assert not device.is_ready
     with pytest.raises(HandshakeError):
         respond(PSK, b"", point + bytes(16), lambda: None)
+
+
+def answer_to_zeros() -> bytes:
+    """Return what answers a first message whose secret, chaining key and hash are zeros: no key is needed for it."""
+    state, secret = object.__new__(_State), X25519PrivateKey.generate()
+    state._hash = state._chain = bytes(32)
+    local = secret.public_key().public_bytes_raw()
+    state.mix_ephemeral(local)
+    state.mix_key(secret.exchange(X25519PrivateKey.from_private_bytes(bytes(32)).public_key()))
+    return local + state.seal()
+
+
+def test_nothing_is_an_answer_without_a_handshake(device: Device) -> None:
+    """The next one could not begin, because the key was not there for a moment: the wiped secrets begin no session."""
+    first = first_of(device)
+    own = FIRST.unpack_from(first)[3]
+    assert device.arrives(Handshakes({CLIENT_KEY: PSK}).answer(first, PEER, 0.0)[0]) == 0
+    device.set_next(LAST_RECORD)
+    device.set_key(None)
+    assert not device.send(b"up")
+    assert (device.fault, len(device.sent())) == (NO_KEY, 1)
+    assert device.arrives(FIRST.pack(Kind.SECOND, 1, 0, 9, own) + answer_to_zeros()) == -1
+    assert device.arrives(REFUSAL.pack(Kind.REFUSAL, 1, Reason.UNKNOWN_KEY, 0, own)) == -1
+    assert (device.fault, device.is_ready, device.refused) == (NO_KEY, 0, 2)
+    device.set_key(PSK)
+    assert device.send(b"up")
+    (again,) = device.sent()
+    assert again != first
+    assert device.arrives(Handshakes({CLIENT_KEY: PSK}).answer(again, PEER, 0.0)[0]) == 0
+    assert device.is_ready
 
 
 def test_plain_message_is_refused(device: Device) -> None:

@@ -201,6 +201,13 @@ static int32_t seal_refuse(xrce_seal_t * seal)
   return -1;
 }
 
+/* Returns whether the agent has to answer a handshake. Without one the secrets are zeros, with which anyone can make an
+ * answer. */
+static bool seal_awaits_answer(const xrce_seal_t * seal)
+{
+  return !seal->is_ready && seal->fault > (uint8_t)XRCE_SEAL_NO_CRYPTO;
+}
+
 /* The second message of the handshake: the session begins. */
 static int32_t seal_on_second(xrce_transport_t * transport, const uint8_t * second, size_t size)
 {
@@ -211,6 +218,9 @@ static int32_t seal_on_second(xrce_transport_t * transport, const uint8_t * seco
   }
   if (seal->is_ready) {
     return 0; /* the answer to a repetition */
+  }
+  if (!seal_awaits_answer(seal)) {
+    return seal_refuse(seal);
   }
   if (!xrce_noise_finish(&seal->noise, &second[XRCE_SEAL_HELLO], seal->sending, seal->receiving)) {
     seal->fault = (uint8_t)XRCE_SEAL_FORGED;
@@ -282,7 +292,7 @@ static int32_t seal_on_record(
 /* A refusal is not authenticated: it changes nothing but the reason that the application sees. */
 static int32_t seal_on_refusal(xrce_seal_t * seal, const uint8_t * refusal)
 {
-  if (!seal->is_ready && seal_get_32(&refusal[4]) == seal->own) {
+  if (seal_awaits_answer(seal) && seal_get_32(&refusal[4]) == seal->own) {
     seal->fault = (uint8_t)XRCE_SEAL_REFUSED;
   }
   return seal_refuse(seal);
