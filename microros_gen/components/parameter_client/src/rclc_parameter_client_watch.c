@@ -127,15 +127,16 @@ bool rclc_parameter_client_may_watch(const rclc_parameter_client_t * client, con
   return other == NULL;
 }
 
+static const microros_message_type_t watch_message = {
+  .dds_type_name = MICROROS_FLASH_NAME("rcl_interfaces::msg::dds_::ParameterEvent_"),
+  .max_encoded_size = rcl_interfaces__msg__ParameterEvent__MAX_ENCODED_SIZE,
+  .decode = watch_decode};
+
 rcl_ret_t rclc_parameter_client_watch(
   rclc_parameter_client_t * client, rclc_parameter_client_event_callback_t callback, void * context)
 {
-  static const microros_message_type_t message = {
-    .dds_type_name = "rcl_interfaces::msg::dds_::ParameterEvent_",
-    .max_encoded_size = rcl_interfaces__msg__ParameterEvent__MAX_ENCODED_SIZE,
-    .decode = watch_decode};
   static const rosidl_message_type_support_t type = {
-    .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &message};
+    .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &watch_message};
   const rclc_parameter_client_event_callback_t before = client != NULL ? client->event_callback : NULL;
   rmw_subscription_t ** subscription;
   rcl_ret_t result = RCL_RET_OK;

@@ -32,14 +32,15 @@ static uint32_t held_encode(const void * message, uint8_t * body, cdr_fault_t * 
   return out.full ? 0u : out.position;
 }
 
+static const microros_message_type_t held_message = {
+  .dds_type_name = MICROROS_FLASH_NAME("microros_parameter_msgs::msg::dds_::Notice_"),
+  .max_encoded_size = microros_parameter_msgs__msg__Notice__MAX_ENCODED_SIZE,
+  .encode = held_encode};
+
 rcl_ret_t rclc_parameter_held_open(rclc_parameter_server_t * server, const rcl_node_t * node)
 {
-  static const microros_message_type_t message = {
-    .dds_type_name = "microros_parameter_msgs::msg::dds_::Notice_",
-    .max_encoded_size = microros_parameter_msgs__msg__Notice__MAX_ENCODED_SIZE,
-    .encode = held_encode};
   static const rosidl_message_type_support_t type = {
-    .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &message};
+    .typesupport_identifier = MICROROS_TYPE_SUPPORT_IDENTIFIER, .data = &held_message};
   rmw_qos_profile_t qos = rmw_qos_profile_default;
 
   qos.durability = RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL;
