@@ -15,6 +15,7 @@ static inline void xrce_tcp_check(xrce_client_t * client, uint32_t now)
   xrce_session_t * session = &client->session;
 
   if (session->transport_open && xrce_transport_is_broken(&session->transport)) {
+    xrce_transport_close(&session->transport); /* the port has no socket any more; keys are wiped */
     session->transport_open = false;
     if (session->state == (uint8_t)XRCE_READY) {
       xrce_session_mark_lost(client, now);
