@@ -149,7 +149,7 @@ WAITS = "port_time_ms() - start <"
 
 
 BOUNDED = (
-    *("framing", "peer", "stream_best_effort", "stream_reliable", "stream_reliable_input"),
+    *("framing", "peer", "seal", "stream_best_effort", "stream_reliable", "stream_reliable_input"),
     *("transport_canfd", "transport_tcp", "write"),
 )
 

@@ -28,7 +28,7 @@ static size_t frame_measure(const uint8_t * bytes, size_t size, uint16_t * crc)
   uint16_t sum = 0;
   size_t stuffed = size;
 
-  /* at most size of xrce_framing_send or XRCE_SEAL_SENT or MICROROS_MTU + MICROROS_PEER_MTU or MICROROS_MTU rounds */
+  /* at most size of xrce_framing_send or MICROROS_MTU + MICROROS_PEER_MTU or XRCE_SEALED_MOST or MICROROS_MTU rounds */
   for (size_t i = 0; i < size; ++i) {
     sum = xrce_framing_crc(sum, bytes[i]);
     stuffed += frame_is_escaped(bytes[i]) ? 1u : 0u;
@@ -46,7 +46,7 @@ static void writer_flush(frame_writer_t * writer)
 /* Writes bytes, stuffed. */
 static void writer_put(frame_writer_t * writer, const uint8_t * bytes, size_t size)
 {
-  /* at most size of writer_put or XRCE_SEAL_SENT or MICROROS_MTU + MICROROS_PEER_MTU or MICROROS_MTU rounds */
+  /* at most size of writer_put or MICROROS_MTU + MICROROS_PEER_MTU or XRCE_SEALED_MOST or MICROROS_MTU rounds */
   for (size_t i = 0; i < size && writer->fine; ++i) {
     uint8_t byte = bytes[i];
 

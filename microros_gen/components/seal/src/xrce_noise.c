@@ -10,7 +10,7 @@ void xrce_noise_wipe(uint8_t * bytes, size_t size)
 {
   volatile uint8_t * at = bytes;
 
-  for (size_t i = 0; i < size; ++i) {
+  for (size_t i = 0; i < size; ++i) { /* at most BLOCK rounds: nothing secret is longer */
     at[i] = 0;
   }
 }

@@ -166,7 +166,7 @@ static bool seal_keep(xrce_seal_t * seal, const uint8_t * message, size_t size)
   if (size > sizeof(seal->waiting)) {
     return false;
   }
-  (void)memcpy(seal->waiting, message, size);
+  (void)memcpy(seal->waiting, message, size); /* at most XRCE_SEAL_WAITING bytes */
   seal->waiting_size = (uint8_t)size;
   return true;
 }

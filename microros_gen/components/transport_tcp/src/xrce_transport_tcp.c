@@ -33,7 +33,7 @@ void xrce_plain_close(xrce_transport_t * transport)
 /* Sends waiting bytes. */
 static void transport_flush(xrce_transport_t * transport)
 {
-  /* at most XRCE_TCP_PREFIX + XRCE_SEAL_SENT or XRCE_TCP_PREFIX + MICROROS_MTU rounds: each sends a byte or more */
+  /* at most XRCE_TCP_PREFIX + XRCE_SEALED_MOST or XRCE_TCP_PREFIX + MICROROS_MTU rounds: each sends a byte or more */
   while (!transport->closed && transport->unsent != 0u) {
     const int32_t taken =
       port_tcp_send(&transport->tcp, &transport->output[transport->sent], transport->unsent);
@@ -62,7 +62,7 @@ bool xrce_plain_send(xrce_transport_t * transport, const uint8_t * message, size
     return false;
   }
   xrce_put_le16(transport->output, (uint16_t)size);
-  /* at most XRCE_SEAL_SENT or MICROROS_MTU bytes */
+  /* at most XRCE_SEALED_MOST or MICROROS_MTU bytes */
   (void)memcpy(&transport->output[XRCE_TCP_PREFIX], message, size);
   transport->sent = 0;
   transport->unsent = (uint16_t)(XRCE_TCP_PREFIX + size);

@@ -21,9 +21,12 @@ struct xrce_transport_t;
 #define XRCE_SEAL_FIRST 60u
 #define XRCE_SEAL_OVERHEAD 32u
 
-/* Bytes of the largest record that is sent, and of the largest message that the transport itself sends. */
-#define XRCE_SEAL_SENT (MICROROS_MTU + XRCE_SEAL_OVERHEAD)
-#define XRCE_LARGEST_SENT (XRCE_SEAL_SENT > XRCE_SEAL_FIRST ? XRCE_SEAL_SENT : XRCE_SEAL_FIRST)
+/* Bytes of the largest message that the transport itself sends. */
+#define XRCE_LARGEST_SENT \
+  (MICROROS_MTU + XRCE_SEAL_OVERHEAD > XRCE_SEAL_FIRST ? MICROROS_MTU + XRCE_SEAL_OVERHEAD : XRCE_SEAL_FIRST)
+
+/* An upper bound of it, for comments that bound a loop or a copy: a sum, which the report on holds of the lock can read. */
+#define XRCE_SEALED_MOST (MICROROS_MTU + XRCE_SEAL_FIRST)
 
 /* The agent has one session of a client: that of the handshake that was confirmed last. */
 #define XRCE_MESSAGES_ONE_SOCKET true
