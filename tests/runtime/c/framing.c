@@ -104,6 +104,9 @@ static void feed(xrce_framing_t * framing, uint8_t * buffer, size_t capacity, si
     } else if (got < 0) {
       printf("bad\n");
     } else {
+      if (framing->used != framing->held) {
+        abort(); /* nobody would call again before the line has more */
+      }
       check_untouched(framing, buffer, capacity);
       continue;
     }

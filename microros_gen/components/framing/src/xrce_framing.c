@@ -86,17 +86,19 @@ int32_t xrce_framing_receive(
   xrce_framing_t * framing, struct xrce_transport_t * line, uint8_t * buffer, size_t capacity)
 {
   for (int i = 0; i < CHUNKS_PER_CALL; ++i) {
+    if (framing->used >= framing->held) {
+      framing->used = 0;
+      framing->held = (uint8_t)xrce_line_read(line, framing->chunk, sizeof(framing->chunk));
+    }
+    if (framing->held == 0u) {
+      return 0;
+    }
     while (framing->used < framing->held) { /* at most XRCE_FRAMING_CHUNK rounds */
       const int32_t size = reader_take_raw(framing, framing->chunk[framing->used++], buffer, capacity);
 
       if (size != 0) {
         return size;
       }
-    }
-    framing->used = 0;
-    framing->held = (uint8_t)xrce_line_read(line, framing->chunk, sizeof(framing->chunk));
-    if (framing->held == 0u) {
-      return 0;
     }
   }
   return XRCE_TURN_PARTIAL;

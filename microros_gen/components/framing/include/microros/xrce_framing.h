@@ -45,7 +45,8 @@ bool xrce_framing_send(struct xrce_transport_t * line, const uint8_t * message, 
  * discarded frame (aborted, wrong stuffing, other address, longer than `capacity`, empty, wrong CRC); only
  * that frame is lost. `buffer` keeps the partial frame: pass the same one until a message was received.
  * Bytes between frames are skipped. One call processes at most XRCE_TURN_BYTES bytes; XRCE_TURN_PARTIAL (xrce_turn_bytes.h):
- * so many were there, and no frame was complete.
+ * so many were there, and no frame was complete. Without a message it keeps no byte that it has read and not processed: only
+ * what is in the line ends a wait.
  */
 int32_t xrce_framing_receive(
   xrce_framing_t * framing, struct xrce_transport_t * line, uint8_t * buffer, size_t capacity);
