@@ -11,9 +11,9 @@ import pytest
 
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import QueuePlan
-from microros_gen.selection.find_components import parts_folder
+from microros_gen.selection.find_components import components_folder, parts_folder
 from tests.support.patience import seconds
-from tests.support.plans import POOL, changed
+from tests.support.plans import POOL, READER, changed
 from tests.support.runtime.harness import SANITIZE, SANITIZER, Tree, build, compilers, components, render
 
 DROP_OLDEST = changed(POOL, streams__on_full="drop_oldest")
@@ -115,6 +115,25 @@ def test_waiting_for_what_a_queue_holds(tmp_path: Path) -> None:
     tree = render(tmp_path, plan, components(plan))
     alone = Tree(tree.folder, tuple(s for s in tree.sources if s.parent.name == "stream_best_effort"))
     program = build(alone, ["unit_mark_queue.c"], "unit", SANITIZER, SANITIZE)
+    done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def test_a_sample_in_the_input_buffer_and_a_message_in_parts(tmp_path: Path) -> None:
+    """With a task for the session a part of a message ends a receive call; it is no message that was discarded."""
+    plan = changed(
+        READER,
+        transport__kind="tcp",
+        input__size=440,
+        input__queues=(QueuePlan(1, 400), QueuePlan(3, 16)),
+        input__reader=0,
+        input__free=64,
+    )
+    tree = render(tmp_path, plan, [name for name in components(plan) if name != "port_posix"])
+    header = Path("microros") / "xrce_turn_bytes.h"
+    (tree.include / header).unlink()
+    shutil.copy(components_folder() / "tasks" / "include" / header, tree.include / header)
+    program = build(tree, ["port_fake.c", "unit_input_parts.c"], "unit", SANITIZER, SANITIZE)
     done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
     assert done.returncode == 0, done.stderr
 
