@@ -26,8 +26,9 @@ uint32_t selftest_run(void);
  * the function yourself. Called by the task that called selftest_run. */
 void selftest_line(const char * text);
 
-/* Takes the line down or up, and returns when it is: a switch of the interface, or a person at the cable. The application
- * defines it where the self-test is compiled with -DSELFTEST_LINK. Called by the task that called selftest_run. */
+/* Takes the link, a network or a serial line, down or up, and returns when it is: a switch, or a person at the cable. The
+ * application defines it where the self-test is compiled with -DSELFTEST_LINK. Called by the task that called
+ * selftest_run. */
 void selftest_set_link(bool is_up);
 
 #ifdef __cplusplus

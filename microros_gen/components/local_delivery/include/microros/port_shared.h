@@ -16,7 +16,7 @@ extern "C" {
  * while one of the images restarts. Called with the lock held, after NULL again with the next rclc_support_init. */
 uint32_t * port_shared_region(size_t bytes);
 
-/* A memory barrier, for the compiler as well: the other image sees earlier writes before later ones, and earlier reads and writes
+/* A memory barrier, for the compiler as well: other images see earlier writes before later ones, and earlier reads and writes
  * precede later ones. Called a few times for each message. */
 void port_shared_barrier(void);
 
