@@ -51,7 +51,7 @@ def command(output: Path | None, **options: Any) -> None:
     echo_summary(built_summary(out, built.report, built.usage, planned.project.lacks_image))
     if planned.resolved.request.selftest:
         echo_summary(selftest_summary(out, built.report, planned.project))
-    if planned.project.application.memory.has_budget:
+    if planned.project.application.memory.has_budget or planned.project.stack_meets_variables:
         from microros_gen.cli.budgets import check_planned
         from microros_gen.image.folder import read_folder
 

@@ -48,6 +48,16 @@ class SizeReport:
         """Bytes of text, data and bss, as `size` counts them."""
         return {kind: sum(p.size for p in self.chunks if p.kind == kind) for kind in ("text", "data", "bss")}
 
+    @property
+    def variables(self) -> int:
+        """Bytes of static RAM of all parts."""
+        return sum(chunk.ram for chunk in self.chunks)
+
+    @property
+    def library_variables(self) -> int:
+        """Those of the library, which a `ram_budget` limits."""
+        return _static_ram(self.chunks)
+
 
 def measure(path: Path, image: Path | None = None, linker_map: Path | None = None) -> SizeReport:
     """Measure an output folder, or the image of a user's that was linked with its library.
@@ -70,7 +80,11 @@ def measure_folder(folder: Folder) -> SizeReport:
 def static_memory(folder: Folder) -> int:
     """Return the static memory of the library in what was built, bytes; much faster than to measure everything."""
     chunks = attribute_library(folder) if folder.image is None else attribute(folder, Elf(folder.image))
-    return sum(p.ram for p in chunks if p.owner.group in ("component", "type support"))
+    return _static_ram(chunks)
+
+
+def _static_ram(chunks: Iterable[Chunk]) -> int:
+    return sum(chunk.ram for chunk in chunks if chunk.owner.group in ("component", "type support"))
 
 
 def _measure_image(folder: Folder, path: Path) -> SizeReport:

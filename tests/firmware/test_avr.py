@@ -94,6 +94,25 @@ def test_too_many_variables_are_an_error_with_a_remedy(tmp_path: Path) -> None:
 
 
 @pytest.mark.system
+def test_a_stack_without_room_is_an_error(tmp_path: Path) -> None:
+    """Variables fit the RAM, and the worst stack with them does not: a board would overwrite its variables."""
+    need(UNO)
+    text = EXCHANGES.replace("errors: code", "errors: code\nentities: xml")
+    done = build(tmp_path, UNO, text)
+    assert done.returncode == 1
+    reason = re.search(r"has (\d+) bytes of variables and needs up to (\d+) of stack", done.stderr)
+    assert reason is not None
+    variables, stack = map(int, reason.groups())
+    assert variables < RAM < variables + stack
+    assert "[MG-8608]" in done.stderr
+    budget = re.search(r"memory: \{ram_budget: \d+\}", done.stderr)
+    assert budget is not None
+    again = build(tmp_path, UNO, f"{text}{budget[0]}\n")
+    assert again.returncode == 1
+    assert "raise the budget" in again.stderr
+
+
+@pytest.mark.system
 @pytest.mark.parametrize("name", [UNO, MEGA])
 @pytest.mark.parametrize("application", [SENDS, READS, EXCHANGES], ids=["sends", "reads", "exchanges"])
 def test_the_stack_has_a_bound(builds: Builds, name: str, application: str) -> None:

@@ -100,6 +100,11 @@ class Project:
         return f"your application provides {', '.join(functions)} (microros/port.h)" if functions else ""
 
     @property
+    def stack_meets_variables(self) -> bool:
+        """Whether nothing limits the stack of the image: it grows towards the variables, in the same RAM."""
+        return self.target.ram is not None and self.target.cpu.starts_itself and not self.lacks_image
+
+    @property
     def image(self) -> str:
         """The file name of the image below bin/."""
         return f"{self.name}{self.target.image_suffix}"
