@@ -3,6 +3,7 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_loan.h"
 #include "microros/xrce_read.h"
+#include "microros/xrce_turn_bytes.h"
 
 #include <string.h>
 
