@@ -100,13 +100,16 @@ def test_by_functions_of_an_application(
 def test_between_two_sleeps(
     images: Images, relay: Relay, observer: Observer, domain: int, tmp_path: Path
 ) -> None:
-    """Each time awake is a process: the session goes on, and so do its counters and the reports."""
+    """Each time awake is a process: the session goes on, and so do its counters and the reports.
+
+    A report is due before the node is opened again.
+    """
     image = images.build(relay.port, SLEEPER)
     program = image.application(C_FILES / "sleep.c", tmp_path / "sleep", "-std=c99", "-Wall", "-Werror")
     words: list[str] = []
 
     def awake() -> None:
-        done = run([str(program), str(tmp_path / "memory"), "0", "3", "0"])
+        done = run([str(program), str(tmp_path / "memory"), "0", "3", "0", "150"])
         assert done.returncode == 0, done.stderr
         words.append(done.stdout.split()[0])
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * One time awake of a device that sleeps: publishes some numbers, prints what it takes, and sleeps. The process ends
- * there; what it leaves is a file. Arguments: the file, the first number, how many, how many to take.
+ * there; what it leaves is a file. Arguments: the file, the first number, how many, how many to take, and how long the
+ * session runs before the node is opened, in milliseconds (none: not at all).
  */
 #include <rcl/error_handling.h>
 #include <rcl/rcl.h>
@@ -47,7 +48,7 @@ static void go_to_sleep(const char * name)
   check(file != NULL && fwrite(&retained, sizeof(retained), 1, file) == 1u && fclose(file) == 0, "file");
 }
 
-static void open_all(void)
+static void open_all(uint32_t pause_ms)
 {
   const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
   rcl_allocator_t allocator = rcl_get_default_allocator();
@@ -55,6 +56,10 @@ static void open_all(void)
 
   qos.depth = 1000;
   check(rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK, "init");
+  if (pause_ms != 0u) {
+    rclc_sleep_ms(pause_ms);
+    check(rmw_uros_spin_once(rcl_context_get_rmw_context(&support.context)) == RMW_RET_OK, "spin");
+  }
   check(rclc_node_init_default(&node, "sleeper", "", &support) == RCL_RET_OK, "node");
   check(rclc_publisher_init(&publisher, &node, type, "sleep_out", &qos) == RCL_RET_OK, "publisher");
   check(rclc_subscription_init(&subscription, &node, type, "sleep_in", &qos) == RCL_RET_OK, "subscription");
@@ -69,7 +74,7 @@ int main(int argc, char ** argv)
 
   check(argc > 4, "arguments");
   wake(argv[1]);
-  open_all();
+  open_all(argc > 5 ? (uint32_t)strtoul(argv[5], NULL, 10) : 0u);
   (void)printf("ready\n");
   (void)fflush(stdout);
   for (number.data = first; number.data < first + count; ++number.data) {

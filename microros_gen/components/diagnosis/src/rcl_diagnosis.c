@@ -181,6 +181,10 @@ void rcl_diagnosis_step(xrce_client_t * client, uint32_t now)
   if (!client->diagnosis.running) {
     return;
   }
+  if (!rmw_publisher_is_open(diagnosis_publisher)) { /* it ran before a sleep; the node has not been opened again yet */
+    client->diagnosis.running = false;
+    return;
+  }
   if (xrce_is_due(now, client->diagnosis.due_ms)) {
     client->diagnosis.due_ms = now + MICROROS_DIAGNOSIS_PERIOD_MS;
     rcl_diagnosis_measure();
