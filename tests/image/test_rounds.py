@@ -179,7 +179,7 @@ def test_the_loops_of_what_sends_and_receives_have_a_bound(component: str) -> No
     "path", ["framing/src/xrce_framing_send.c", "transport_tcp/src/xrce_transport_tcp.c"]
 )
 def test_what_a_line_sends_is_longer_where_it_is_sealed(path: str) -> None:
-    """A record has 32 bytes more than its message."""
+    """A record has 32 bytes more than its message; the bound also covers a message of the handshake."""
     source, plain = COMPONENTS / path, "#define MICROROS_MTU 512u\nenum { XRCE_TCP_PREFIX = 2 };\n"
     seal = (COMPONENTS / "seal" / "include" / "microros" / "xrce_messages.h").read_text()
 
@@ -188,5 +188,6 @@ def test_what_a_line_sends_is_longer_where_it_is_sealed(path: str) -> None:
         bounds = (sources.rounds([(str(source), loop.first)]) for loop in Source(source.read_text()).loops)
         return [bound for bound in bounds if isinstance(bound, int) and bound > 2]
 
-    assert most(plain, seal) == [bound + 32 for bound in most(plain)]
     assert most(plain)
+    for sealed, bound in zip(most(plain, seal), most(plain), strict=True):
+        assert bound + 32 <= sealed <= bound + 60
