@@ -16,7 +16,6 @@ from microros_gen.agent.framing import encode_frame
 from microros_gen.client.plan.line_load import LineLoad, fitting_rate_of_line, message_sizes, rate_text
 from microros_gen.client.plan.line_media import can_frame_bits
 from microros_gen.client.plan.streams import longest_frame, usual_frame
-from microros_gen.client.plan.transport_sizes import SEAL_OVERHEAD
 from microros_gen.diagnostics import UserError
 from microros_gen.interfaces.find import shipped_folder
 from tests.support.command_line import Runner
@@ -24,7 +23,6 @@ from tests.support.paths import TESTS
 
 IMU = "topic: imu/data, type: sensor_msgs/msg/Imu"
 BEST_EFFORT = "qos: {reliability: best_effort}"
-SEALED_SESSION = "session: {key: 1}\nliveliness: ping\n"
 TEXT = """\
 version: 1
 profiles: [pure_sender]
@@ -114,25 +112,6 @@ def test_above_the_usual_rates_the_number_itself_is_proposed(tmp_path: Path) -> 
         tmp_path, text_of(f"{IMU}, rate: 2 kHz, {BEST_EFFORT}", transport="serial, baud: 12000000")
     )
     assert fitting_rate_of_line(load, lambda _: 100) == math.ceil(load.load * 10) > 4_000_000
-
-
-def test_the_bytes_of_a_record_count_where_messages_are_sealed(tmp_path: Path) -> None:
-    publisher = f"topic: n, type: std_msgs/msg/Int32, rate: 40 Hz, {BEST_EFFORT}"
-    sealed = text_of(publisher, transport="serial, seal: psa") + SEALED_SESSION
-    for text, overhead in ((text_of(publisher), 0), (sealed, SEAL_OVERHEAD)):
-        load = load_of(tmp_path, text)
-        (message,) = load.publishers[0].messages
-        assert load.load == 40 * usual_frame(message + overhead)
-        assert load.most == 40 * longest_frame(message + overhead)
-
-
-def test_the_round_trip_of_a_sealed_line_has_two_records(tmp_path: Path) -> None:
-    """At 2400 baud a byte takes 4 ms; the times are rounded up to 10 ms."""
-    publisher = "topic: n, type: std_msgs/msg/Int32"
-    plain = text_of(publisher, transport="serial, baud: 2400")
-    sealed = text_of(publisher, transport="serial, baud: 2400, seal: psa") + SEALED_SESSION
-    first = [planned(tmp_path, text).project.runtime.times.retry_first_ms for text in (plain, sealed)]
-    assert first[1] - first[0] >= 2 * SEAL_OVERHEAD * 10_000 // 2400 - 10
 
 
 def test_the_numbers_are_in_resolve_and_in_what_generate_prints(tmp_path: Path, run: Runner) -> None:

@@ -218,11 +218,11 @@ class Image(CommandedProgram):
         """Return the numbers that a command prints, by their names."""
         return {name: int(count) for name, count in (line.split() for line in self.call(command)[2])}
 
-    def listened(self, heard: int) -> dict[str, int]:
-        """Listen until it heard more than `heard` messages; return its counts."""
+    def listened(self, before: int) -> dict[str, int]:
+        """Listen until it has received more than the `before` messages; return its counts."""
         end = deadline(10)
         counts = self.counts("listen 150")
-        while counts["heard"] <= heard and time.monotonic() < end:
+        while counts["heard"] <= before and time.monotonic() < end:
             counts = self.counts("listen 150")
         return counts
 

@@ -8,15 +8,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "microros_config.h"
-
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 struct xrce_transport_t;
 
-/* Bytes of the largest message that the transport itself sends. */
+/* Bytes of the largest message that the transport itself sends; for files that include microros_config.h. */
 #define XRCE_LARGEST_SENT MICROROS_MTU
 
 /* Whether an agent ends what it has with one socket of a client when another one is used. */
