@@ -58,8 +58,10 @@ rcl_ret_t rcl_diagnosis_open(const rcl_node_t * node)
     }
     (void)memset(diagnosis_reported, 0, sizeof(diagnosis_reported));
     rcl_diagnosis_times_begin();
-    client->diagnosis.due_ms = port_time_ms() + MICROROS_DIAGNOSIS_PERIOD_MS;
-    client->diagnosis.running = true;
+    if (!client->diagnosis.running) { /* after a sleep the next report stays due */
+      client->diagnosis.due_ms = port_time_ms() + MICROROS_DIAGNOSIS_PERIOD_MS;
+      client->diagnosis.running = true;
+    }
     microros_unlock();
   }
   return result;
@@ -73,6 +75,11 @@ void rcl_diagnosis_close(const rcl_node_t * node)
     microros_unlock();
     rmw_publisher_close(diagnosis_publisher);
   }
+}
+
+bool rcl_diagnosis_is_running(const xrce_client_t * client)
+{
+  return client->diagnosis.running && rmw_publisher_is_open(diagnosis_publisher);
 }
 
 void rcl_diagnosis_add(uint32_t statuses)
@@ -178,11 +185,7 @@ static void diagnosis_send(const xrce_client_t * client)
 
 void rcl_diagnosis_step(xrce_client_t * client, uint32_t now)
 {
-  if (!client->diagnosis.running) {
-    return;
-  }
-  if (!rmw_publisher_is_open(diagnosis_publisher)) { /* it ran before a sleep; the node has not been opened again yet */
-    client->diagnosis.running = false;
+  if (!rcl_diagnosis_is_running(client)) {
     return;
   }
   if (xrce_is_due(now, client->diagnosis.due_ms)) {

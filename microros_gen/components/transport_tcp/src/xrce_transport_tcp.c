@@ -2,6 +2,7 @@
 /* Each message is preceded by its length in two bytes, little endian (OMG DDS-XRCE 1.0, 11.3). */
 #include "microros/xrce_transport.h"
 
+#include "microros/xrce_largest_sent.h"
 #include "microros/xrce_turn_bytes.h"
 #include "microros/xrce_wire.h"
 

@@ -7,6 +7,8 @@
 #include "microros/xrce_wire.h"
 #include "rcl/node.h"
 
+#include <stdbool.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -16,6 +18,9 @@ rcl_ret_t rcl_diagnosis_open(const rcl_node_t * node);
 
 /* Closes it with its node. Values of checks stay. */
 void rcl_diagnosis_close(const rcl_node_t * node);
+
+/* Returns whether the publisher is open; after a sleep that is when the node has been opened again. */
+bool rcl_diagnosis_is_running(const xrce_client_t * client);
 
 /* Called in each pump: measures once in a period, and sends as far as the stream has room. */
 void rcl_diagnosis_step(xrce_client_t * client, uint32_t now);
@@ -32,7 +37,7 @@ void rcl_diagnosis_round_ends(void);
 /* Returns how long the client can be left alone: `left`, or until the end of the period. */
 static inline uint32_t rcl_diagnosis_left(const xrce_client_t * client, uint32_t left, uint32_t now)
 {
-  return client->diagnosis.running ? xrce_sooner(left, client->diagnosis.due_ms, now) : left;
+  return rcl_diagnosis_is_running(client) ? xrce_sooner(left, client->diagnosis.due_ms, now) : left;
 }
 
 #ifdef __cplusplus

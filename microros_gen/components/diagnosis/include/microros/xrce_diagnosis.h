@@ -12,7 +12,7 @@ extern "C" {
 
 typedef struct xrce_diagnosis_t {
   uint32_t due_ms; /* of port_time_ms; while `running` */
-  bool running;    /* the publisher is open */
+  bool running;    /* the publisher is open, or was before a sleep */
 } xrce_diagnosis_t;
 
 #ifdef __cplusplus

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "microros/xrce_largest_sent.h"
 #include "microros/xrce_messages.h"
 #include "microros/xrce_noise.h"
 

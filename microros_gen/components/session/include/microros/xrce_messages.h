@@ -14,9 +14,6 @@ extern "C" {
 
 struct xrce_transport_t;
 
-/* Bytes of the largest message that the transport itself sends; for files that include microros_config.h. */
-#define XRCE_LARGEST_SENT MICROROS_MTU
-
 /* Whether an agent ends what it has with one socket of a client when another one is used. */
 #define XRCE_MESSAGES_ONE_SOCKET false
 

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "microros/port.h"
+#include "microros/xrce_largest_sent.h"
 #include "microros/xrce_messages.h"
 #include "microros_config.h"
 
