@@ -52,8 +52,8 @@ def until(done: Callable[[list[str]], object], *arguments: str, calls: tuple[str
             assert time.monotonic() < end, started.lines
             assert started.process.poll() is None, started.lines
             if calls:
-                made = command("service", "call", "/enable", "std_srvs/srv/SetBool", calls[turn % len(calls)])
-                assert made.returncode == 0, made.stderr
+                called = command("service", "call", "/enable", "std_srvs/srv/SetBool", calls[turn % len(calls)])
+                assert called.returncode == 0, called.stderr
                 turn += 1
             time.sleep(0.05)
         started.process.send_signal(signal.SIGINT)

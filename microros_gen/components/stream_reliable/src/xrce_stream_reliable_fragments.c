@@ -247,10 +247,13 @@ const uint8_t * xrce_stream_reliable_drop_oldest(
 
 uint32_t xrce_stream_reliable_ahead(const xrce_stream_reliable_t * stream, bool is_ready)
 {
-  uint32_t numbers = stream->ending || !is_ready ? 1u : 0u;
+  uint32_t numbers = 0;
 
   if (stream->count == 0u) {
     return 0;
+  }
+  if (stream->ending || !is_ready) {
+    numbers = 1;
   }
   for (uint8_t i = 0; i < stream->count; ++i) { /* at most MICROROS_RELIABLE_SLOTS rounds */
     numbers += stream_fragments(stream, i);
