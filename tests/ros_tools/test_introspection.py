@@ -52,7 +52,9 @@ def until(done: Callable[[list[str]], object], *arguments: str, calls: tuple[str
             assert time.monotonic() < end, started.lines
             assert started.process.poll() is None, started.lines
             if calls:
-                called = command("service", "call", "/enable", "std_srvs/srv/SetBool", calls[turn % len(calls)])
+                called = command(
+                    "service", "call", "/enable", "std_srvs/srv/SetBool", calls[turn % len(calls)]
+                )
                 assert called.returncode == 0, called.stderr
                 turn += 1
             time.sleep(0.05)
