@@ -224,7 +224,7 @@ def test_a_kernel_without_can_is_named(log: io.StringIO) -> None:
 def test_a_kernel_without_a_module_of_can_is_not_waited_for(
     log: io.StringIO, monkeypatch: pytest.MonkeyPatch, error: int
 ) -> None:
-    """Without `can` there is no family of addresses, without `can_raw` no protocol of it (net/can/af_can.c)."""
+    """Without the module `can` the address family is missing, without `can_raw` the protocol (net/can/af_can.c)."""
 
     def none(*_: object) -> socket.socket:
         raise OSError(error, "not there")

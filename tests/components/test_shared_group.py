@@ -10,32 +10,12 @@ import pytest
 
 from microros_gen import compiler
 from microros_gen.client.views.presence import manifest_entries, report_rows
-from microros_gen.components.local_delivery.plan import LocalPlan
-from microros_gen.diagnostics import UserError
-from microros_gen.interfaces.find import shipped_folder
-from tests.support.ids import without_id
+from tests.support.components.chips import part, planned, refused
 from tests.support.runtime.images import GROUP, GROUP_SYSTEM, MEMBERS, write_group
 
 TEXTS = {board: member.application(board) for board, member in MEMBERS.items()}
 HEADER, ENDS, HEAD, TEXT, CALL = 6, 6, 1, 12, 3
 """Words: of all images, of the ends of a ring, of a size, of a text of 40 characters, and of the identity of a call."""
-
-
-def planned(folder: Path, board: str) -> compiler.Planned:
-    options = compiler.Options(config=folder / board / "microros.yaml", interface_paths=(shipped_folder(),))
-    return compiler.plan(compiler.resolve(compiler.read(options)))
-
-
-def part(folder: Path, board: str) -> LocalPlan:
-    found = planned(folder, board).project.runtime.features.of("local_delivery")
-    assert isinstance(found, LocalPlan)
-    return found
-
-
-def refused(folder: Path, board: str = "first") -> str:
-    with pytest.raises(UserError) as caught:
-        planned(folder, board)
-    return without_id(str(caught.value)).replace(f"{folder}/", "")
 
 
 def test_all_images_have_one_layout(tmp_path: Path) -> None:

@@ -8,28 +8,8 @@ from pathlib import Path
 import pytest
 
 from microros_gen import compiler
-from microros_gen.components.local_delivery.plan import LocalPlan
-from microros_gen.diagnostics import UserError
-from microros_gen.interfaces.find import shipped_folder
-from tests.support.ids import without_id
+from tests.support.components.chips import part, planned, refused
 from tests.support.runtime.images import FIRST, SECOND, SYSTEM, written
-
-
-def planned(folder: Path, board: str = "first") -> compiler.Planned:
-    options = compiler.Options(config=folder / board / "microros.yaml", interface_paths=(shipped_folder(),))
-    return compiler.plan(compiler.resolve(compiler.read(options)))
-
-
-def part(folder: Path, board: str) -> LocalPlan:
-    found = planned(folder, board).project.runtime.features.of("local_delivery")
-    assert isinstance(found, LocalPlan)
-    return found
-
-
-def refused(folder: Path, board: str = "first") -> str:
-    with pytest.raises(UserError) as caught:
-        planned(folder, board)
-    return without_id(str(caught.value)).replace(f"{folder}/", "")
 
 
 def test_its_rings(tmp_path: Path) -> None:
