@@ -38,8 +38,9 @@ EVERYTHING = changed(
 )
 """One of each thing that a plan can have."""
 
-FOLLOWING = {"plan_id", "index", "kind"}
-"""Fields that the record has otherwise: `index` is a place in a list, `kind` of a service which list that is."""
+FOLLOWING = {"plan_id", "index", "kind", "messages"}
+"""Fields that the record has otherwise: `index` is a place in a list, `kind` of a service which list that is;
+`messages` follows from the types."""
 
 
 def variants(value: Any) -> Iterator[tuple[str, Any]]:

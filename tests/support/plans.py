@@ -7,6 +7,7 @@ from dataclasses import is_dataclass, replace
 from typing import Any, TypeVar, cast
 
 from microros_gen.client.plan.entities import EntitiesPlan, Places
+from microros_gen.client.plan.messages import MessagesPlan, number_sequences
 from microros_gen.client.plan.runtime import RuntimePlan
 from microros_gen.client.plan.runtime_entities import NodePlan, PublisherPlan, QueuePlan
 from microros_gen.client.plan.session_times import TimesPlan
@@ -18,10 +19,18 @@ from microros_gen.client.plan.slices import (
     SessionPlan,
     TransportPlan,
 )
-from microros_gen.interfaces.types import TypeName
+from microros_gen.interfaces.types import Primitive, TypeName
 
 INT32 = TypeName("std_msgs", "msg", "Int32")
 Plan = TypeVar("Plan")
+
+ALL_MESSAGES = MessagesPlan(
+    number_sequences=number_sequences(p for p in Primitive if p is not Primitive.LONG_DOUBLE),
+    text_sequences=True,
+    wide_texts=True,
+    wide_text_sequences=True,
+)
+"""Messages with every kind of member that an interface file can have."""
 
 POOL = RuntimePlan(
     plan_id="0123456789abcdef",
@@ -41,6 +50,7 @@ POOL = RuntimePlan(
     ),
     memory=MemoryPlan(arena_size=0),
     errors=ErrorsPlan(text_size=160),
+    messages=ALL_MESSAGES,
     times=TimesPlan(
         connect_timeout_ms=400,
         create_timeout_ms=400,

@@ -15,6 +15,7 @@ from microros_gen.client.plan.entities import EntitiesPlan, Places
 from microros_gen.client.plan.features import PlanContext, plan_features
 from microros_gen.client.plan.line_load import LineLoad, plan_line_load
 from microros_gen.client.plan.line_media import medium_of
+from microros_gen.client.plan.messages import plan_messages
 from microros_gen.client.plan.nodes import plan_nodes
 from microros_gen.client.plan.plan_id import plan_id
 from microros_gen.client.plan.provisions import plan_provisions
@@ -230,6 +231,7 @@ def plan_project(
         timers=running.timers,
         executor=running.executor,
         clock=running.clock,
+        messages=plan_messages(types),
     )
     board = plan_board(application, target, runtime, diagnostics)
     has_driver = target.names_lines or board.has_serial_driver

@@ -7,6 +7,7 @@ from dataclasses import field
 
 from microros_gen.client.plan.entities import EntitiesPlan
 from microros_gen.client.plan.feature_slices import NO_FEATURES, Features
+from microros_gen.client.plan.messages import MessagesPlan
 from microros_gen.client.plan.running import ClockPlan, ExecutorPlan, TimersPlan
 from microros_gen.client.plan.session_times import TimesPlan
 from microros_gen.client.plan.slices import (
@@ -44,6 +45,7 @@ class RuntimePlan:
     timers: TimersPlan = field(default_factory=TimersPlan)
     executor: ExecutorPlan = field(default_factory=ExecutorPlan)
     clock: ClockPlan = field(default_factory=ClockPlan)
+    messages: MessagesPlan = field(default_factory=MessagesPlan)
     features: Features = NO_FEATURES
 
     @property

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from microros_gen.application.model import LimitRule
+from microros_gen.client.plan.messages import plan_messages
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.documents.named import Named
 from microros_gen.documents.templates import shared_environment
@@ -40,6 +41,7 @@ DECODING = sorted(
     path for path in (COMPONENTS / "cdr_decode" / "src").glob("cdr_*.c") if "double" not in path.name
 )
 """Without what decodes doubles where a double may have 4 bytes."""
+SEQUENCES = "src/rosidl_runtime/primitives_sequence.c"
 TEST_RULES = (LimitRule(("*",), string=13, sequence=5),)
 """Small enough to fill, large enough for every default value in test_msgs."""
 
@@ -100,7 +102,8 @@ def generate(
     plans = plan_types(found.messages, capacities, found.type_hash, diagnostics, received)
     diagnostics.check()
     files = render_types(plans, shared_environment()) | render_decoders(plans, shared_environment())
-    for path, content in {**files, "include/microros/message_pools.h": no_pools()}.items():
+    runtime = {"include/microros/message_pools.h": no_pools(), SEQUENCES: _sequences(plans)}
+    for path, content in {**files, **runtime}.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_bytes(content)
     return Generated(folder, found.messages, capacities, plans, files)
@@ -112,6 +115,12 @@ def no_pools() -> bytes:
     return template.render(
         plan={"memory": {"message_pools": (), "pool_pointers": pool_pointers(())}}
     ).encode()
+
+
+def _sequences(plans: Sequence[TypePlan]) -> bytes:
+    """Return the functions of the sequences of numbers in `plans`."""
+    template = shared_environment().get_template("rosidl_runtime/src/primitives_sequence.c.j2")
+    return template.render(plan={"messages": plan_messages(plans)}).encode()
 
 
 def differing_rules(found: InterfaceSet) -> tuple[LimitRule, ...]:
@@ -174,6 +183,7 @@ def compile_shared(generated: Generated) -> ctypes.CDLL:
     """
     source = unity(generated, "all.c", ".c", extra=ALLOCATOR)
     runtime = [*sorted((COMPONENTS / "rosidl_runtime" / "src").glob("*.c")), *DECODING]
+    runtime.append(generated.folder / SEQUENCES)
     runtime.append(COMPONENTS / "memory" / "src" / "message_memory_allocator.c")
     # tcc takes a twentieth of gcc's time; that nothing warns of it, test_compilers.py holds.
     command = ["tcc" if shutil.which("tcc") else "gcc", "-O0", "-fPIC", "-shared", "-Wl,-Bsymbolic"]
