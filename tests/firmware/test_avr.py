@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import re
+import struct
 import subprocess
 import time
 from collections.abc import Sequence
@@ -27,10 +28,12 @@ from tests.support.firmware.avr import (
     simulated,
 )
 from tests.support.firmware.board import C_FILES, Builds, Built, build, check, generate, need, target
+from tests.support.firmware.line import scripted_agent
 from tests.support.firmware.running import started
 from tests.support.paths import ROOT
 from tests.support.patience import deadline, seconds
 from tests.support.quality.corpus import APPLICATIONS
+from tests.support.runtime.reading_agent import ReadingAgent
 
 FLASH, RAM = 32 * 1024, 2048
 ROOM = {UNO: (FLASH, RAM), MEGA: (256 * 1024, 8192)}
@@ -268,6 +271,30 @@ def _published_until_heard(observer: Observer, number: int) -> None:
         where = {"topic": "/led", "type": "std_msgs/msg/Int16"}
         observer.ask(do="publish", values=[{"data": number}], **where)
         time.sleep(0.1)
+
+
+class Forger(ReadingAgent):
+    """Sends, with each answer, reliable messages whose submessages pretend to have nearly 2^16 bytes."""
+
+    def receive(self, datagram: bytes) -> list[bytes]:
+        answers = super().receive(datagram)
+        forged = [
+            b"\x81\x80\0\0\x09\x01" + struct.pack("<H", size) + bytes(4) for size in range(65528, 65536)
+        ]
+        return answers + (forged if self.connected and self.written else [])
+
+
+@pytest.mark.system
+def test_lengths_that_a_16_bit_sum_cannot_hold(builds: Builds) -> None:
+    """The position after such a submessage is one that was there before: a loop over them would never end."""
+    need(UNO)
+    built = builds.build(UNO, f"{EXCHANGES}entities: binary\n")
+    image, agent = linked(builds, built, "uno.c"), Forger()
+    with simulated(builds, built, image) as board, scripted_agent(board.device, agent):
+        end = deadline(20)
+        while len(agent.written) < 3:
+            assert time.monotonic() < end, "the board hangs"
+            time.sleep(0.1)
 
 
 @pytest.mark.parametrize("name", [UNO, MEGA])

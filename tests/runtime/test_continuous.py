@@ -4,16 +4,19 @@
 from __future__ import annotations
 
 import struct
+import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from microros_gen.selection.find_components import load_catalogue
+from tests.support.patience import seconds
 from tests.support.runtime.continuous_agent import CONTINUOUS, ContinuousAgent
 from tests.support.runtime.driver import Client
 from tests.support.runtime.harness import SANITIZE, SANITIZER, build
 from tests.support.runtime.surface import write_application
+from tests.support.runtime.tcp import TcpAgent, serving
 
 APPLICATION = """\
 version: 1
@@ -256,3 +259,16 @@ def test_numbers_of_errors_have_three_digits_above_99(tmp_path: Path) -> None:
         connected.agent.silent = True
         connected.spin(60, 100)
         assert connected.call("publish bytes 0 0 0").error == f"E{errors['no_session']:02}"
+
+
+def test_over_tcp_a_fragment_is_larger_than_every_other_message(tmp_path: Path) -> None:
+    """The output of a connection has room for it: nobody wrote `transport.mtu`, and the declared message is small."""
+    joins = ContinuousAgent()
+    with serving(TcpAgent()) as agent:
+        agent.agent = joins
+        over = f"transport: {{type: tcp, agent: 127.0.0.1:{agent.port}}}\n"
+        tree = write_application(tmp_path / "tree", APPLICATION.replace("transport: {mtu: 400}\n", over))
+        program = build(tree, ["parts.c"], "parts")
+        done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(60), check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert [body for _, body in joins.written] == [BASE + rest(5000)]

@@ -59,3 +59,13 @@ def mtu_is(application: Application, transport: str) -> str:
     if transport == "canfd":
         return "a CAN FD frame holds"
     return "transport.mtu is" if application.transport.mtu else "without transport.mtu a datagram holds"
+
+
+def part_size(kind: str, mtu: int, send_buffer: int, application: Application) -> int:
+    """Return the bytes of a message with a part of one that the application writes while it is sent.
+
+    As large as the transport `kind` takes at once: `transport.mtu`, or the default, or `mtu`, the largest other
+    message, if that is larger; on a serial line what its `send_buffer` holds with every byte stuffed.
+    """
+    largest = application.transport.mtu or max(DEFAULT_MTU[kind] - seal_overhead(application), mtu)
+    return min(largest, most_in_buffer(send_buffer, application)) if kind == "serial" else largest

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from microros_gen.client.plan.features import PlanContext
-from microros_gen.client.plan.transport_sizes import DEFAULT_MTU, most_in_buffer
+from microros_gen.client.plan.transport_sizes import part_size
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass
 
@@ -17,13 +17,10 @@ class ContinuousPlan:
 
 
 def plan(context: PlanContext, diagnostics: Diagnostics) -> ContinuousPlan:
-    """Return the MTU, or what the send buffer of a serial line holds with every byte stuffed."""
+    """Return the size that the largest message of the plan was given for it (client/plan/project.py)."""
     runtime = context.runtime
-    kind = runtime.transport.kind
-    largest = context.application.transport.mtu or max(DEFAULT_MTU[kind], runtime.streams.mtu)
-    if kind == "serial":
-        largest = min(largest, most_in_buffer(runtime.transport.send_buffer, context.application))
-    return ContinuousPlan(largest)
+    kind, send_buffer = runtime.transport.kind, runtime.transport.send_buffer
+    return ContinuousPlan(part_size(kind, runtime.streams.mtu, send_buffer, context.application))
 
 
 def record(part: ContinuousPlan) -> object:

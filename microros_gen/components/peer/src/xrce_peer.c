@@ -187,16 +187,20 @@ static void peer_take_client(xrce_client_t * client, uint8_t index, const uint8_
   peer_send_status(client, index, key, XRCE_STATUS_OK);
 }
 
+/* A length is compared before it is added: on a 16-bit processor the sum would wrap, and the loop would not end. */
 bool xrce_peer_is_whole(const uint8_t * message, size_t size)
 {
   size_t at = XRCE_MESSAGE_HEADER;
-  size_t end = at;
 
   while (at + XRCE_SUBMESSAGE_HEADER <= size) { /* at most MICROROS_PEER_MTU / 4 rounds */
-    end = at + XRCE_SUBMESSAGE_HEADER + xrce_get_le16(&message[at + 2u]);
-    at = (end + 3u) & ~(size_t)3u;
+    const size_t length = xrce_get_le16(&message[at + 2u]);
+
+    if (length > size - at - XRCE_SUBMESSAGE_HEADER) {
+      return false;
+    }
+    at = (at + XRCE_SUBMESSAGE_HEADER + length + 3u) & ~(size_t)3u;
   }
-  return end > XRCE_MESSAGE_HEADER && end <= size && size <= at;
+  return at > XRCE_MESSAGE_HEADER && size <= at;
 }
 
 static void peer_take(

@@ -74,17 +74,22 @@ static void input_take_early(
   }
 }
 
-/* Returns whether a message is complete: a partial one counts as lost, and the agent repeats it. */
+/*
+ * Returns whether a message is complete: a partial one counts as lost, and the agent repeats it. A length is
+ * compared before it is added: on a 16-bit processor the sum would wrap, and the loop would not end. */
 static bool input_is_whole(const uint8_t * message, size_t size)
 {
   size_t at = XRCE_MESSAGE_HEADER;
-  size_t end = at;
 
   while (at + XRCE_SUBMESSAGE_HEADER <= size) { /* at most MICROROS_INPUT_SIZE / 4 rounds */
-    end = at + XRCE_SUBMESSAGE_HEADER + xrce_get_le16(&message[at + 2u]);
-    at = (end + 3u) & ~(size_t)3u;
+    const size_t length = xrce_get_le16(&message[at + 2u]);
+
+    if (length > size - at - XRCE_SUBMESSAGE_HEADER) {
+      return false;
+    }
+    at = (at + XRCE_SUBMESSAGE_HEADER + length + 3u) & ~(size_t)3u;
   }
-  return end > XRCE_MESSAGE_HEADER && end <= size && size <= at;
+  return at > XRCE_MESSAGE_HEADER && size <= at;
 }
 
 /* Delivers the next message. */
