@@ -363,6 +363,23 @@ static void other_firmware(void)
   rcl_reset_error();
 }
 
+/* A shutdown in the wrong order loses no value. */
+static void save_after_the_end(void)
+{
+  size_t skipped = 0;
+
+  memset(flash, 0xff, sizeof(flash));
+  boot();
+  set(7);
+  ok(rclc_parameter_storage_save(&server, 0), "save");
+  (void)rclc_parameter_server_fini(&server, &node); /* the node of this program was never opened */
+  expect(rclc_parameter_storage_save(&server, 0) != RCL_RET_OK, "saved without parameters", 0);
+  rcl_reset_error();
+  boot();
+  ok(rclc_parameter_storage_load(&server, 0, &skipped), "load");
+  expect(skipped == 0u && number_of(0) == 7, "values", (long)skipped);
+}
+
 int main(void)
 {
   const long cuts = cut_everywhere();
@@ -372,6 +389,7 @@ int main(void)
   wrap_and_version();
   memory_that_fails();
   other_firmware();
+  save_after_the_end();
   printf("%ld cuts\n", cuts);
   return 0;
 }

@@ -165,11 +165,13 @@ rcl_ret_t rclc_parameter_server_init_with_option(
   return result;
 }
 
+/* Without its node it is not initialized: what it would save now is no parameter, instead of those that were saved. */
 rcl_ret_t rclc_parameter_server_fini(rclc_parameter_server_t * parameter_server, rcl_node_t * node)
 {
   if (parameter_server == NULL || node == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "parameter_server or node");
   }
+  parameter_server->node = NULL;
   parameter_server->count = 0;
   parameter_server->on_modification = NULL;
   if (parameter_server->own != NULL) {
