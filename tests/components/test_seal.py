@@ -11,7 +11,7 @@ import pytest
 from microros_gen import compiler
 from microros_gen.diagnostics import UserError
 from microros_gen.interfaces.find import shipped_folder
-from tests.support.components.rendered import planned
+from tests.support.components.rendered import UNITS, planned, run
 
 POOLS = "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\n"
 KEY, PING = "session: {key: 7}\n", "liveliness: ping\n"
@@ -37,6 +37,40 @@ def test_without_seal_nothing_of_it_is_in_the_output(tmp_path: Path) -> None:
     config.write_text(POOLS)
     compiler.generate(compiler.Options(config=config, interface_paths=(shipped_folder(),)), out)
     assert "seal/" not in (out / "sources.txt").read_text()
+
+
+@pytest.mark.parametrize(
+    ("line", "flags", "name"),
+    [
+        ("target: qemu-mps2-an386\ntransport: {type: serial, seal: application}\n", (), "the serial line"),
+        (
+            "transport: {type: serial, device: /dev/ttyS7, seal: application}\n",
+            ("-DSEAL_HAS_DEVICE",),
+            "/dev/ttyS7",
+        ),
+    ],
+    ids=["board", "host"],
+)
+def test_texts_name_the_other_end(tmp_path: Path, line: str, flags: tuple[str, ...], name: str) -> None:
+    """The line of a board has no name: without one, a text has a gap."""
+    config, out = tmp_path / "microros.yaml", tmp_path / "out"
+    config.write_text(POOLS + KEY + PING + line)
+    compiler.generate(compiler.Options(config=config, interface_paths=(shipped_folder(),)), out)
+    sources = [out / "src" / part for part in ("seal/rmw_seal.c", "support/error_texts.c")]
+    unit = UNITS / "unit_seal_place.c"
+    run(
+        "gcc",
+        "-std=c99",
+        "-w",
+        *flags,
+        f"-I{out / 'include'}",
+        f"-I{UNITS}",
+        unit,
+        *sources,
+        "-o",
+        tmp_path / "unit",
+    )
+    assert run(tmp_path / "unit").split("\n")[:-1] == [name] * 3
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import time
 import pytest
 
 from tests.support.firmware.board import BOARDS, Builds, board, report
-from tests.support.firmware.line import Relay, noisy, open_raw, scripted_agent
+from tests.support.firmware.line import Relay, noisy, scripted_agent
 from tests.support.patience import seconds
 from tests.support.runtime.fake_agent import FakeAgent
 from tests.support.slices import first, only
@@ -142,7 +142,9 @@ def test_bytes_not_read_in_time_are_counted_and_the_line_recovers(builds: Builds
     with board(built, image) as running, scripted_agent(running.device, agent):
         running.go_on()
         running.wait_for(lambda: len(agent.values()) > 2)
-        flood = open_raw(running.device)
+        flood = os.open(
+            running.device, os.O_RDWR | os.O_NOCTTY
+        )  # open_raw would discard what the agent has yet to read
         for _ in range(16):
             os.write(flood, b"\x7e" * 3 + bytes(range(64)) * 4)
         os.close(flood)

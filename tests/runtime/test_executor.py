@@ -67,6 +67,12 @@ UNITS = {
         times__retry_most_ms=4000,
         features=Features((FeatureSlice("on_silence", SILENCES, "[]"),)),
     ),
+    "unit_silence_sleep.c": changed(
+        EXECUTOR,
+        session__has_sleep=True,
+        session__has_state=True,
+        features=Features((FeatureSlice("on_silence", SILENCES, "[]"),)),
+    ),
     "unit_time_source.c": changed(
         EXECUTOR,
         session__has_time_sync=True,
@@ -93,6 +99,7 @@ SELECTED = {
     "unit_qos_events.c": ("qos_events",),
     "unit_agents.c": ("agents",),
     "unit_silence.c": ("on_silence",),
+    "unit_silence_sleep.c": ("on_silence",),
     "unit_stamp.c": ("clock_stamp",),
     "unit_time_source.c": ("time_source",),
     "unit_woken.c": ("time_source",),

@@ -38,7 +38,10 @@ def noisy(seed: int, one_in: int) -> Fault:
 
 
 def open_raw(device: str) -> int:
-    """Open a terminal as a line of bytes."""
+    """Open a terminal as a line of bytes, and discard what has arrived: as a cable that is plugged in now.
+
+    For the first byte of a board, open its terminal with `os.open`, and before the board starts.
+    """
     handle = os.open(device, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
     tty.setraw(handle)
     return handle

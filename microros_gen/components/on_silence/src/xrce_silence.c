@@ -2,6 +2,7 @@
 #include "microros/port.h"
 #include "microros/xrce_arrivals.h"
 #include "microros/xrce_client.h"
+#include "microros/xrce_place.h"
 #include "microros/xrce_silence_hooks.h"
 #include "microros/xrce_wire.h"
 
@@ -13,13 +14,19 @@ static void silence_end(xrce_silence_t * silence, size_t i)
   silence->is_silent = false;
 }
 
+/* After a sleep the rest of the time continues. What was silent before it is so again: the program has begun anew. */
 void xrce_silence_opened(const xrce_endpoint_t * endpoint)
 {
   xrce_client_t * client = endpoint->client;
 
   for (size_t i = 0; i < MICROROS_SILENCES; ++i) {
     if (endpoint->index == MICROROS_PUBLISHERS_MAX + xrce_silence_calls[i].receiver) {
-      silence_end(&client->silences[i], i);
+      /* cppcheck-suppress knownConditionTrueFalse ; without sleep_cycles nothing is kept */
+      if (xrce_place_is_kept(client, (uint16_t)(MICROROS_NODES_MAX + endpoint->index))) {
+        client->silences[i].is_silent = false;
+      } else {
+        silence_end(&client->silences[i], i);
+      }
       client->silences[i].is_open = true;
     }
   }

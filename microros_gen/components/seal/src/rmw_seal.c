@@ -3,6 +3,15 @@
 #include "microros/rmw_init_reason.h"
 #include "microros_config.h"
 
+/* The line of a board has no name. */
+static const char * seal_place(const xrce_transport_t * transport)
+{
+  const char * const name = xrce_transport_name(transport);
+
+  /* cppcheck-suppress knownConditionTrueFalse ; a constant for the line of a board */
+  return name[0] != '\0' ? name : "the serial line";
+}
+
 bool rmw_init_reason(const xrce_client_t * client)
 {
   const xrce_transport_t * transport = &client->session.transport;
@@ -27,6 +36,6 @@ bool rmw_init_reason(const xrce_client_t * client)
     default:
       return false;
   }
-  microros_error_set(error, xrce_transport_name(transport), NULL, MICROROS_CLIENT_KEY, 0);
+  microros_error_set(error, seal_place(transport), NULL, MICROROS_CLIENT_KEY, 0);
   return true;
 }
