@@ -86,7 +86,7 @@ static void spin(int64_t milliseconds)
   }
 }
 
-/* Is awake for 200 ms, and sleeps; its clock begins anew each time. Returns how often the function was called. */
+/* Is awake for 200 ms, and sleeps; its clock begins at 0 each time. Returns how often the function was called. */
 static int live(rmw_uros_retained_t * retained, bool wakes)
 {
   const pid_t child = fork();

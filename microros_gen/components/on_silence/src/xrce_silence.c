@@ -14,7 +14,7 @@ static void silence_end(xrce_silence_t * silence, size_t i)
   silence->is_silent = false;
 }
 
-/* After a sleep the rest of the time continues. What was silent before it is so again: the program has begun anew. */
+/* After a sleep the rest of the time continues. What was silent before it is so again: the program has begun again. */
 void xrce_silence_opened(const xrce_endpoint_t * endpoint)
 {
   xrce_client_t * client = endpoint->client;
