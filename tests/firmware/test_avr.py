@@ -297,6 +297,43 @@ def test_lengths_that_a_16_bit_sum_cannot_hold(builds: Builds) -> None:
             time.sleep(0.1)
 
 
+RELIABLE = """\
+version: 1
+profiles: [pure_sender]
+errors: code
+liveliness: acknack
+session: {key: 1, create_timeout: 20 s, liveliness_timeout: 180 s}
+nodes: [{name: mega, publishers: [{topic: count, type: std_msgs/msg/Int32}]}]
+"""
+TIMES = """\
+#include "microros/xrce_liveliness_acknack.h"
+#include "microros/xrce_stream_reliable.h"
+_Static_assert(XRCE_HELD_MS == 80000, "a node and the three objects of a publisher");
+uint32_t lost_ms(void);
+uint32_t lost_ms(void)
+{
+  static const xrce_liveliness_acknack_t silent = {0};
+  return xrce_liveliness_acknack_due(&silent);
+}
+"""
+
+
+@pytest.mark.system
+def test_times_that_a_16_bit_product_cannot_hold(tmp_path: Path) -> None:
+    """An int of this compiler ends at 65.5 s: messages were let go, and sessions lost, after what is left of it."""
+    need(MEGA)
+    generate(tmp_path, MEGA, RELIABLE)
+    (tmp_path / "out" / "times.c").write_text(TIMES)
+    avr = target(MEGA)
+    call = [avr.compilers[0], *avr.c_flags, "-Iinclude", "-S", "-o", "-", "times.c"]
+    done = subprocess.run(
+        call, cwd=tmp_path / "out", text=True, capture_output=True, check=False, timeout=seconds(60)
+    )
+    assert done.stderr == ""
+    loaded = [int(byte, 0) & 0xFF for byte in re.findall(r"ldi r2[2-5],lo8\((-?\w+)\)", done.stdout)]
+    assert int.from_bytes(loaded, "little") == 180_000, done.stdout
+
+
 @pytest.mark.parametrize("name", [UNO, MEGA])
 def test_the_cause_of_a_reset(builds: Builds, name: str, tmp_path: Path) -> None:
     """It is turned on, then the watchdog resets it; each cause is told again until the next reset."""

@@ -26,7 +26,7 @@ void xrce_liveliness_acknack_step(xrce_client_t * client, uint32_t now);
 /* Returns when the session is lost unless an acknowledgement arrives. */
 static inline uint32_t xrce_liveliness_acknack_due(const xrce_liveliness_acknack_t * liveliness)
 {
-  return liveliness->since_ms + MICROROS_LIVELINESS_WAIT_MS * MICROROS_LIVELINESS_ATTEMPTS;
+  return liveliness->since_ms + (uint32_t)MICROROS_LIVELINESS_WAIT_MS * MICROROS_LIVELINESS_ATTEMPTS;
 }
 
 #ifdef __cplusplus

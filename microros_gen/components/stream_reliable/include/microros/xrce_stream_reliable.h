@@ -26,9 +26,9 @@ extern "C" {
 /* Limit for holding messages back after a reconnection: the time to create all objects of a session. It
  * only expires if an object stays refused; an agent drops messages that arrive before their writer exists. */
 #define XRCE_HELD_MS \
-  ((MICROROS_NODES_MAX + 3u * (MICROROS_PUBLISHERS_MAX + MICROROS_SUBSCRIPTIONS_MAX) + \
-    MICROROS_SERVICES_MAX + MICROROS_CLIENTS_MAX) * \
-   MICROROS_CREATE_TIMEOUT_MS)
+  ((uint32_t)MICROROS_CREATE_TIMEOUT_MS * \
+   (MICROROS_NODES_MAX + 3u * (MICROROS_PUBLISHERS_MAX + MICROROS_SUBSCRIPTIONS_MAX) + \
+    MICROROS_SERVICES_MAX + MICROROS_CLIENTS_MAX))
 
 /*
  * Called for an acknowledgement or the first message: a HEARTBEAT is only needed for messages that stay
