@@ -268,3 +268,12 @@ def test_the_unit_starts_the_agent_with_options_that_there_are() -> None:
     assert "none.yaml cannot be read" in result.stderr
     assert re.search(r"(?m)^Type=notify$", UNIT.read_text())
     assert re.search(r"(?m)^WatchdogSec=\d+$", UNIT.read_text())
+
+
+def test_the_unit_allows_the_sockets_of_each_transport() -> None:
+    """The families that the agent's sources name, and netlink for DDS: no more, no less."""
+    sources = (ROOT / "microros_gen/agent").rglob("*.py")
+    named = {name for path in sources for name in re.findall(r"\bAF_[A-Z0-9]+\b", path.read_text())}
+    (line,) = re.findall(r"(?m)^RestrictAddressFamilies=(.*)$", UNIT.read_text())
+    assert "AF_CAN" in named
+    assert sorted(line.split()) == sorted(named | {"AF_NETLINK"})
