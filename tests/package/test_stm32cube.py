@@ -12,15 +12,17 @@ import re
 import shutil
 import subprocess
 import textwrap
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 
 from microros_gen import compiler
 from microros_gen.package.render import describe, plan_package, render_package
-from tests.support.agent.observer import observing
+from tests.support.agent.observer import Observer, observing
 from tests.support.agent.process import own_domain, running_agent
 from tests.support.command_line import Runner
+from tests.support.free_ports import free_port
 from tests.support.package.pio import running
 from tests.support.paths import TESTS
 from tests.support.patience import seconds
@@ -110,16 +112,19 @@ def test_the_sources_call_what_the_kernel_declares(folder: Path) -> None:
     assert "+multithread needs FreeRTOS" in lock.stderr
 
 
-PIN, SOFTWARE, IWDG, WWDG, POWER, BROWN_OUT = 1, 2, 4, 8, 16, 32
+PIN, SOFTWARE, IWDG, WWDG, POWER, BROWN_OUT, LOW_POWER, OPTION_BYTES = 1, 2, 4, 8, 16, 32, 64, 128
 """Flags of the stand-in."""
 RESETS: dict[str, tuple[tuple[int, str], ...]] = {
     "F4": ((POWER | BROWN_OUT | PIN, "110"), (BROWN_OUT | PIN, "550")),
     "H7": ((POWER | BROWN_OUT | PIN, "110"), (BROWN_OUT | PIN, "550")),
     "F1": ((POWER | PIN, "110"),),
-    "G0": ((POWER | PIN, "110"),),
-    "L4": ((BROWN_OUT | PIN, "110"),),
+    "G0": ((POWER | PIN, "110"), (OPTION_BYTES | PIN, "330")),
+    "L4": ((BROWN_OUT | PIN, "110"), (OPTION_BYTES | PIN, "330")),
 }
-ALWAYS = ((0, "000"), (PIN, "220"), (SOFTWARE | PIN, "330"), (IWDG | PIN, "440"), (WWDG | PIN, "440"))
+ALWAYS = (
+    *((0, "000"), (PIN, "220"), (SOFTWARE | PIN, "330"), (LOW_POWER | PIN, "000")),
+    *((IWDG | PIN, "440"), (WWDG | PIN, "440")),
+)
 
 
 @pytest.mark.builds
@@ -180,8 +185,12 @@ def test_bytes_that_arrive_while_the_uart_is_locked(tmp_path: Path) -> None:
 
 @pytest.mark.builds
 def test_a_transfer_over_usb_is_not_overwritten(tmp_path: Path) -> None:
-    """Whatever is written after a time-out; only the first write that finds the device busy waits."""
+    """Whatever is written after a time-out; only the first write that finds the device busy waits.
+
+    Before the device is configured, STM32CubeMX's function is not called; what arrives with a full buffer waits.
+    """
     assert printed(tmp_path, "usb_cdc_transport", "stm32_usb") == [
+        "early 0 err 1 after 100",
         "first 5 err 0 after 0",
         "second 0 err 1 after 100",
         "third 0 err 1 after 0",
@@ -193,6 +202,10 @@ def test_a_transfer_over_usb_is_not_overwritten(tmp_path: Path) -> None:
         "sixth 0 err 1 after 100",
         "seventh 7 err 0 after 0",
         "sent seventh",
+        "packets 31, then 0",
+        "read 1984, armed 1",
+        "packets 31, then 1",
+        "read 2047, armed 1",
     ]
 
 
@@ -227,6 +240,7 @@ def project(folder: Path, config: Path | None = None) -> Path:
     """Write a project as STM32CubeMX makes it, for this computer, with the package."""
     shutil.copytree(STAND_INS / "stm32_project", folder)
     shutil.copytree(STAND_INS / "stm32_hal", folder / "hal")
+    shutil.copytree(KERNELS / "lwip", folder / "lwip")
     written(folder, config)
     return folder
 
@@ -248,6 +262,31 @@ def test_the_example_reaches_ros(transport: str, tmp_path: Path) -> None:
         samples = observer.got(4, timeout_s=40, topic="/cubemx_publisher")
     numbers = [value["data"] for _, value in samples]
     assert numbers == list(range(numbers[0], numbers[0] + len(numbers)))
+
+
+def counted(observer: Observer, transport: Sequence[str], domain: int) -> list[int]:
+    """Run an agent until three samples of the example have arrived; return their numbers."""
+    with running_agent(domain, "--domain", str(domain), transport=transport):
+        return [value["data"] for _, value in observer.got(3, timeout_s=40, topic="/cubemx_publisher")]
+
+
+@pytest.mark.ros
+@pytest.mark.builds
+@pytest.mark.system
+@pytest.mark.parametrize("transport", ["usb_cdc", "udp"])
+def test_the_example_reaches_ros_over_usb_and_udp(transport: str, tmp_path: Path) -> None:
+    """Before the agent is there, with it, and with the next one.
+
+    Over USB the line is gone in between, as if the cable was pulled, and the device is configured again.
+    """
+    place, domain, link, port = project(tmp_path / "project"), own_domain(), tmp_path / "line", free_port()
+    succeed(place, "make", "-j2", f"MICROROS_TRANSPORT={transport}", f"OWN_FLAGS=-DUDP_PORT={port}")
+    agent = ("pty", "--link", str(link)) if transport == "usb_cdc" else ("udp4", "--port", str(port))
+    own = {"STM32_LINE": str(link)} if transport == "usb_cdc" else {"STM32_AGENT": "127.0.0.1"}
+    with observing(domain) as observer, running(place / "build" / "project.elf", **own):
+        observer.subscribe("/cubemx_publisher", "std_msgs/msg/Int32")
+        numbers = counted(observer, agent, domain) + counted(observer, agent, domain)
+    assert numbers == sorted(set(numbers))
 
 
 @pytest.mark.builds

@@ -41,9 +41,14 @@ extern volatile uint32_t stm32_reset_flags;
 #if defined(STM32_H7)
 #define RCC_FLAG_IWDG1RST 0x04u
 #define RCC_FLAG_WWDG1RST 0x08u
+#define RCC_FLAG_LPWR1RST 0x40u
 #else
 #define RCC_FLAG_IWDGRST 0x04u
 #define RCC_FLAG_WWDGRST 0x08u
+#define RCC_FLAG_LPWRRST 0x40u
+#endif
+#if defined(STM32_G0) || defined(STM32_L4)
+#define RCC_FLAG_OBLRST 0x80u
 #endif
 #if defined(STM32_G0)
 #define RCC_FLAG_PWRRST 0x10u

@@ -15,6 +15,9 @@
 #include <time.h>
 #include <unistd.h>
 
+/* usb.c and lwip_sockets.c have other hardware. */
+#define WEAK __attribute__((weak))
+
 static volatile uint32_t left_in_ring;
 static DMA_HandleTypeDef dma = {&left_in_ring};
 UART_HandleTypeDef huart1 = {HAL_UART_STATE_READY, HAL_UART_STATE_READY, &dma};
@@ -29,7 +32,7 @@ static volatile uint16_t sending_size;
 static long error_every;
 static long received;
 
-__attribute__((weak)) void HAL_UART_RxCpltCallback(UART_HandleTypeDef * uart)
+WEAK void HAL_UART_RxCpltCallback(UART_HandleTypeDef * uart)
 {
   (void)uart;
 }
@@ -72,7 +75,7 @@ static void * hardware_run(void * nothing)
   }
 }
 
-void hal_begin(void)
+WEAK void hal_begin(void)
 {
   const char * every = getenv("STM32_ERROR_EVERY");
   struct termios settings;
@@ -178,7 +181,7 @@ uint32_t HAL_GetUIDw2(void)
   return (uint32_t)getpid();
 }
 
-void __disable_irq(void)
+WEAK void __disable_irq(void)
 {
   pthread_mutex_lock(&hardware);
 }
@@ -188,7 +191,7 @@ uint32_t __get_PRIMASK(void)
   return 0;
 }
 
-void __set_PRIMASK(uint32_t mask)
+WEAK void __set_PRIMASK(uint32_t mask)
 {
   (void)mask;
   pthread_mutex_unlock(&hardware);

@@ -3,12 +3,20 @@
 
 #include "publisher.h"
 
+#include <stdlib.h>
+
 extern UART_HandleTypeDef huart1;
 void hal_begin(void);
 
 int main(void)
 {
+  char * agent = getenv("STM32_AGENT");
+
   hal_begin();
-  microros_publisher(true, &huart1);
+  if (agent != NULL) {
+    microros_publisher(false, agent);
+  } else {
+    microros_publisher(true, &huart1);
+  }
   return 0;
 }

@@ -9,8 +9,10 @@
 #define CDC_DATA_HS_MAX_PACKET_SIZE 512U
 
 typedef enum { USBD_OK, USBD_BUSY, USBD_EMEM, USBD_FAIL } USBD_StatusTypeDef;
+#define USBD_STATE_DEFAULT 0x01U
+#define USBD_STATE_CONFIGURED 0x03U
 typedef struct {
-  int device;
+  volatile uint8_t dev_state;
 } USBD_HandleTypeDef;
 typedef struct {
   int8_t (*Init)(void);

@@ -16,6 +16,13 @@
 #define RESET_WWDG RCC_FLAG_WWDGRST
 #endif
 
+/* An entry of stop or standby mode that the option bytes forbid. */
+#if defined(RCC_FLAG_LPWR1RST)
+#define RESET_LOW_POWER RCC_FLAG_LPWR1RST
+#else
+#define RESET_LOW_POWER RCC_FLAG_LPWRRST
+#endif
+
 /* Without a separate flag of power on, brown-outs are not told apart from it. */
 #if defined(RCC_FLAG_PORRST)
 #define RESET_POWER RCC_FLAG_PORRST
@@ -33,6 +40,11 @@ static port_reset_t reset_cause(void)
   if (__HAL_RCC_GET_FLAG(RCC_FLAG_SFTRST) != 0u) {
     return PORT_RESET_SOFTWARE;
   }
+#if defined(RCC_FLAG_OBLRST)
+  if (__HAL_RCC_GET_FLAG(RCC_FLAG_OBLRST) != 0u) { /* the program or a programmer loads the option bytes */
+    return PORT_RESET_SOFTWARE;
+  }
+#endif
   if (__HAL_RCC_GET_FLAG(RESET_POWER) != 0u) {
     return PORT_RESET_POWER;
   }
@@ -41,6 +53,9 @@ static port_reset_t reset_cause(void)
     return PORT_RESET_BROWN_OUT;
   }
 #endif
+  if (__HAL_RCC_GET_FLAG(RESET_LOW_POWER) != 0u) {
+    return PORT_RESET_UNKNOWN;
+  }
   return __HAL_RCC_GET_FLAG(RCC_FLAG_PINRST) != 0u ? PORT_RESET_PIN : PORT_RESET_UNKNOWN;
 }
 

@@ -30,12 +30,13 @@
 extern USBD_HandleTypeDef USB_DEVICE;
 
 static uint8_t rx[MICROROS_RX_SIZE];
-static uint8_t tx[2][MICROROS_TX_SIZE]; /* one belongs to the last accepted transfer, which may be in flight */
-static uint8_t tx_free;                 /* the other one */
-static bool is_stuck;                   /* the last write timed out */
-static volatile size_t rx_first; /* position of the next byte to read; only the reader changes it */
-static volatile size_t rx_end;   /* position after the last one; only the interrupt changes it */
-static volatile bool is_held;    /* the next packet was not asked for, because the buffer is full */
+static uint8_t tx[2]
+                 [MICROROS_TX_SIZE]; /* one belongs to the last accepted transfer, which may be in flight */
+static uint8_t tx_free;              /* the other one */
+static bool is_stuck;                /* the last write timed out */
+static volatile size_t rx_first;     /* position of the next byte to read; only the reader changes it */
+static volatile size_t rx_end;       /* position after the last one; only the interrupt changes it */
+static volatile bool is_held;        /* the next packet was not asked for, because the buffer is full */
 static bool is_open;
 
 static size_t rx_room(void)
@@ -43,12 +44,17 @@ static size_t rx_room(void)
   return (rx_first + MICROROS_RX_SIZE - rx_end - 1u) % MICROROS_RX_SIZE;
 }
 
-/* Called by the interrupt of USB; there is room for a packet. */
+/*
+ * Called by the interrupt of USB. There is room for a packet, unless the computer has configured the device again while
+ * the buffer was full: the rest of that packet is lost, as what was on the line before is.
+ */
 static int8_t usb_received(uint8_t * data, uint32_t * size)
 {
+  const size_t room = rx_room();
+  const size_t count = *size < room ? *size : room;
   size_t end = rx_end;
 
-  for (uint32_t i = 0; i < *size; ++i) {
+  for (size_t i = 0; i < count; ++i) {
     rx[end] = data[i];
     end = (end + 1u) % MICROROS_RX_SIZE;
   }
@@ -80,6 +86,18 @@ bool cubemx_transport_close(struct uxrCustomTransport * transport)
 }
 
 /*
+ * Before the computer has configured the device, CDC_Transmit of STM32CubeMX reads through a null pointer
+ * (usbd_cdc_if.c: pClassData).
+ */
+static uint8_t usb_transmit(uint8_t * data, size_t size)
+{
+  if (USB_DEVICE.dev_state != (uint8_t)USBD_STATE_CONFIGURED) {
+    return (uint8_t)USBD_BUSY;
+  }
+  return (uint8_t)USB_TRANSMIT(data, (uint16_t)size);
+}
+
+/*
  * Waits until the device has sent the bytes of the previous write. Without a computer that reads, the time runs out; later
  * writes do not wait until the device takes bytes again. After the cable was pulled no transfer completes: so the device
  * is asked, which is configured again when it is plugged in.
@@ -94,10 +112,10 @@ size_t cubemx_transport_write(
 
   (void)transport;
   (void)memcpy(tx[tx_free], buf, size);
-  result = (uint8_t)USB_TRANSMIT(tx[tx_free], (uint16_t)size);
+  result = usb_transmit(tx[tx_free], size);
   while (result == (uint8_t)USBD_BUSY && (HAL_GetTick() - start_ms) < limit_ms) {
     cubemx_rest();
-    result = (uint8_t)USB_TRANSMIT(tx[tx_free], (uint16_t)size);
+    result = usb_transmit(tx[tx_free], size);
   }
   is_stuck = result == (uint8_t)USBD_BUSY;
   if (result != (uint8_t)USBD_OK) {
