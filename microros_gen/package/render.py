@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from microros_gen import compiler
-from microros_gen.compiler import Options, Planned, Request
+from microros_gen.compiler import Options, Planned, Request, Resolved
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
 from microros_gen.documents.files import read_bytes
 from microros_gen.documents.own_templates import render_own
@@ -69,15 +69,23 @@ def plan_request(package: PackageDescription, request: Request, general: bool = 
                 f"the target of the application file has no effect: the package {package.name} has its own"
             )
             found.warning(message, named, "Remove `target: {name: …}`, or use `generate`", id="MG-9206")
-    planned = compiler.plan(compiler.resolve(request))
-    found.extend(planned.warnings)
-    transport = planned.project.selection.transport
-    if package.transports and transport not in package.transports:
-        hint = f"Write `transport: {{type: {package.transports[0]}}}`"
-        place = planned.resolved.request.application.transport.type_span
-        found.error(f"the package {package.name} has no transport '{transport}'", place, hint, id="MG-9204")
+    resolved = compiler.resolve(request)
+    _check_transport(package, resolved, found)
     found.check()
+    planned = compiler.plan(resolved)
+    found.extend(planned.warnings)
     return PackagePlan(package, replace(planned, warnings=tuple(found)), general)
+
+
+def _check_transport(package: PackageDescription, resolved: Resolved, found: Diagnostics) -> None:
+    """Refuse a transport that a package does not have; one on a stream of bytes is `custom` there."""
+    transport, possible = resolved.selection.transport, package.transports
+    if not possible or transport in possible:
+        return
+    chosen = "custom" if transport == "serial" and "custom" in possible else possible[0]
+    message = f"the package {package.name} has no transport '{transport}', only {', '.join(possible)}"
+    place = resolved.request.application.transport.type_span
+    found.error(message, place, f"Write `transport: {{type: {chosen}}}`", id="MG-9204")
 
 
 def _with_target(request: Request, path: Path, diagnostics: Diagnostics) -> Request:
@@ -88,6 +96,7 @@ def _with_target(request: Request, path: Path, diagnostics: Diagnostics) -> Requ
     diagnostics.check()
     assert found is not None
     target = replace(application.target, name=found.target.name, span=None)
+    found = replace(found, target=replace(found.target, of_package=True))
     return replace(request, application=replace(application, target=target), found_target=found)
 
 

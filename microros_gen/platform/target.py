@@ -131,6 +131,7 @@ class Target:
     application by their number, `registers` addresses by name (Cpu.registers). `memories` are those besides flash and
     RAM; the hooks are functions of the application, empty: none.
     `data_model` is lp64, ilp32, ip16 or any. `transport` is what holds where neither application nor profile say.
+    `of_package`: the target file belongs to a package for another build system, so users do not change it.
     """
 
     name: str
@@ -161,6 +162,7 @@ class Target:
     watchdog_hook: str = ""
     stdio: Stdio | None = None
     provides: tuple[str, ...] = ()
+    of_package: bool = False
 
     @property
     def cpu(self) -> Cpu:

@@ -123,8 +123,29 @@ def test_a_transport_that_it_does_not_have_is_refused(run: Runner, folder: Path)
     (folder / "microros.yaml").write_text(PLAN + "transport: {type: tcp}\n")
     result = run("package", "./mine", "-c", "microros.yaml", "-o", "out")
     assert result.status == 2
-    assert "microros.yaml:3:19: error: the package mine has no transport 'tcp'" in result.err
+    assert "microros.yaml:3:19: error: the package mine has no transport 'tcp', only custom" in result.err
     assert "Write `transport: {type: custom}`" in result.err
+
+
+@pytest.mark.parametrize("package", ["arduino", "esp-idf"])
+def test_a_serial_line_of_a_package_is_custom(run: Runner, folder: Path, package: str) -> None:
+    """The fault alone is reported: functions of the refused transport are not asked for."""
+    (folder / "microros.yaml").write_text(PLAN + "transport: {type: serial}\n")
+    result = run("package", package, "-c", "microros.yaml", "-o", "out")
+    assert result.status == 2
+    assert f"has no transport 'serial', only {', '.join(describe(package).transports)}" in result.err
+    assert "Write `transport: {type: custom}`" in result.err
+    assert "port_serial" not in result.err
+
+
+def test_hints_name_no_target_file_of_a_package(run: Runner, folder: Path) -> None:
+    """Users do not change it."""
+    (folder / "microros.yaml").write_text(PLAN + "components: [+multithread]\n")
+    result = run("package", "arduino", "-c", "microros.yaml", "-o", "out")
+    assert result.status == 0
+    assert "no unique id. Give each board its own key: `session: {key: 0x" in result.err
+    assert "Define the functions below in your application [MG-7015]\nvoid port_lock(void);" in result.err
+    assert "target file" not in result.err
 
 
 def test_a_target_without_effect_is_a_warning(run: Runner, folder: Path) -> None:

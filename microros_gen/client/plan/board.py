@@ -25,6 +25,7 @@ _ACKNACK = 13
 _MORE_STUFFED = 2
 # The longest that an application may leave a best-effort sample alone that comes over a serial line.
 REACTION_MS = 20
+_NUMBER = "Add its address to the target file: `unique_id: {address: 0x1FFF7A10, words: 3}`"
 # Read of the ring at a time: a call costs little there.
 RING_CHUNK = 8
 _BITS_OF_A_BYTE = 10  # with start and stop bit
@@ -196,12 +197,13 @@ def _check_unique_id(
         and not target.has_unique_id
         and runtime.creation.entities != "preconfigured"
     ):
+        number = "" if target.of_package else f"{_NUMBER}, or g"
         diagnostics.warning(
             "all boards with this image have the same client key and would take over each other's session: the "
             f"target {target.name} has no unique id",
             application.target.span,
-            "Add its address to the target file: `unique_id: {address: 0x1FFF7A10, words: 3}`, or give each "
-            f"board its own key: `session: {{key: 0x{runtime.session.client_key or 0:08X}}}`",
+            f"{number or 'G'}ive each board its own key: "
+            f"`session: {{key: 0x{runtime.session.client_key or 0:08X}}}`",
             id="MG-7003",
         )
     if isinstance(application.session_key, str) and not target.has_unique_id:
