@@ -15,8 +15,7 @@ PUBLIC = """
     micro_ros_tivac_launchpad_app micro_ros_utilities micro_ros_vitis_component micro_ros_zephyr_module nuttx_apps
     raspbian_apps rmw_embeddedrtps rmw_microxrcedds rosidl_typesupport_microxrcedds system_modes zephyr_apps
 """
-"""Those of the organization on 2026-11-27, without single robots, benchmarks, forks of kernels, a test bench and the web
-page."""
+"""Those of the organization on 2026-11-27, without robots, benchmarks, forks of kernels, a test bench and the page."""
 
 
 def test_each_public_repository_has_a_row() -> None:
