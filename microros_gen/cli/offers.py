@@ -68,13 +68,13 @@ def schema_names(ctx: click.Context, param: click.Parameter, incomplete: str) ->
 
 def package_names(ctx: click.Context, param: click.Parameter, incomplete: str) -> Items:
     """Offer the packages that are built in or installed, and folders."""
-    own = (path.parent.name for path in (COMPONENTS.parent / "platform" / "package").glob("*/package.yaml"))
-    return _offered({*own, *_installed("platform/package", "*")}, incomplete, files=True)
+    return _offered({*_own_packages(), *_installed("platform/package", "*")}, incomplete, files=True)
 
 
 def ways(ctx: click.Context, param: click.Parameter, incomplete: str) -> Items:
     """Offer the ways to build and run that `doctor` checks."""
-    return [*target_names(ctx, param, incomplete), *_offered(("agent", "cmake", "colcon"), incomplete)]
+    others = {"agent", "cmake", "colcon", *_own_packages()}
+    return [*target_names(ctx, param, incomplete), *_offered(others, incomplete)]
 
 
 def output_or_id(ctx: click.Context, param: click.Parameter, incomplete: str) -> Items:
@@ -84,6 +84,10 @@ def output_or_id(ctx: click.Context, param: click.Parameter, incomplete: str) ->
 
         return _offered(identities(), incomplete.upper())
     return [CompletionItem(incomplete, type="dir")]
+
+
+def _own_packages() -> Iterator[str]:
+    return (path.parent.name for path in (COMPONENTS.parent / "platform" / "package").glob("*/package.yaml"))
 
 
 def _offered(names: Iterable[str], incomplete: str, files: bool = False) -> Items:

@@ -8,8 +8,8 @@ from pathlib import Path
 from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.documents.files import is_file
 from microros_gen.documents.schema import load_schema, validate
-from microros_gen.documents.tree_values import child_text, entries, items, text_of
-from microros_gen.documents.yaml_tree import MappingNode, parse_yaml
+from microros_gen.documents.tree_values import child, child_text, entries, items, text_of
+from microros_gen.documents.yaml_tree import MappingNode, YamlNode, parse_yaml
 from microros_gen.package.project import Project, parse_project
 from microros_gen.records import dataclass
 from microros_gen.selection.contribution import Conditions
@@ -33,14 +33,27 @@ class Place:
 
 
 @dataclass(frozen=True)
+class Tool:
+    """What the other build system needs of a machine: one of `programs`, or a folder that `variable` names.
+
+    `debian` are the packages that have it, otherwise `remedy` is a command or a sentence that brings it.
+    """
+
+    programs: tuple[str, ...]
+    variable: str
+    debian: tuple[str, ...]
+    remedy: str
+
+
+@dataclass(frozen=True)
 class PackageDescription:
     """What a package.yaml says, and where its folder is.
 
     `origin` says who brings it where it does not ship with the tool. `conditions` are those of files below files/,
     by the beginning of their paths. `transports`: empty means all. `defines` are capabilities whose functions files/
     has. `project` says what a new project with the package consists of; None: nothing. `next_folder` and `next_archive`
-    say what the user does with the result, `{out}`. `files_of` is the package whose files/ this one has, too; own files
-    replace those of the same path.
+    say what the user does with the result, `{out}`. `tools` is what `doctor` looks for. `files_of` is the package whose
+    files/ this one has, too; own files replace those of the same path.
     """
 
     name: str
@@ -57,6 +70,7 @@ class PackageDescription:
     project: Project | None = None
     origin: str = ""
     files_of: PackageDescription | None = None
+    tools: tuple[Tool, ...] = ()
 
     @property
     def general_plan(self) -> Path:
@@ -150,7 +164,15 @@ def parse_package(
         project=parse_project(tree.get("project")),
         origin=origin,
         files_of=base,
+        tools=tuple(map(_tool, items(tree.get("tools")))),
     )
+
+
+def _tool(node: YamlNode) -> Tool:
+    programs, debian = (
+        tuple(text_of(item) or "" for item in items(child(node, key))) for key in ("programs", "debian")
+    )
+    return Tool(programs, child_text(node, "variable"), debian, child_text(node, "remedy"))
 
 
 def _to(item: object) -> str | None:

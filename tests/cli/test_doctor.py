@@ -20,6 +20,8 @@ from microros_gen.cli.doctor import ros, tools
 from microros_gen.cli.doctor.finding import State, install
 from microros_gen.cli.doctor.ros import colcon_findings
 from microros_gen.cli.doctor.wheels import faulty_files, fix_files
+from microros_gen.package.find import builtin_packages
+from microros_gen.package.render import describe
 from microros_gen.platform.find import builtin_targets
 from tests.support.command_line import Outcome, Runner
 from tests.support.environments import clean_environ
@@ -66,6 +68,64 @@ def test_without_any_program(run: Runner, folder: Path, monkeypatch: pytest.Monk
     assert any("host" in f["needed_for"] for f in found.values())
     covered = " ".join(f["needed_for"] for f in found.values())
     assert "cortex-m0plus, cortex-m3, cortex-m33 and" in covered
+
+
+TOOLS = {
+    "arduino": {"arduino_cli": "", "arduino_builder": ""},
+    "platformio": {"platformio": ""},
+    "esp-idf": {"idf.py": "", "IDF_PATH": ""},
+    "zephyr": {"west": "", "cmake": "", "ninja": "", "dtc": ""},
+    "stm32cube": {"arm_none_eabi_gcc": "", "cmake": ""},
+    "pico": {"arm_none_eabi_gcc": "", "cmake": "", "PICO_SDK_PATH": ""},
+    "teensy": {"arduino": ""},
+    "nuttx": {"make": "", "kconfig_conf": ""},
+}
+"""What is enough for each package; in capitals: a folder that a variable names."""
+
+
+def test_every_package_says_what_it_needs() -> None:
+    """That of CMake is the way `cmake`."""
+    assert {*TOOLS, "cmake"} == set(builtin_packages())
+    assert all(describe(name).tools for name in TOOLS)
+
+
+@pytest.mark.parametrize("package", TOOLS)
+def test_what_a_package_needs(
+    run: Runner, folder: Path, monkeypatch: pytest.MonkeyPatch, package: str
+) -> None:
+    """Nothing of it is there, then all; each missing thing has a remedy."""
+    scripts = {name: text for name, text in TOOLS[package].items() if not name.isupper()}
+    variables = set(TOOLS[package]) - set(scripts)
+    for name in variables:
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("PATH", str(programs(folder / "empty")))
+    outcome = run("doctor", package, "--format", "json")
+    assert outcome.status == 1
+    for finding in findings(outcome).values():
+        assert finding["state"] == "missing"
+        assert finding["remedy"]
+        assert finding["needed_for"] == f"build with the package {package}"
+    monkeypatch.setenv("PATH", str(programs(folder / "bin", **scripts)))
+    for name in variables:
+        monkeypatch.setenv(name, str(folder))
+    outcome = run("doctor", package, "--format", "json")
+    assert outcome.status == 0, outcome.out
+
+
+def test_a_variable_that_names_no_folder(run: Runner, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PICO_SDK_PATH", str(folder / "gone"))
+    outcome = run("doctor", "pico")
+    assert outcome.status == 1
+    assert outcome.out.splitlines()[:2] == [
+        "broken   PICO_SDK_PATH      build with the package pico",
+        f"         {folder}/gone is no folder",
+    ]
+
+
+def test_packages_are_looked_for_when_they_are_named(run: Runner) -> None:
+    assert "package" not in run("doctor", "cmake").out
+    unknown = run("doctor", "zephir")
+    assert "Did you mean 'zephyr'?" in unknown.err
 
 
 @pytest.mark.builds

@@ -183,8 +183,9 @@ def test_each_transport_compiles(pio: Pio, transport: str) -> None:
     call = SET_UP.get(transport, "")
     (pio.project / "src" / "main.cpp").write_text(
         f"#include <Arduino.h>\n#include <micro_ros_platformio.h>\nvoid setup() {{ {call} }}\nvoid loop() {{}}\n"
+        '#if MICRO_ROS_DISTRO_KILTED != 1\n#error "no definition"\n#endif\n'
     )
-    pio.settings(f"board_microros_transport = {transport}", arduino=True)
+    pio.settings(f"board_microros_transport = {transport}", "board_microros_distro = kilted", arduino=True)
     pio.build()
 
 

@@ -17,6 +17,7 @@ from spdx_tools.spdx.validation.document_validator import validate_full_spdx_doc
 from microros_gen.package.archive import archive
 from microros_gen.package.find import builtin_packages
 from microros_gen.package.render import describe, plan_package, render_package
+from microros_gen.typesupport.plan.file_names import device_in, equal_but_for_case
 from tests.support.command_line import Runner
 from tests.support.paths import ROOT
 
@@ -33,8 +34,10 @@ def test_the_general_plan_is_the_same_each_time(name: str) -> None:
     assert first == second
     assert first["LICENSE"] == (ROOT / "LICENSE").read_bytes()
     assert not [path for path, content in first.items() if str(ROOT).encode() in content]
-    folded = [path.lower() for path in first]
-    assert len(set(folded)) == len(folded), "names that differ by case alone"
+    assert list(equal_but_for_case(first)) == []
+    assert [path for path in first if device_in(path)] == []
+    assert [path for path, content in first.items() if b"\r" in content] == []
+    assert all(content.decode("utf-8").endswith("\n") for content in first.values() if content)
 
 
 @pytest.mark.parametrize("name", builtin_packages())

@@ -25,8 +25,9 @@ if TYPE_CHECKING:
 def command(names: tuple[str, ...], fix: bool, kind: str) -> int:
     """Show what this machine lacks to build and run, what it is needed for, and the command that installs it.
 
-    WAY is a target (host, cortex-m4, …), cmake, colcon or agent; all of them by default. A compiler is started with
-    the flags of the target, so one without its C library is found, too. --fix corrects the CMake files of ROS 2 wheels
+    WAY is a target (host, cortex-m4, …), cmake, colcon or agent; all of them by default. It can also be a package
+    (platformio, zephyr, …): what its build system needs is looked for if you name it. A compiler is started with the
+    flags of the target, so one without its C library is found, too. --fix corrects the CMake files of ROS 2 wheels
     in this Python environment, which name header folders of the machine that built the wheels.
 
     Exit status: 0 everything is there; 1 something is missing or broken.
@@ -34,6 +35,7 @@ def command(names: tuple[str, ...], fix: bool, kind: str) -> int:
     \b
     microros-gen doctor
     microros-gen doctor host qemu-mps2-an386 agent
+    microros-gen doctor pico
     microros-gen doctor colcon --fix
     """
     found = check(names, os.environ)
@@ -47,10 +49,16 @@ def command(names: tuple[str, ...], fix: bool, kind: str) -> int:
 
 
 def check(names: Sequence[str], environ: Mapping[str, str]) -> tuple[Finding, ...]:
-    """Return what is found for the ways `names`, by default for all. Raises UserError for an unknown one."""
+    """Return what is found for the ways `names`, by default for all but packages.
+
+    Raises UserError for an unknown one.
+    """
+    from microros_gen.cli.doctor.packages import package_findings
     from microros_gen.cli.doctor.ros import agent_findings, colcon_findings
     from microros_gen.cli.doctor.tools import cmake_findings, read_targets, target_findings
     from microros_gen.diagnostics import Diagnostic, UserError, nearest
+    from microros_gen.package.find import builtin_packages
+    from microros_gen.package.render import describe
     from microros_gen.platform.find import target_names
 
     others: dict[str, Callable[[], Iterator[Finding]]] = {
@@ -59,12 +67,17 @@ def check(names: Sequence[str], environ: Mapping[str, str]) -> tuple[Finding, ..
         "agent": lambda: agent_findings(environ),
     }
     known = (*target_names(), *others)
+    packages = [name for name in builtin_packages() if name not in others]
     for name in names:
-        if name not in known:
-            hint = nearest(name, known) or f"Available: {', '.join(known)}"
+        if name not in known and name not in packages:
+            possible = (*known, *packages)
+            hint = nearest(name, possible) or f"Available: {', '.join(possible)}"
             raise UserError([Diagnostic(f"unknown way to build or run '{name}'", hint=hint, id="MG-9241")])
     requested = names or known
-    found = [*target_findings(read_targets([n for n in requested if n not in others]), environ)]
+    targets = [name for name in requested if name not in others and name not in packages]
+    found = [*target_findings(read_targets(targets), environ)]
+    for name in packages:
+        found += package_findings(describe(name), environ) if name in requested else []
     for name, findings in others.items():
         found += [f for f in findings() if f not in found] if name in requested else []
     return tuple(found)

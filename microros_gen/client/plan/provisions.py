@@ -49,13 +49,13 @@ def _report_missing(
         return
     names = ", ".join(row.capability.name for row in found.missing)
     askers = sorted({asker for row in found.missing for asker in row.asked_by})
-    wish = f" and write `provides: [{names}]` into the target file, or add a part that has them"
+    otherwise = f" and write `provides: [{names}]` into the target file, or add a part that has them"
     block = tuple(line for row in found.missing for line in declarations(row.capability))
     diagnostics.add(
         Diagnostic(
             f"the target {target.name} provides no {names} for {', '.join(askers)}",
             application.target.span,
-            "Define the functions below in your application" + ("" if target.of_package else wish),
+            "Define the functions below in your application" + ("" if target.of_package else otherwise),
             Severity.WARNING,
             block,
             id="MG-7015",
