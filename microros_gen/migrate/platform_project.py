@@ -15,8 +15,8 @@ from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
 from microros_gen.documents.files import read_bytes
 from microros_gen.documents.own_templates import render_own
 from microros_gen.documents.templates import shared_environment
-from microros_gen.migrate.code import COMPILED, code_bytes, code_files, code_folder
-from microros_gen.migrate.proposal import InitOptions
+from microros_gen.migrate.code import COMPILED, code_bytes, code_files
+from microros_gen.migrate.proposal import InitOptions, source_places
 from microros_gen.package.description import PROJECT_FOLDER, PackageDescription
 from microros_gen.package.project import Project
 from microros_gen.package.render import PackagePlan, render_package
@@ -85,20 +85,6 @@ def project_files(options: InitOptions, planned: Planned | None, undecided: int)
     )
     files |= dict(_own(package, view))
     return files
-
-
-def source_places(options: InitOptions) -> Mapping[Path, str]:
-    """Return where the project has each C and C++ file of the sources."""
-    assert options.package is not None
-    assert options.code is not None
-    project, folder = checked_project(options.package), code_folder(options.code)
-    places: dict[Path, str] = {}
-    seen: set[str] = set()
-    for path in code_files(options.code):
-        name = path.relative_to(folder).as_posix()
-        places[path] = project.place_of_source(name, options.name, path.suffix not in seen)
-        seen.add(path.suffix)
-    return places
 
 
 def find_needs(options: InitOptions, planned: Planned, diagnostics: Diagnostics) -> None:

@@ -19,7 +19,7 @@ from microros_gen.interfaces.closure import resolve_interfaces
 from microros_gen.interfaces.derived import parts_of
 from microros_gen.interfaces.find import InterfaceFinder
 from microros_gen.interfaces.types import Declaration, Message
-from microros_gen.migrate.code import read_code
+from microros_gen.migrate.code import code_files, code_folder, read_code
 from microros_gen.migrate.colcon_meta import MetaSetting, read_settings
 from microros_gen.migrate.draft import Draft, DraftValue, Flow, Remark
 from microros_gen.migrate.first import AGENT, first_draft
@@ -101,11 +101,26 @@ def _of_code(options: InitOptions, diagnostics: Diagnostics) -> Adopted:
     sources = read_code(options.code, diagnostics)
     diagnostics.check()
     if options.sources is None:
-        start = options.code if options.code.is_dir() else options.code.parent
-        sources = tuple(replace(s, name=Path(s.name).relative_to(start).as_posix()) for s in sources)
+        places = source_places(options)
+        sources = tuple(replace(s, name=places[Path(s.name)]) for s in sources)
     catalogue = with_installed(load_catalogue(), capabilities())
     provided = _provided(options.package) if options.package is not None else frozenset()
     return rclc_draft(sources, declared_functions(catalogue), catalogue, diagnostics, provided)
+
+
+def source_places(options: InitOptions) -> Mapping[Path, str]:
+    """Return where the project has each C and C++ file of the sources."""
+    assert options.package is not None
+    assert options.code is not None
+    project, folder = options.package.project, code_folder(options.code)
+    assert project is not None
+    places: dict[Path, str] = {}
+    seen: set[str] = set()
+    for path in code_files(options.code):
+        name = path.relative_to(folder).as_posix()
+        places[path] = project.place_of_source(name, options.name, path.suffix not in seen)
+        seen.add(path.suffix)
+    return places
 
 
 def _provided(package: PackageDescription) -> frozenset[str]:

@@ -11,6 +11,7 @@ import pytest
 from microros_gen.package.find import builtin_packages
 from microros_gen.package.project import Project
 from microros_gen.package.render import describe, plan_package, render_package
+from microros_gen.typesupport.plan.file_names import device_in, equal_but_for_case
 from tests.support.command_line import Runner
 from tests.support.paths import ROOT
 
@@ -69,7 +70,11 @@ def test_a_project_of_nothing_has_the_package_of_its_plan(run: Runner, folder: P
     check = ("check", "--package", name, "-c", str(robot / "microros.yaml"), "--golden", str(library))
     assert run(*check).status == 0
     places = [path.relative_to(robot).as_posix() for path in robot.rglob("*")]
-    assert not [place for place in places if re.search(r"NAME|DOT_|\{|\.j2$", place)]
+    assert not [place for place in places if re.search(r"NAME|DOT_|\{|\.j2$", place) or device_in(place)]
+    assert list(equal_but_for_case(places)) == []
+    named = re.findall(r"# (\S+):\d+$", (robot / "microros.yaml").read_text(), re.MULTILINE)
+    assert named
+    assert set(named) <= set(places), "comments name files of the project"
     text = "".join(path.read_text() for path in robot.iterdir() if path.is_file())
     assert str(ROOT) not in text
     assert f"microros-gen package {name} -c microros.yaml -o {library.relative_to(robot)}" in text
