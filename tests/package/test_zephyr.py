@@ -180,6 +180,18 @@ def test_a_missing_setting_stops_the_compiler(tmp_path: Path, kind: str, lost: s
     assert re.search(rf'#error "prj.conf: set .*{lost}=y', done.stderr)
 
 
+@pytest.mark.parametrize("transport", ["serial", "udp", "tcp", "custom"])
+def test_the_library_has_each_transport_of_zephyr(run: Runner, folder: Path, transport: str) -> None:
+    """A network need not be named."""
+    (folder / "own.yaml").write_text(
+        f"version: 1\nprofiles: [pure_sender]\ntransport: {{type: {transport}}}\n"
+    )
+    done = run("package", "zephyr", "-c", "own.yaml", "-o", "out")
+    assert (done.status, done.err, "you define" in done.out) == (0, "", False)
+    own = list((folder / "out" / "src").glob(f"*/port_zephyr_{transport}.c"))
+    assert len(own) == (transport != "custom")
+
+
 @pytest.mark.builds
 def test_a_project_finds_its_module(run: Runner, folder: Path) -> None:
     assert run("init", "robot", "--platform", "zephyr").status == 0
