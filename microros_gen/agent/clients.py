@@ -91,8 +91,6 @@ class Client:
     """That message has further submessages."""
     samples: Cutting | None = None
     """The samples of an unfinished WRITE_DATA."""
-    whole: bytes | None = None
-    """The message that the last processed FRAGMENT completed."""
     retry_at: float = 0.0
     """When a stopped reliable stream is retried, and the delay before that."""
     retry_s: float = 0.0

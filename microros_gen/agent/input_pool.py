@@ -30,6 +30,11 @@ class Holder:
 
     def take(self, size: int) -> bool:
         """Reserve `size` more bytes; return False if they do not fit."""
+        pool, held = self._pool, self.held + size
+        if pool is not None and held <= pool.share and held <= self._most:  # called for each fragment
+            self.held = held
+            pool.held += size
+            return True
         if not self.has_room(size):
             return False
         self.add(size)
@@ -44,10 +49,12 @@ class Holder:
 
     def add(self, size: int) -> None:
         """Reserve `size` bytes that cannot be refused; release them if `size` is negative."""
-        before, self.held = self._beyond(self.held), self.held + size
-        if self._pool is not None:
-            self._pool.free -= self._beyond(self.held) - before
-            self._pool.held += size
+        pool, before = self._pool, self.held
+        after = self.held = before + size
+        if pool is not None:
+            pool.held += size
+            if before > pool.share or after > pool.share:
+                pool.free -= self._beyond(after) - self._beyond(before)
 
     def clear(self) -> None:
         """Release everything."""

@@ -38,7 +38,6 @@ from microros_gen.agent.wire.entity_messages import (
     Acknack,
     Create,
     Delete,
-    Fragment,
     Heartbeat,
     Representation,
     Reset,
@@ -89,7 +88,6 @@ class Operations:
             Acknack: self._acknack,
             Heartbeat: self._heartbeat,
             Reset: self._reset,
-            Fragment: self._fragment,
             Timestamp: self._timestamp,
         }
         self._handlers: Mapping[type, Handler] = MappingProxyType(handlers)
@@ -287,10 +285,6 @@ class Operations:
         client.session.reset()
         client.unacknowledged.clear()
         self._deliveries.room(client, now)
-
-    def _fragment(self, client: Client, submessage: Submessage, now: float) -> None:
-        assert isinstance(submessage, Fragment)
-        client.whole = client.session.fragment(client.stream, submessage)
 
     def _timestamp(self, client: Client, submessage: Submessage, now: float) -> None:
         assert isinstance(submessage, Timestamp)

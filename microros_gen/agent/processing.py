@@ -17,6 +17,7 @@ from microros_gen.agent.session import Ready
 from microros_gen.agent.turns import Turns
 from microros_gen.agent.wire.constants import (
     DATA_FORMAT_MASK,
+    FLAG_LAST_FRAGMENT,
     FLAG_LITTLE,
     STREAM_RELIABLE,
     ObjectKind,
@@ -30,6 +31,7 @@ from microros_gen.agent.wire.submessages import decode
 
 WRITE_DATA = int(SubmessageId.WRITE_DATA)
 ACKNACK = int(SubmessageId.ACKNACK)
+FRAGMENT = int(SubmessageId.FRAGMENT)
 COSTLY = (SubmessageId.CREATE, SubmessageId.DELETE)
 """Submessages that change the ROS graph, limited by a rate per client and a share of the agent's time for all."""
 ANSWERED = (SubmessageId.CREATE, SubmessageId.READ_DATA)
@@ -135,6 +137,12 @@ class Processor:
             elif identifier == ACKNACK and end - at == 5 and flags & FLAG_LITTLE:
                 first, missing = data[at] | data[at + 1] << 8, data[at + 2] << 8 | data[at + 3]
                 self._operations.acknowledged(client, data[at + 4], first, missing, self._clock())
+            elif identifier == FRAGMENT and not whole:
+                joined = client.session.fragment(stream, data[at:end], bool(flags & FLAG_LAST_FRAGMENT))
+                if joined is not None:
+                    rest = (data, end + (-end & 3), stream, False, 0)
+                    client.ready.extendleft((rest, (joined, 0, stream, True, 0)))
+                    return
             elif identifier in COSTLY and not self._may_change(client, data, at, end):
                 waits = BusyError("it creates and deletes faster than it may")
                 if self._stop(
@@ -159,7 +167,7 @@ class Processor:
             self._to_acknowledge.discard(client)
             client.ready.clear()
             return False
-        if identifier == SubmessageId.FRAGMENT and whole:
+        if identifier == FRAGMENT:
             raise MalformedError("nested_fragment")
         if identifier == SubmessageId.INFO or (identifier == SubmessageId.CREATE_CLIENT and at == end):
             return (
@@ -182,13 +190,7 @@ class Processor:
         if not done:
             client.ready.appendleft((data, next_start, client.stream, whole, 0))
             return False
-        if client.whole is None:
-            return True
-        client.ready.extendleft(
-            ((data, next_start, client.stream, False, 0), (client.whole, 0, client.stream, True, 0))
-        )
-        client.whole = None
-        return False
+        return True
 
     def _may_change(self, client: Client, data: bytes, at: int, end: int) -> bool:
         """Return whether a client may create or delete one more object now; it may always leave.

@@ -18,7 +18,7 @@ from microros_gen.agent.wire.constants import (
     SubmessageId,
     is_reliable,
 )
-from microros_gen.agent.wire.entity_messages import Fragment, Heartbeat
+from microros_gen.agent.wire.entity_messages import Heartbeat
 from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.session_messages import GetInfo
 from microros_gen.agent.wire.submessages import Submessage, encode
@@ -165,14 +165,14 @@ class Session:
         """Let reliable input stream `stream` start at `first`: an earlier agent received what precedes it."""
         self._open_reliable(stream).next = first
 
-    def fragment(self, stream: int, fragment: Fragment) -> bytes | None:
-        """Add a FRAGMENT of `stream`; return the submessages that it completes."""
+    def fragment(self, stream: int, part: bytes, last: bool) -> bytes | None:
+        """Add the payload of a FRAGMENT of `stream`; return the submessages that it completes."""
         if not is_reliable(stream):
             raise MalformedError("fragment_stream", f"stream {stream:#04x}")
         reassembly = self._reassembly.get(stream)
         if reassembly is None:
             reassembly = self._reassembly[stream] = Reassembly(self._limits.message_bytes, self._holder)
-        return reassembly.add(fragment.data, fragment.last)
+        return reassembly.add(part, last)
 
     def acknack(self, stream: int, unfinished: int = 0) -> bytes:
         """Return the ACKNACK message for reliable stream `stream`.

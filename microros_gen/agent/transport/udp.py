@@ -37,11 +37,11 @@ Peer = Any
 class Queue:
     """A socket that is read: the shared one, or that of one client."""
 
-    def __init__(self, opened: socket.socket, account: Account, peer: Peer = None) -> None:
-        """Read for `peer`; None: for every sender without a separate socket."""
+    def __init__(self, opened: socket.socket, account: Account, address: Hashable = None) -> None:
+        """Read for the client at `address`; None: for every sender without a separate socket."""
         self.socket = opened
         self.account = account
-        self.peer = peer
+        self.address = address
 
 
 class Udp:
@@ -125,7 +125,7 @@ class Udp:
             return  # no descriptor is left: the client shares the common socket
         self._keep(self._socket)  # its earlier datagrams precede new ones
         self._keep(connected)
-        queue = self._by_peer[peer] = self._queues[connected.fileno()] = Queue(connected, account, peer)
+        queue = self._by_peer[peer] = self._queues[connected.fileno()] = Queue(connected, account, address)
         self._epoll.register(queue.socket, select.EPOLLIN)
 
     def release(self, address: Hashable, moved: bool = False) -> None:
@@ -172,19 +172,23 @@ class Udp:
         self._epoll.close()
 
     def _read(self, queue: Queue, receive: Receive) -> None:
-        take, account = queue.socket.recvfrom, queue.account
-        end = time.monotonic() + SHARE_S
+        take, account, address = queue.socket.recvfrom, queue.account, queue.address
+        receive_only, clock = queue.socket.recv, time.monotonic
+        end = clock() + SHARE_S
         for _ in range(BATCH):
             try:
-                data, peer = take(MAXIMUM_DATAGRAM)
+                if address is not None:  # a connected socket has only datagrams of its client
+                    data = receive_only(MAXIMUM_DATAGRAM)
+                else:
+                    data, peer = take(MAXIMUM_DATAGRAM)
             except BlockingIOError:
                 return
             except OSError:
                 if queue.socket.fileno() < 0:
                     return  # its client left with the previous message
                 continue  # an ICMP error for something sent earlier
-            receive(data, (self, peer), self)
-            if account.busy or time.monotonic() > end:
+            receive(data, address or (self, peer), self)
+            if account.busy or clock() > end:
                 return
 
     def _keep(self, ends: socket.socket) -> None:
