@@ -174,7 +174,8 @@ class Agent:
         self._payer.bill(now - began, now)
 
     def flush(self) -> None:
-        """Send the acknowledgements of what was received since the last call."""
+        """Send the acknowledgements of what was received since the last call, and what these messages made room for."""
+        self._guarded(self._deliveries.use_room)
         self._processor.flush()
 
     def tick(self) -> None:
@@ -248,6 +249,7 @@ class Agent:
         self.flush()
         for client in self.clients:
             self._guarded(partial(say_farewell, client))
+            client.transport.flush()
         late = sum(
             not writer.settled(max(0.0, end - self._clock()))
             for client in self.clients
@@ -303,10 +305,13 @@ class Agent:
         waits = self._turns.waits(client)
         if waits and not self._turns.takes(client, len(data)):
             raise MalformedError("turn_full", "more than the client's next turns have room for")
-        for message in client.session.incoming(stream, data[2] | data[3] << 8, data):
-            client.ready.append((message, start, stream, False, 0))
+        messages = client.session.incoming(stream, data[2] | data[3] << 8, data)
         if stream >= STREAM_RELIABLE:
             self._processor.note_arrival(client, stream)
+        if len(messages) == 1 and not waits and not client.ready:
+            self._processor.process_alone(client, messages[0], start, stream)
+            return
+        client.ready.extend((message, start, stream, False, 0) for message in messages)
         if not waits:
             self._processor.process(client)
 

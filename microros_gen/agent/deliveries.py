@@ -36,6 +36,8 @@ class Deliveries:
         self._by_source: dict[int, Reading] = {}
         """Readings by the identity of their source, which the reading keeps alive."""
         self._later: list[tuple[float, int, Reading]] = []
+        self._with_room: dict[Client, None] = {}
+        """Clients whose reliable streams may have space again, in order."""
         self._order = 0
         self._crowded = CROWDED
         self.delivered = 0
@@ -53,6 +55,22 @@ class Deliveries:
         """Read from sources that have data; a source without a reading keeps its data."""
         found = (self._by_source.get(id(source)) for source in sources)
         self._round([reading for reading in found if reading is not None], now)
+
+    def note_room(self, client: Client) -> None:
+        """Continue at the next `use_room` what waits for space on a reliable stream of `client`.
+
+        A client acknowledges each message by itself; those of a batch are answered together.
+        """
+        self._with_room[client] = None
+
+    def use_room(self) -> None:
+        """Continue the readings of the clients of `note_room`."""
+        clients, self._with_room = self._with_room, {}
+        for client in clients:
+            began = self._clock()
+            self.room(client, began)
+            ended = self._clock()
+            client.account.bill(ended - began, ended)
 
     def room(self, client: Client, now: float) -> None:
         """Continue, in turn, the readings that wait for space on a reliable stream of `client`."""

@@ -30,11 +30,6 @@ class Holder:
 
     def take(self, size: int) -> bool:
         """Reserve `size` more bytes; return False if they do not fit."""
-        pool, held = self._pool, self.held + size
-        if pool is not None and held <= pool.share and held <= self._most:  # called for each fragment
-            self.held = held
-            pool.held += size
-            return True
         if not self.has_room(size):
             return False
         self.add(size)
@@ -42,7 +37,8 @@ class Holder:
 
     def has_room(self, size: int) -> bool:
         """Return whether `take` would reserve `size` bytes."""
-        if self._pool is None:
+        held = self.held + size
+        if self._pool is None or (held <= self._pool.share and held <= self._most):  # asked for each fragment
             return True
         more = self._beyond(self.held + size) - self._beyond(self.held)
         return self.held + size <= self._most and more <= max(0, self._pool.free)

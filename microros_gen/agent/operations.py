@@ -184,7 +184,7 @@ class Operations:
         for message in client.session.acknowledged(stream, first, missing, now):
             client.send(message)
         if client.waiting:
-            self._deliveries.room(client, now)
+            self._deliveries.note_room(client)
 
     def _write_samples(
         self, client: Client, writer: Entity, samples: Sequence[Sample], little: bool, done: int

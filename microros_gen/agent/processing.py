@@ -31,6 +31,7 @@ from microros_gen.agent.wire.submessages import decode
 
 WRITE_DATA = int(SubmessageId.WRITE_DATA)
 ACKNACK = int(SubmessageId.ACKNACK)
+ACKNACK_HEAD = bytes((ACKNACK, FLAG_LITTLE, 5, 0))
 FRAGMENT = int(SubmessageId.FRAGMENT)
 COSTLY = (SubmessageId.CREATE, SubmessageId.DELETE)
 """Submessages that change the ROS graph, limited by a rate per client and a share of the agent's time for all."""
@@ -90,6 +91,26 @@ class Processor:
         if client.unacknowledged:
             self._to_acknowledge.add(client)
         self.process(client)
+
+    def process_alone(self, client: Client, data: bytes, start: int, stream: int) -> None:
+        """Process one message of a client that has no other ready input."""
+        try:
+            at = start + SUBMESSAGE_HEADER
+            if (
+                data[start:at] == ACKNACK_HEAD and len(data) == at + 5
+            ):  # one for each message that a client receives
+                first, missing = data[at] | data[at + 1] << 8, data[at + 2] << 8 | data[at + 3]
+                self._operations.acknowledged(client, data[at + 4], first, missing, self._clock())
+                return
+            self._process(client, data, start, stream, False, 0)
+        except Exception as error:
+            client.more = False
+            self._refuse(error, data, client)
+        if client.ready:
+            if client.work or self._turns.over:
+                self._turns.put_off(client)
+            else:
+                self.process(client)
 
     def process(self, client: Client) -> None:
         """Process ready input of a client until its turn ends."""

@@ -79,6 +79,7 @@ class Server:
     def _serve(self, epoll: select.epoll, ready: Ready, clock: Callable[[], float]) -> None:
         handlers = self._register(epoll)
         poll, flush, due = epoll.poll, self._agent.flush, self._agent.due
+        flush_all = [transport.flush for transport in self._transports]
         care_at = clock()
         while not self._stop:
             now = clock()
@@ -93,6 +94,8 @@ class Server:
             for descriptor, _ in poll(wait if wait > 0 else 0):
                 handlers[descriptor]()
             flush()
+            for flush_transport in flush_all:
+                flush_transport()
 
     def _register(self, epoll: select.epoll) -> dict[int, Callable[[], object]]:
         """Watch every descriptor; return the function to call when one is readable."""

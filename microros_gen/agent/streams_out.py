@@ -9,7 +9,7 @@ from microros_gen.agent.input_pool import Holder
 from microros_gen.agent.streams_in import HALF
 from microros_gen.agent.wire.constants import FLAG_LAST_FRAGMENT, FLAG_LITTLE, RELIABLE_WINDOW, SubmessageId
 from microros_gen.agent.wire.entity_messages import Heartbeat
-from microros_gen.agent.wire.message import SUBMESSAGE_HEADER, header_bytes, submessage_bytes
+from microros_gen.agent.wire.message import SUBMESSAGE_HEADER, header_bytes
 from microros_gen.records import dataclass
 
 HEARTBEAT_PERIOD_S = 0.2
@@ -20,6 +20,7 @@ SILENT_PERIOD_S, SLOW_PERIOD_S = 1.0, 5.0
 NEVER = float("-inf")
 STEP_BYTES = 4_096
 """Bytes that a stream may use without a reservation in the budget of all clients."""
+FRAGMENT = int(SubmessageId.FRAGMENT)
 MANY = 512
 """Number of messages over which the rate of repetitions is measured."""
 REPEAT_S = 0.01
@@ -111,6 +112,11 @@ class ReliableOut:
         self._reported = 0
         self._link = link
         self._head = len(link.header(0, 0))
+        self._before, self._after = bytes((link.session, stream)), link.header(0, 0)[4:]
+        """The parts of a message header before and after the sequence number."""
+        self._part = (link.room() - SUBMESSAGE_HEADER) & ~3
+        """Number of bytes in each FRAGMENT but the last, and its header."""
+        self._part_head = _fragment_head(self._part, 0) if 0 < self._part <= 0xFFFF else b""
         self.stream = stream
         self._sequence = 0
         self._unacknowledged: deque[bytes] = deque()
@@ -287,7 +293,7 @@ class ReliableOut:
         return released
 
     def _number(self, body: bytes, now: float) -> bytes:
-        message = self._link.header(self.stream, self._sequence) + body
+        message = self._before + self._sequence.to_bytes(2, "little") + self._after + body
         self._sequence = (self._sequence + 1) & 0xFFFF
         if not self._unacknowledged:
             self._progress_at = now
@@ -299,15 +305,16 @@ class ReliableOut:
         return message
 
     def _fragments(self, submessage: bytes) -> list[bytes]:
-        size = (self._room - SUBMESSAGE_HEADER) & ~3
-        fragments = [submessage[at : at + size] for at in range(0, len(submessage), size)]
-        last = len(fragments) - 1
-        return [
-            submessage_bytes(
-                SubmessageId.FRAGMENT, fragment, FLAG_LITTLE | (FLAG_LAST_FRAGMENT if i == last else 0)
-            )
-            for i, fragment in enumerate(fragments)
-        ]
+        size, head = self._part, self._part_head
+        rest = (len(submessage) - 1) // size * size
+        fragments = [head + submessage[at : at + size] for at in range(0, rest, size)]
+        fragments.append(_fragment_head(len(submessage) - rest, FLAG_LAST_FRAGMENT) + submessage[rest:])
+        return fragments
+
+
+def _fragment_head(size: int, last: int) -> bytes:
+    """Return the header of a FRAGMENT with `size` bytes (at most 65,535); `last`: FLAG_LAST_FRAGMENT or 0."""
+    return bytes((FRAGMENT, FLAG_LITTLE | last, size & 0xFF, size >> 8))
 
 
 assert RELIABLE_WINDOW < HALF

@@ -27,6 +27,7 @@ class Pipe:
         os.set_blocking(self.out, False)
         self.ready = True
         self.ticks = 0
+        self.flushes = 0
         self.closed = False
 
     def fileno(self) -> int:
@@ -41,6 +42,9 @@ class Pipe:
 
     def send(self, data: bytes, address: Hashable) -> None:
         raise NotImplementedError
+
+    def flush(self) -> None:
+        self.flushes += 1
 
     def name_of(self, address: Hashable) -> str:
         return str(address)
@@ -135,6 +139,11 @@ def test_messages_and_ros_wake_it_at_once() -> None:
             os.write(descriptor, b"x" if what == "receive" else (1).to_bytes(8, "little"))
             wait_until(partial(running.agent.has, what), f"no {what}")
             assert running.agent.when(what)[0] - start < TICK_S / 2
+
+
+def test_each_round_ends_with_the_output_of_the_transports() -> None:
+    with Running() as running:
+        wait_until(lambda: running.pipe.flushes == running.agent.turns > 0, "a round without flush")
 
 
 def test_it_calls_when_the_agent_wants() -> None:

@@ -59,7 +59,10 @@ class Transport(Protocol):
         """
 
     def send(self, data: bytes, address: Hashable) -> None:
-        """Send one message without waiting; a message that cannot be sent is lost. Never raises."""
+        """Send one message without waiting, in `flush` at the latest; it may be lost. Never raises."""
+
+    def flush(self) -> None:
+        """Send what `send` has collected; called at the end of each round of the server. Never raises."""
 
     def name_of(self, address: Hashable) -> str:
         """Return an address as in the log."""

@@ -215,6 +215,9 @@ class CanFd:
         text = "canfd {device} is back" if known else "canfd {device} is available"
         self._report("device_back", text)
 
+    def flush(self) -> None:
+        """See Transport: nothing is collected."""
+
     def name_of(self, address: Hashable) -> str:
         """See Transport."""
         return f"{self._device} identifier {address[1]:#x}" if isinstance(address, tuple) else str(address)

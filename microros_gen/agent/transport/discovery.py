@@ -124,6 +124,9 @@ class Discovery:
     def send(self, data: bytes, address: Hashable) -> None:
         """See Transport: nobody has a session here."""
 
+    def flush(self) -> None:
+        """See Transport: nothing is collected."""
+
     def name_of(self, address: Hashable) -> str:
         """See Transport."""
         return place_name(address)

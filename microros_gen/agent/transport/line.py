@@ -127,6 +127,9 @@ class Line:
             self._retry_at = now + RETRY_S
             self._try()
 
+    def flush(self) -> None:
+        """See Transport: nothing is collected."""
+
     def name_of(self, address: Hashable) -> str:
         """See Transport."""
         return f"{self._name} client {address[1]}" if isinstance(address, tuple) else str(address)

@@ -20,6 +20,7 @@ class ObservedTransport(ABC):
         self.name_of = inner.name_of
         self.origin = inner.origin
         self.tick = inner.tick
+        self.flush = inner.flush
         self.claim = inner.claim
         self.release = inner.release
         self.close = inner.close

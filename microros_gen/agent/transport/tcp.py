@@ -229,6 +229,9 @@ class Tcp:
             text = "{transport}: {peer} reads too slowly: messages to it are lost"
             self._log.count("tcp_output_full", text, transport=self.label, peer=address.peer)
 
+    def flush(self) -> None:
+        """See Transport: nothing is collected."""
+
     def name_of(self, address: Hashable) -> str:
         """See Transport."""
         return address.peer if isinstance(address, Connection) else str(address)

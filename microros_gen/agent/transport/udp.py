@@ -8,6 +8,7 @@ the lowest cost is read next.
 
 from __future__ import annotations
 
+import contextlib
 import select
 import socket
 import time
@@ -18,6 +19,7 @@ from typing import Any
 from microros_gen.agent.fairness import TURN_S, Account, Fairness
 from microros_gen.agent.transport.addresses import parse_address
 from microros_gen.agent.transport.base import Origin, Receive
+from microros_gen.agent.transport.datagrams import send_datagrams
 from microros_gen.agent.transport.sockets import Protocol, open_connected, open_socket, place_name
 
 BATCH = 64
@@ -30,6 +32,8 @@ READY = 128
 """Clients with input that are ordered by their cost at one time: with some hundred more, ordering takes longer than
 reading. The system hands out the others next, as it moves to the end whom it has handed out."""
 MAXIMUM_DATAGRAM = 65_535
+AT_ONCE = 16
+"""Datagrams to one client that are collected at most: those of equal size are then sent in one call."""
 Peer = Any
 """A socket address of the system: host, port, and for IPv6 more."""
 
@@ -42,6 +46,8 @@ class Queue:
         self.socket = opened
         self.account = account
         self.address = address
+        self.unsent: list[bytes] = []
+        """Datagrams to the client that are not sent yet."""
 
 
 class Udp:
@@ -69,6 +75,8 @@ class Udp:
         self._by_peer: dict[Peer, Queue] = {}
         self._strays: deque[tuple[bytes, Peer]] = deque()
         """Datagrams that were read when a socket was opened or closed."""
+        self._unsent: list[Queue] = []
+        """The queues with collected datagrams."""
         self._epoll = select.epoll()
         self._epoll.register(self._socket, select.EPOLLIN)
 
@@ -111,6 +119,8 @@ class Udp:
         for place, queue in enumerate(ready, 1):
             if not queue.account.busy:
                 self._read(queue, receive)
+                if self._unsent:
+                    self.flush()
             if place < len(ready) and time.monotonic() > end:
                 return False
         return True
@@ -133,6 +143,7 @@ class Udp:
         queue = self._by_peer.pop(address[1], None)  # type: ignore[index]
         if queue is None:
             return
+        self.flush()
         self._epoll.unregister(queue.socket)
         del self._queues[queue.socket.fileno()]
         if not moved:
@@ -143,13 +154,23 @@ class Udp:
         """See Transport."""
         peer: Peer = address[1]  # type: ignore[index]
         queue = self._by_peer.get(peer)
-        try:
-            if queue is None:
+        if queue is None:
+            with contextlib.suppress(OSError):  # a datagram may always be lost
                 self._socket.sendto(data, peer)
-            else:
-                _send(queue.socket, data)
-        except OSError:
-            return  # a datagram may always be lost
+            return
+        unsent = queue.unsent
+        if not unsent:
+            self._unsent.append(queue)
+        unsent.append(data)
+        if len(unsent) >= AT_ONCE:
+            self.flush()
+
+    def flush(self) -> None:
+        """See Transport."""
+        for queue in self._unsent:
+            send_datagrams(queue.socket, queue.unsent)
+            queue.unsent = []
+        self._unsent.clear()
 
     def name_of(self, address: Hashable) -> str:
         """See Transport."""
@@ -165,6 +186,7 @@ class Udp:
 
     def close(self) -> None:
         """See Transport."""
+        self.flush()
         for queue in self._queues.values():
             queue.socket.close()
         self._queues.clear()
@@ -198,10 +220,3 @@ class Udp:
                 self._strays.append(ends.recvfrom(MAXIMUM_DATAGRAM))
             except OSError:
                 return
-
-
-def _send(connected: socket.socket, data: bytes) -> None:
-    try:
-        connected.send(data)
-    except ConnectionRefusedError:  # the error of an earlier one was reported; this one was not sent
-        connected.send(data)

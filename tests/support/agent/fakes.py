@@ -234,6 +234,9 @@ class FakeTransport:
     def send(self, data: bytes, address: Hashable) -> None:
         self.sent.append((address, data))
 
+    def flush(self) -> None:
+        """All are sent at once."""
+
     def name_of(self, address: Hashable) -> str:
         return str(address)
 
