@@ -25,6 +25,7 @@ from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.memory import MemoryGuard, Relief
 from microros_gen.agent.operations import Operations
+from microros_gen.agent.own_time import LONG_S
 from microros_gen.agent.policy.gatekeeper import Gatekeeper
 from microros_gen.agent.policy.model import Policy
 from microros_gen.agent.preconfigured import Preconfigured
@@ -83,8 +84,9 @@ class Agent:
         self._ticked = clock()
         self.clients = ClientTable()
         held = Held(references or References(), preconfigured or Preconfigured(), manifests or Manifests())
-        fair, graph = fair or Fairness(clock), GraphWork(limits.graph_ms_per_second)
-        self._graph = graph
+        self._fair = fair = fair or Fairness(clock)
+        self._round_begins = True
+        self._graph = graph = GraphWork(limits.graph_ms_per_second)
         self._payer = self._strangers = strangers or Account()
         """The accounts of the current work and of messages outside of any session."""
         turn_s = limits.turn_ms / 1000
@@ -158,6 +160,7 @@ class Agent:
     def take(self) -> None:
         """Deliver what ROS 2 has for the clients. Never raises."""
         try:
+            self._begin(self._clock())
             self._deliveries.ready(self._bridge.ready(), self._clock())
         except Exception as error:
             self._fault(error, b"")
@@ -165,18 +168,28 @@ class Agent:
     def receive(self, data: bytes, address: Hashable, transport: Transport) -> None:
         """Process one message; acknowledgements wait for `flush`. Never raises."""
         began = self._clock()
+        if self._round_begins:
+            self._begin(began)
         self._payer = self._strangers
         try:
             self._receive(data, address, transport, began)
         except Exception as error:
             self._refuse(error, data, address, transport)
         now = self._clock()
-        self._payer.bill(now - began, now)
+        spent = now - began
+        self._payer.bill(spent if spent < LONG_S else self._fair.own(spent), now)
 
     def flush(self) -> None:
         """Send the acknowledgements of what was received since the last call, and what these messages made room for."""
         self._guarded(self._deliveries.use_room)
         self._processor.flush()
+        self._round_begins = True
+
+    def _begin(self, now: float) -> None:
+        """Begin a round of the main loop, if this is its first work."""
+        if self._round_begins:
+            self._round_begins = False
+            self._fair.begin(now)
 
     def tick(self) -> None:
         """Send due messages and check time-outs. Never raises.
@@ -184,6 +197,7 @@ class Agent:
         To be called at the time that `due` returns, or some ten times a second.
         """
         now = self._clock()
+        self._begin(now)
         self._guarded(partial(self._deliveries.run, now))
         self._guarded(partial(self._turns.run, now))
         self._guarded(partial(self._processor.try_again, now))

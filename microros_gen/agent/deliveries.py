@@ -70,7 +70,7 @@ class Deliveries:
             began = self._clock()
             self.room(client, began)
             ended = self._clock()
-            client.account.bill(ended - began, ended)
+            client.account.bill(self._fair.own(ended - began), ended)
 
     def room(self, client: Client, now: float) -> None:
         """Continue, in turn, the readings that wait for space on a reliable stream of `client`."""
@@ -125,7 +125,7 @@ class Deliveries:
                 continue
             self._go(reading, at)
             before, at = at, self._clock()
-            reading.account.bill(at - before, at)
+            reading.account.bill(self._fair.own(at - before), at)
 
     def _go(self, reading: Reading, now: float) -> None:
         if reading.over:

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The order of work: of all clients with pending work, the one with the lowest recent cost is served first.
 
-The agent has one thread. The time that this thread spends on a client, waiting for ROS 2 included, is charged to the
-client's account in seconds and decays: after `MEMORY_S` a third of it is left. A client that needs less than its share
-is therefore served before all that need more, whatever the number and size of their messages. Unused time is not saved
-up for long, and a client that is alone gets the whole agent.
+The agent has one thread. The time that this thread spends on a client, waiting for ROS 2 included and for a processor
+not (see `own_time`), is charged to the client's account in seconds and decays: after `MEMORY_S` a third of it is left.
+A client that needs less than its share is therefore served before all that need more, whatever the number and size of
+their messages. Unused time is not saved up for long, and a client that is alone gets the whole agent.
 
 Refused work counts `REFUSED` times, so many clients whose requests are mostly refused get little of the agent and leave
 the others their share. A new account starts with `START_S`, so reconnecting does not help.
@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from math import exp
 from typing import Protocol, TypeVar
 
+from microros_gen.agent.own_time import OwnTime
 from microros_gen.agent.rates import WorkRate
 
 MEMORY_S = 0.25
@@ -85,8 +86,14 @@ B = TypeVar("B", bound=Billed)
 class Fairness:
     """The order of one agent's work, by cost."""
 
-    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(
+        self, clock: Callable[[], float] = time.monotonic, waited: Callable[[], float] | None = None
+    ) -> None:
+        """Charge no time that `waited` counts: that in which other programs had the processor (see OwnTime)."""
         self._clock = clock
+        own = OwnTime(waited or float)
+        self.begin, self.own = own.begin, own.of
+        """See OwnTime."""
 
     def order(self, items: list[B]) -> None:
         """Sort pending work: the account with the lowest recent cost first."""

@@ -112,7 +112,7 @@ class Turns:
             self.start(began)
             go_on(client)
             ended = self.clock()
-            client.account.bill(ended - began, ended)
+            client.account.bill(self._fair.own(ended - began), ended)
 
     def finish(self) -> None:
         """Finish all jobs at once."""

@@ -220,6 +220,7 @@ def test_a_client_that_sends_very_much_fills_only_its_queue(udp: Udp) -> None:
     assert len(received) <= 2 + BATCH
     udp.release((udp, flood.getsockname()))
     udp.send(b"answer", (udp, honest.getsockname()))
+    udp.flush()
     assert honest.recv(100) == b"answer"
 
 
@@ -252,10 +253,12 @@ def test_what_was_refused_before_does_not_take_the_next_datagram_along(udp: Udp)
     udp.claim((udp, place), Account())
     closed.close()
     udp.send(b"nobody", (udp, place))
+    udp.flush()
     again = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     again.bind(place)
     again.settimeout(seconds(5))
     udp.send(b"somebody", (udp, place))
+    udp.flush()
     assert again.recv(100) == b"somebody"
 
 

@@ -478,6 +478,32 @@ def test_the_time_of_the_agent_for_one_client() -> None:
     assert bench.log.counters["too_much_work"] > 200
 
 
+@pytest.mark.parametrize("cause", ["other programs", "DDS"])
+def test_the_load_of_the_machine_is_not_charged(cause: str) -> None:
+    """Each message takes 10 ms here; 9.9 of them have other programs, or the agent waits for DDS."""
+    bench = guarded("name: a, keys: [0x1], publish: [/**], limits: {work_ms_per_second: 200}")
+    client = admitted(bench)
+    client.writer("/busy")
+    for _ in range(10):  # the agent sees that the machine is busy
+        bench.now += 1.0
+        bench.waited += 0.5
+        client.say(sample())
+    sent = len(bench.bridge.published)
+    publish = type(next(iter(bench.agent.clients)).objects.find(0x15).writer).publish  # type: ignore[union-attr]
+
+    def slow(writer: Any, serialized: bytes) -> None:
+        bench.now += 0.01
+        bench.waited += 0.0099 if cause == "other programs" else 0.0005
+        publish(writer, serialized)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("tests.support.agent.fakes.FakeWriter.publish", slow)
+        for _ in range(100):
+            client.say(sample())
+    passed = len(bench.bridge.published) - sent
+    assert passed == 100 if cause == "other programs" else passed <= 45
+
+
 # Another policy
 
 

@@ -109,6 +109,8 @@ class AgentSide:
             transport.tick(now)
         for player, send in self._players.values():
             player.tick(now, reached_ns, send)
+        for transport in self._transports:
+            transport.flush()
 
     def close(self) -> None:
         """Stop watching the ends, which stay open."""

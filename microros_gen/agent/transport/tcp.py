@@ -221,8 +221,7 @@ class Tcp:
                 return
             if done == len(frame):
                 return
-            frame = frame[done:]
-            is_partly_sent = done > 0
+            frame, is_partly_sent = frame[done:], done > 0
             address.stuck_since = self._now
             self._watch(address, writing=True)
         if not address.outbox.put(frame, not is_partly_sent and is_sample(data)):

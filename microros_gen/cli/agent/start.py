@@ -30,6 +30,7 @@ from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.memory import MemoryGuard
+from microros_gen.agent.own_time import Waited
 from microros_gen.agent.policy.model import Policy
 from microros_gen.agent.preconfigured import Preconfigured
 from microros_gen.agent.readiness import notify, watchdog
@@ -76,7 +77,7 @@ def serve(options: AgentOptions) -> None:
     streams = connections(options.transports)
     check_memory(limits)
     pool, budgets = InputPool(limits.input_bytes, limits.clients + streams), Budgets(limits, streams)
-    shared = Shared(pool, budgets.output, Fairness(), Account())
+    shared = Shared(pool, budgets.output, Fairness(waited=Waited()), Account())
     transports = open_transports(options.transports, options.discovery, log, shared)
     parameters = ParametersOnDemand(options.parameter_server, options.parameter_file, options.domain, log)
     try:

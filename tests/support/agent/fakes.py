@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 from microros_gen.agent.core import Agent
-from microros_gen.agent.fairness import Account
+from microros_gen.agent.fairness import Account, Fairness
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.manifests import Manifests
@@ -266,6 +266,8 @@ class Bench:
         policy: Policy | None = None,
     ) -> None:
         self.now = 1000.0
+        self.waited = 0.0
+        """Seconds for which other programs had the agent's processor."""
         self.bridge = FakeBridge()
         self.transport = FakeTransport()
         self.text = io.StringIO()
@@ -281,6 +283,7 @@ class Bench:
             manifests=manifests,
             watched=watched,
             policy=policy,
+            fair=Fairness(lambda: self.now, lambda: self.waited),
         )
 
     def say(self, data: bytes | str, address: Hashable = "a") -> list[str]:
