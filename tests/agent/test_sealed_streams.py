@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from pathlib import Path
@@ -66,6 +67,23 @@ def test_a_client_and_its_restart(sealed: Sealed) -> None:
     sealed.served.publish(again, range(50, 100))
     assert again.leave() == 0
     assert not sealed.bench.log.counters, sealed.bench.text.getvalue()
+
+
+@pytest.mark.parametrize("known", [True, False], ids=["known", "unknown"])
+def test_a_refused_handshake_keeps_no_connection(known: bool) -> None:
+    """Whoever was only refused makes room for others, as whoever was never answered does."""
+    bench = Bench()
+    listener = tcp(bench, connections=1, patience_s=60.0)
+    with Served(SealedTransport(listener, {KEY: PSK}, bench.log), bench=bench) as served:
+        first = TcpLink("127.0.0.1", listener.port)
+        if known:
+            SealedLink(first, KEY, PSK)
+        else:
+            with pytest.raises(struct.error):  # a refusal is shorter than the second message
+                SealedLink(first, KEY + 1, PSK)
+        TcpLink("127.0.0.1", listener.port)
+        kind = "tcp_refused" if known else "tcp_displaced"
+        wait_until(lambda: served.count(kind) == 1, bench.text.getvalue())
 
 
 def test_repeated_records_are_refused(sealed: Sealed) -> None:

@@ -28,10 +28,16 @@ class SealedRecord(bytes):
     is_sample = False
 
 
+class Refusal(bytes):
+    """A message to somebody whose message was not accepted: it is no sign that the sender is a client."""
+
+
 def is_sample(message: bytes) -> bool:
     """Return whether a message of the agent is a best-effort sample, which a newer one replaces."""
     if isinstance(message, SealedRecord):
         return message.is_sample
+    if isinstance(message, Refusal):
+        return False
     start = 4 if message[0] >= 0x80 else 8
     return STREAM_NONE < message[1] < STREAM_RELIABLE and message[start : start + 1] == bytes((DATA,))
 

@@ -16,7 +16,7 @@ from microros_gen.agent.seal.handshakes import Handshakes
 from microros_gen.agent.seal.session import Kind, RecordError
 from microros_gen.agent.transport.base import Origin, Receive, SealedAddress, Transport
 from microros_gen.agent.transport.observed import ObservedTransport
-from microros_gen.agent.transport.outbox import SealedRecord, is_sample
+from microros_gen.agent.transport.outbox import Refusal, SealedRecord, is_sample
 from microros_gen.agent.wire.constants import STREAM_NONE, Status, SubmessageId
 from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.message import Header, header_size, split
@@ -102,7 +102,7 @@ class SealedTransport(ObservedTransport):
         kind = data[0] if data else 0
         if kind == Kind.FIRST:
             answer, fault = self._handshakes.answer(data, address, self._clock())
-            self._inner.send(answer, address)
+            self._inner.send(Refusal(answer) if fault else answer, address)
             if fault:
                 raise RecordError(fault)
             return b"", 0
@@ -114,7 +114,7 @@ class SealedTransport(ObservedTransport):
             denial = _denial(message)
             record = denial and session.seal(denial)
             if record:
-                self._inner.send(record, address)
+                self._inner.send(Refusal(record), address)
             raise RecordError("seal_other_client")
         return message, session.client_key
 
@@ -122,7 +122,7 @@ class SealedTransport(ObservedTransport):
         """Tell a client without a seal that it may not connect."""
         answer = _denial(data)
         if answer:
-            self._inner.send(answer, address)
+            self._inner.send(Refusal(answer), address)
 
     def _count(self, kind: str, address: Hashable) -> None:
         self._log.count(kind, "a message from {peer} was refused", peer=self._inner.name_of(address))

@@ -21,7 +21,7 @@ from microros_gen.agent.input_pool import Holder, InputPool
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.transport.addresses import host_of, parse_address
 from microros_gen.agent.transport.base import Origin, Receive
-from microros_gen.agent.transport.outbox import Outbox, is_sample
+from microros_gen.agent.transport.outbox import Outbox, Refusal, is_sample
 from microros_gen.agent.transport.sockets import Protocol, open_socket, place_name
 from microros_gen.records import dataclass
 
@@ -79,7 +79,7 @@ class Connection:
         """The account that its input is charged to."""
         self.host = host
         self.answered = False
-        """Whether the agent has sent it an answer, which means that it sent a valid message."""
+        """Whether the agent has sent it an answer other than a refusal: it sent a valid message."""
         self.holder = holder
         """Budget of its unfinished message."""
         self.socket = accepted
@@ -206,7 +206,7 @@ class Tcp:
     def send(self, data: bytes, address: Hashable) -> None:
         """See Transport."""
         assert isinstance(address, Connection)
-        address.answered = True
+        address.answered = address.answered or not isinstance(data, Refusal)
         if address.closed or len(data) > LARGEST_PAYLOAD:
             return
         frame = encode_length(data)
