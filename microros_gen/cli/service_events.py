@@ -71,8 +71,21 @@ def echo_command(
                 f"No publishers on topic '{topic}'; is service introspection on the client or server enabled?"
             )
             click.echo(text, err=True)
+        told: set[bytes] = set()
         while not interrupted:
+            _tell_unheard(discovery, topic, told)
             peer.spin_once(TURN_S)
+
+
+def _tell_unheard(discovery: Discovery, topic: str, told: set[bytes]) -> None:
+    """Report new publishers of events that the command, which is a reliable subscriber, does not get."""
+    from microros_gen.ros_tools.quality import BEST_EFFORT
+
+    for publisher in discovery.publishers(topic):
+        if publisher.reliability == BEST_EFFORT and publisher.gid not in told:
+            told.add(publisher.gid)
+            text = f"A publisher of '{topic}' is best effort: its events are not printed."
+            click.echo(text, err=True)
 
 
 def _type_of(discovery: Discovery, service: str) -> str:

@@ -52,7 +52,7 @@ memory transport drops messages that a reader's thread does not fetch in time (i
 until the next heartbeat, the history fills and further samples wait."""
 _SUPPRESSION_NS = 4_000_000
 """The time in which a writer ignores requests to repeat a sample that it has just sent. With Fast DDS's default of 0,
-each sample of a reliable writer starts a timer of its own and wakes the thread of the timers, which took a third of the
+each sample of a reliable writer starts a timer and wakes the thread of the timers, which took a third of the
 agent's processor time for a sample. Fast DDS's readers request a sample 5 ms after a heartbeat at the earliest
 (heartbeatResponseDelay), so no request is ignored; another reader's is repeated after the next heartbeat."""
 _WRITER_DEFAULTS = f"""<?xml version="1.0" encoding="UTF-8"?>

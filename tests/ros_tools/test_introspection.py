@@ -111,6 +111,11 @@ def test_service_without_introspection_gives_a_reason(node: Running) -> None:
     assert "No publishers on topic '/silent/_service_event'" in line
 
 
+def test_events_that_are_best_effort_are_reported(node: Running) -> None:
+    (line,) = until(each("best effort"), *echo("/unheard"))
+    assert line == "A publisher of '/unheard/_service_event' is best effort: its events are not printed."
+
+
 def test_unknown_service_has_a_proposal(node: Running) -> None:
     done = command("service", "echo", "/enabled")
     assert done.returncode == 1

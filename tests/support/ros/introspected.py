@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A node of rclpy with service introspection at /enable, and a simulation that runs twice as fast as real time."""
+"""A node of rclpy with service introspection (best effort at /unheard), and a simulation at twice the speed."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
-from rclpy.qos import qos_profile_system_default
+from rclpy.qos import qos_profile_sensor_data, qos_profile_system_default
 from rclpy.service_introspection import ServiceIntrospectionState
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Temperature
@@ -28,6 +28,10 @@ def main() -> None:
         node.get_clock(), qos_profile_system_default, ServiceIntrospectionState.CONTENTS
     )
     node.create_service(SetBool, "silent", _enable)
+    unheard = node.create_service(SetBool, "unheard", _enable)
+    unheard.configure_introspection(
+        node.get_clock(), qos_profile_sensor_data, ServiceIntrospectionState.CONTENTS
+    )
     clock, ticks = node.create_publisher(Clock, "/clock", 1), node.create_publisher(Temperature, "ticks", 10)
     began = time.monotonic()
 
