@@ -13,6 +13,7 @@ from microros_gen.agent.fairness import Account
 from microros_gen.agent.transport.datagrams import UDP_SEGMENT, send_datagrams
 from microros_gen.agent.transport.sockets import UDP4, UDP6, Protocol
 from microros_gen.agent.transport.udp import AT_ONCE, Udp
+from tests.support.patience import seconds
 
 BOTH = pytest.mark.parametrize("protocol", [UDP4, UDP6], ids=lambda p: p.name)
 SIZES = (
@@ -50,7 +51,7 @@ def ends(request: pytest.FixtureRequest) -> Iterator[tuple[Counting, socket.sock
     with socket.socket(protocol.family, socket.SOCK_DGRAM) as receiver:
         receiver.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
         receiver.bind((protocol.loopback, 0))
-        receiver.settimeout(10)
+        receiver.settimeout(seconds(10))
         with Counting(protocol.family, socket.SOCK_DGRAM) as sender:
             sender.connect(receiver.getsockname())
             sender.setblocking(False)
@@ -122,7 +123,7 @@ def test_a_transport_collects_until_a_flush_or_until_there_are_many(protocol: Pr
             peer.recv(100)
         for datagram in sent[AT_ONCE - 1 :]:
             transport.send(datagram, addresses[0])
-        peer.settimeout(10)
+        peer.settimeout(seconds(10))
         assert [peer.recv(100) for _ in range(AT_ONCE)] == sent[:-1]
         transport.flush()
         assert peer.recv(100) == sent[-1]

@@ -18,11 +18,11 @@ class Machine:
     def __init__(self) -> None:
         self.now = 50.0
         self.taken = 7.0
-        self.asked = 0
+        self.requested = 0
         self.own = OwnTime(self._waited)
 
     def _waited(self) -> float:
-        self.asked += 1
+        self.requested += 1
         return self.taken
 
     def round(self, rest: float = 0.0, taken: float = 0.0) -> None:
@@ -62,28 +62,28 @@ def test_an_idle_machine_is_hardly_asked() -> None:
     machine = Machine()
     machine.round()
     machine.round(1.0)
-    asked = machine.asked
+    requested = machine.requested
     for _ in range(1_000):
         machine.round(0.0001)
         machine.work(0.00001)
     machine.work(2 * LONG_S)
-    assert machine.asked - asked <= 2
+    assert machine.requested - requested <= 2
 
 
-def test_short_work_is_never_asked_for() -> None:
+def test_short_work_requests_nothing() -> None:
     machine = busy_machine()
-    asked = machine.asked
+    requested = machine.requested
     for _ in range(100):
         assert machine.work(LONG_S / 2) == LONG_S / 2
-    assert machine.asked == asked
+    assert machine.requested == requested
 
 
 def test_a_machine_that_is_idle_again_is_seen() -> None:
     machine = busy_machine()
     machine.round(1.0)
-    asked = machine.asked
+    requested = machine.requested
     machine.work(0.01)
-    assert machine.asked == asked
+    assert machine.requested == requested
 
 
 def test_the_system_counts_while_another_thread_has_the_processor() -> None:
