@@ -71,19 +71,19 @@ def echo_command(
                 f"No publishers on topic '{topic}'; is service introspection on the client or server enabled?"
             )
             click.echo(text, err=True)
-        told: set[bytes] = set()
+        reported: set[bytes] = set()
         while not interrupted:
-            _tell_unheard(discovery, topic, told)
+            _tell_unheard(discovery, topic, reported)
             peer.spin_once(TURN_S)
 
 
-def _tell_unheard(discovery: Discovery, topic: str, told: set[bytes]) -> None:
+def _tell_unheard(discovery: Discovery, topic: str, reported: set[bytes]) -> None:
     """Report new publishers of events that the command, which is a reliable subscriber, does not get."""
     from microros_gen.ros_tools.quality import BEST_EFFORT
 
     for publisher in discovery.publishers(topic):
-        if publisher.reliability == BEST_EFFORT and publisher.gid not in told:
-            told.add(publisher.gid)
+        if publisher.reliability == BEST_EFFORT and publisher.gid not in reported:
+            reported.add(publisher.gid)
             text = f"A publisher of '{topic}' is best effort: its events are not printed."
             click.echo(text, err=True)
 
