@@ -8,7 +8,8 @@ not say which kind a node is.
 
 from __future__ import annotations
 
-from microros_gen.modes.behavior import Behaviors, every_failure, targets_of
+from microros_gen.modes.behavior import every_failure, targets_of
+from microros_gen.modes.machines import Behaviors, Origin, constant
 from microros_gen.modes.model import ACTIVE, DEFAULT, Model, Part, active
 
 
@@ -29,11 +30,11 @@ def with_inferred(model: Model, node: Part) -> Behaviors:
             goal if goal.state == ACTIVE and goal.mode in names else active(names[0])
             for goal in targets_of(model, node)
         )
-        found.setdefault(tuple(seen), ((node.name, active(names[0])),))
+        found.setdefault(constant(tuple(seen)), Origin(((node.name, active(names[0])),)))
     return found
 
 
 def without_alike(model: Model, node: Part) -> Behaviors:
     """Return the failures that are seen as they are however the mode of the node is known."""
     alike = {((node.name, active(name)),) for names in alike_modes(node) for name in names}
-    return {ends: failures for ends, failures in every_failure(model, node).items() if failures not in alike}
+    return {b: origin for b, origin in every_failure(model, node).items() if origin.failures not in alike}

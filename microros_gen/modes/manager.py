@@ -6,6 +6,8 @@ changes its target and so commands its parts; then all begin again. Where no rul
 others are commanded to their target again. Of several rules that hold at once, the last one by name is applied: the
 package system_modes applies all in this order, so that this one decides.
 
+A node that is unconfigured stays so when it is commanded to be inactive: that counts as inactive.
+
 A transition takes no time here: a node that can follow has reached its target when the next rule is looked for, so
 that no rule sees a part on its way. The manager on ROS waits until no part is on its way, and then finds the same; what
 it does with late, refusing and lost parts is simulated with its own decisions (mode_manager/simulation.py).
@@ -15,7 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from microros_gen.modes.inference import Inference
+from microros_gen.modes.inference import Inference, fulfills
 from microros_gen.modes.model import (
     ACTIVE,
     ERROR,
@@ -164,7 +166,7 @@ class Manager:
             target = self.targets.get(name)
             if target is None or name in self._stuck or name in self._reacted:
                 continue
-            if not status.is_same(target):
+            if not fulfills(status, target):
                 self.nodes[name] = target
                 yield Step(REPEAT, name, target)
 
@@ -186,7 +188,7 @@ class Manager:
             yield Step(COMMAND, part.name, target)
         self.targets[part.name] = target
         if not part.is_system:
-            if part.name not in self._stuck:
+            if part.name not in self._stuck and not fulfills(self.nodes[part.name], target):
                 self.nodes[part.name] = target
             return
         sequence = start_sequence(part.part_names, part.start_after)

@@ -8,9 +8,9 @@ from math import prod
 
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Severity
 from microros_gen.modes.alike import alike_modes, with_inferred
-from microros_gen.modes.behavior import Failures, Oscillation, Settled, failure_states, settle_all
+from microros_gen.modes.behavior import Oscillation, Settled, failure_states, settle_all
 from microros_gen.modes.manager import OSCILLATES, Manager, Step
-from microros_gen.modes.model import Model, Status
+from microros_gen.modes.model import INACTIVE, Model, Status
 from microros_gen.modes.report import OPEN, PROVEN, REFUTED, Property
 from microros_gen.modes.reports import Diagnosis
 
@@ -63,9 +63,7 @@ def _is_possible(model: Model, found: Oscillation) -> bool:
     may have been given different levels of one status.
     """
     wanting = [s for s in model.systems if any(r.diagnostics and r.diagnostics.hardware for r in s.rules)]
-    return len(wanting) < 2 or any(
-        line.startswith(OSCILLATES) for line in trace(model, found.failures, found.system, found.request)
-    )
+    return len(wanting) < 2 or any(line.startswith(OSCILLATES) for line in trace(model, found))
 
 
 def _possible(model: Model, found: Oscillation) -> Diagnostic:
@@ -84,20 +82,24 @@ def _oscillation(model: Model, found: Oscillation) -> Diagnostic:
     names = ", ".join(f"'{name}'" for name in found.rules)
     message = f"the rules of '{found.system}' oscillate: {names}"
     hint = "Let one of them lead to a target that has no rule for this failure"
-    block = tuple(f"  {line}" for line in trace(model, found.failures, found.system, found.request))
+    block = tuple(f"  {line}" for line in trace(model, found))
     return Diagnostic(message, rule.span, hint, block=block, id="MG-8844")
 
 
-def trace(model: Model, failures: Failures, part: str, request: Status) -> list[str]:
-    """Return the lines of what happens when a part is requested while nodes are stuck."""
+def trace(model: Model, found: Oscillation) -> list[str]:
+    """Return the lines of what happens when a system is requested while nodes are stuck."""
     manager = Manager(model)
     lines = []
-    for node, what in failures:
+    for node, what in found.failures:
         lines.append(_fault(node, what))
         for _ in _steps(manager, node, what):
             pass  # no part has a target yet: nothing happens
-    lines.append(f"request {part} {request}")
-    lines += [str(step) for step in manager.request(part, request)]
+    for node in found.configured:
+        lines.append(f"configured {node}")
+        for _ in manager.change(node, Status(INACTIVE)):
+            pass
+    lines.append(f"request {found.system} {found.request}")
+    lines += [str(step) for step in manager.request(found.system, found.request)]
     return lines if len(lines) <= _LONGEST_TRACE else [*lines[:_LONGEST_TRACE], "…"]
 
 

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from fnmatch import fnmatchcase
 from itertools import combinations, pairwise, product
 
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import HealthCheck, assume, example, given, settings
 from hypothesis import strategies as st
 
 from microros_gen.diagnostics import Diagnostics, Source
@@ -22,10 +22,12 @@ from microros_gen.modes.stability import MOST_COMBINATIONS, check_stability, tra
 from tests.support.examples import examples
 from tests.support.modes.oracle import (
     STUCK,
+    Levels,
     OscillatesError,
     PlainModel,
     PlainRule,
     PlainSystem,
+    befores,
     looking_the_same,
     reached,
     reached_in_time,
@@ -54,20 +56,26 @@ def status(text: str) -> Status:
     return Status(state, mode)
 
 
-def oscillating(plain: PlainModel) -> set[str]:
-    """Return the systems whose own rules never end, without those above one."""
-    found: set[str] = set()
+def oscillating(plain: PlainModel, every_level: Callable[[], Iterable[Levels]] = lambda: ({},)) -> set[str]:
+    """Return the lowest system whose rules never end, for some failures, levels and nodes that are configured."""
     for name, system in plain.systems.items():
-        for failures in plain.failures():
-            for target in system.targets:
+        for levels, failures in product(every_level(), plain.failures()):
+            for configured, target in product(befores(plain, failures), system.targets):
                 try:
-                    settle(plain, name, target, failures)
+                    settle(plain, name, target, failures, None, levels, set(configured))
                 except OscillatesError as error:
-                    found.add(str(error))
-                    break
-            if found:
-                return found
-    return found
+                    return {str(error)}
+    return set()
+
+
+def check_oscillations(plain: PlainModel, every_level: Callable[[], Iterable[Levels]]) -> None:
+    """Check that the proof finds the lowest system that trying finds, and shows it."""
+    model = parsed(plain)
+    found = settle_all(model, MOST_COMBINATIONS).oscillations
+    assert {o.system for o in found[:1]} == oscillating(plain, every_level)
+    for oscillation in found[:1]:
+        lines = trace(model, oscillation)
+        assert "oscillates: " in "\n".join(lines), lines
 
 
 @_FEW
@@ -102,24 +110,7 @@ def test_the_proof_finds_exactly_the_oscillations_with_diagnostics(plain: PlainM
     diagnosed = {rule.part for s in plain.systems.values() for rule in s.rules if rule.wanted}
     assume(diagnosed and len(plain.nodes) < 3)
     assume(4 ** (len(reported_names(plain)) * len(diagnosed)) * 16 ** len(plain.nodes) <= 5000)
-    model = parsed(plain)
-    found = settle_all(model, MOST_COMBINATIONS).oscillations
-    tried: set[str] = set()
-    names = list(plain.systems)
-    for name in names:
-        cases = product(all_levels(plain), plain.failures(), plain.systems[name].targets)
-        for levels, failures, target in cases:
-            try:
-                settle(plain, name, target, failures, None, levels)
-            except OscillatesError as error:
-                tried.add(str(error))
-                break
-        if tried:
-            break
-    assert {o.system for o in found[:1]} == tried
-    for oscillation in found[:1]:
-        lines = trace(model, oscillation.failures, oscillation.system, oscillation.request)
-        assert "oscillates: " in "\n".join(lines), lines
+    check_oscillations(plain, lambda: all_levels(plain))
 
 
 def outside_levels() -> Iterator[dict[str, dict[str, str]]]:
@@ -130,27 +121,11 @@ def outside_levels() -> Iterator[dict[str, dict[str, str]]]:
         yield {f"hardware {hardware}": {name: next(each) for name in names} for hardware in HARDWARE}
 
 
-def oscillating_outside(plain: PlainModel) -> set[str]:
-    """Return the lowest system whose rules never end, for some failures and levels of what is no part."""
-    for name, system in plain.systems.items():
-        for levels, failures, target in product(outside_levels(), plain.failures(), system.targets):
-            try:
-                settle(plain, name, target, failures, None, levels)
-            except OscillatesError as error:
-                return {str(error)}
-    return set()
-
-
 @settings(max_examples=examples(150), deadline=None, suppress_health_check=list(HealthCheck))
 @given(outside_models(systems=1))
 def test_the_proof_finds_exactly_the_oscillations_with_what_is_no_part(plain: PlainModel) -> None:
     assume(len(plain.nodes) < 3 and any(r.wanted for s in plain.systems.values() for r in s.rules))
-    model = parsed(plain)
-    found = settle_all(model, MOST_COMBINATIONS).oscillations
-    assert {o.system for o in found[:1]} == oscillating_outside(plain)
-    for oscillation in found[:1]:
-        lines = trace(model, oscillation.failures, oscillation.system, oscillation.request)
-        assert "oscillates: " in "\n".join(lines), lines
+    check_oscillations(plain, outside_levels)
 
 
 @settings(max_examples=examples(60), deadline=None, suppress_health_check=list(HealthCheck))
@@ -160,74 +135,77 @@ def test_the_proof_misses_no_oscillation_where_two_systems_see_what_is_no_part(p
     assume(len(plain.nodes) < 3)
     model, diagnostics = parsed(plain), Diagnostics()
     settled = settle_all(model, MOST_COMBINATIONS)
-    tried = oscillating_outside(plain)
+    tried = oscillating(plain, outside_levels)
     assert not tried or settled.oscillations
     check_stability(model, settled, MOST_COMBINATIONS, diagnostics)
     assert tried or "MG-8844" not in {d.id for d in diagnostics}
 
 
-@_FEW
-@given(outside_models(), st.data())
-def test_the_simulations_end_with_what_is_no_part_where_trying_ends(
-    plain: PlainModel, data: st.DataObject
-) -> None:
-    """That of the proof, and the decisions of the manager."""
-    model, top = parsed(plain), list(plain.systems)[-1]
+Drawn = tuple[PlainModel, str, Levels, frozenset[str]]
+"""A model, a target of its topmost system, levels of nodes or of no part, and the nodes that are configured before."""
+
+
+@st.composite
+def requests(draw: st.DrawFn, models: st.SearchStrategy[PlainModel], is_outside: bool) -> Drawn:
+    """Draw a request and what is before it."""
+    plain = draw(models)
+    owners = [f"hardware {hardware}" for hardware in HARDWARE] if is_outside else list(plain.nodes)
     levels = {
-        f"hardware {hardware}": {
-            n: data.draw(st.sampled_from(("ok", "warn", "error", "stale"))) for n in REPORTED
-        }
-        for hardware in HARDWARE
+        owner: {name: draw(st.sampled_from(("ok", "warn", "error", "stale"))) for name in REPORTED}
+        for owner in owners
     }
-    target = data.draw(st.sampled_from(plain.systems[top].targets))
+    target = draw(st.sampled_from(list(plain.systems.values())[-1].targets))
+    return plain, target, levels, draw(st.frozensets(st.sampled_from(sorted(plain.nodes))))
+
+
+def reporting(owner: str, name: str, level: str) -> Event:
+    if owner.startswith("hardware "):
+        return Event(0, "hardware", owner.removeprefix("hardware "), level=level, name=name)
+    return Event(0, "diagnose", owner, level=level, name=name)
+
+
+def check_ends(drawn: Drawn) -> None:
+    """Check that the simulation of the proof, and the decisions of the manager, end where trying ends."""
+    plain, target, levels, configured = drawn
+    model, top = parsed(plain), list(plain.systems)[-1]
     try:
-        expected = settle(plain, top, target, {}, None, levels)
+        expected = settle(plain, top, target, {}, None, levels, set(configured))
     except OscillatesError:
         return
+    statuses = [(owner, name, level) for owner, own in levels.items() for name, level in own.items()]
     manager = Manager(model)
-    for owner, statuses in levels.items():
-        for name, level in statuses.items():
-            list(manager.diagnose(owner, name, level))
+    for owner, name, level in statuses:
+        list(manager.diagnose(owner, name, level))
+    for node in configured:
+        list(manager.change(node, Status("inactive")))
     assert "oscillation" not in [step.kind for step in manager.request(top, status(target))]
     assert str(manager.statuses()[top]) == expected
-    events = [
-        Event(0, "hardware", owner.removeprefix("hardware "), level=level, name=name)
-        for owner, statuses in levels.items()
-        for name, level in statuses.items()
-    ]
+    events = [reporting(*each) for each in statuses]
+    events += [Event(0, "change", node, Status("inactive")) for node in sorted(configured)]
     played = simulate(model, [*events, Event(1, "request", top, status(target))])
     assert str({end.part: end.status for end in played.ends}[top]) == expected, played.text()
 
 
+_STAYING = PlainRule("r", "inactive", "n0", "inactive", "active.__DEFAULT__", "", "warn heat board")
+_RESTING = PlainModel(
+    {"n0": ("__DEFAULT__",)}, {"low": PlainSystem({"__DEFAULT__": {"n0": "inactive"}}, (_STAYING,))}
+)
+"""A node that is unconfigured stays so, which counts as inactive for the mode, but not for the rule."""
+_HOT = {"hardware board": {"heat": "warn"}}
+
+
 @_FEW
-@given(diagnosed_models(), st.data())
-def test_the_simulations_end_with_diagnostics_where_trying_ends(
-    plain: PlainModel, data: st.DataObject
-) -> None:
-    """That of the proof, and the decisions of the manager."""
-    model, top = parsed(plain), list(plain.systems)[-1]
-    levels = {
-        node: {name: data.draw(st.sampled_from(("ok", "warn", "error", "stale"))) for name in REPORTED}
-        for node in plain.nodes
-    }
-    target = data.draw(st.sampled_from(plain.systems[top].targets))
-    try:
-        expected = settle(plain, top, target, {}, None, levels)
-    except OscillatesError:
-        return
-    manager = Manager(model)
-    for node, statuses in levels.items():
-        for name, level in statuses.items():
-            list(manager.diagnose(node, name, level))
-    assert "oscillation" not in [step.kind for step in manager.request(top, status(target))]
-    assert str(manager.statuses()[top]) == expected
-    events = [
-        Event(0, "diagnose", node, level=level, name=name)
-        for node, statuses in levels.items()
-        for name, level in statuses.items()
-    ]
-    played = simulate(model, [*events, Event(1, "request", top, status(target))])
-    assert str({end.part: end.status for end in played.ends}[top]) == expected, played.text()
+@given(requests(outside_models(), is_outside=True))
+@example((_RESTING, "inactive", _HOT, frozenset()))
+@example((_RESTING, "inactive", _HOT, frozenset({"n0"})))
+def test_the_simulations_end_with_what_is_no_part_where_trying_ends(drawn: Drawn) -> None:
+    check_ends(drawn)
+
+
+@_FEW
+@given(requests(diagnosed_models(), is_outside=False))
+def test_the_simulations_end_with_diagnostics_where_trying_ends(drawn: Drawn) -> None:
+    check_ends(drawn)
 
 
 @_FEW
@@ -293,7 +271,7 @@ def test_a_mode_whose_rule_follows_from_changing_failures_is_not_refuted() -> No
 def test_the_trace_of_an_oscillation_shows_it(plain: PlainModel) -> None:
     model = parsed(plain)
     for oscillation in settle_all(model, MOST_COMBINATIONS).oscillations[:1]:
-        lines = trace(model, oscillation.failures, oscillation.system, oscillation.request)
+        lines = trace(model, oscillation)
         assert "oscillates: " in "\n".join(lines)
         assert all(any(f"rule {rule}: " in line for line in lines) for rule in oscillation.rules)
 

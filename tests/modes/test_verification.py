@@ -265,10 +265,54 @@ def test_an_oscillation_is_shown_as_a_trace() -> None:
         "  rule without_joint: arm active.__DEFAULT__",
         "  command gripper inactive",
         "  command joint active.__DEFAULT__",
-        "  oscillates: arm active.__DEFAULT__ again",
-        "  status gripper inactive",
+        "  rule without_joint_retry: arm active.QUICK",  # the gripper is inactive now, and was unconfigured
+        "  command gripper active.FIRM",
+        "  command joint active.RUSH",
+        "  oscillates: arm active.QUICK again",
+        "  status gripper active.FIRM",
         "  status arm activating",
     ]
+
+
+UNCONFIGURED = """\
+arm:
+  ros__parameters:
+    type: system
+    parts: [p, q]
+    modes:
+      __DEFAULT__: {p: inactive, q: inactive}
+      A: {p: unconfigured, q: active}
+      B: {p: inactive, q: active.X}
+      C: {p: active, q: active}
+    rules:
+      a: {if_target: active.A, if_part: [p, unconfigured], new_target: active.B}
+      b: {if_target: active.B, if_part: [p, unconfigured], new_target: active.C}
+      c: {if_target: active.C, if_part: [p, active], new_target: active.A}
+p:
+  ros__parameters: {type: node, modes: {__DEFAULT__: {ros__parameters: {v: 1}}}}
+q:
+  ros__parameters: {type: node, modes: {__DEFAULT__: {ros__parameters: {v: 1}}, X: {ros__parameters: {v: 2}}}}
+"""
+"""A cycle while q has failed and p follows: in B it is unconfigured, as A left it."""
+
+
+def test_rules_oscillate_for_a_node_that_stays_unconfigured_where_it_has_to_be_inactive() -> None:
+    report = checked(UNCONFIGURED)
+    assert "the rules of 'arm' oscillate: 'b', 'c', 'a'." in findings(report)[0]
+    events = [Event(0, "fail", "q", Status("inactive")), Event(1, "request", "arm", Status("active", "A"))]
+    assert simulate(model_of(UNCONFIGURED), events).oscillating == ("arm",)
+    inactive = changed(UNCONFIGURED, "B, if_part: [p, unconfigured]", "B, if_part: [p, inactive]")
+    assert results(checked(inactive))["stable rules"] == "proven"
+
+
+def test_a_trace_says_which_node_was_configured_before() -> None:
+    report = checked(
+        changed(
+            UNCONFIGURED, "[p, unconfigured], new_target: active.C}", "[p, inactive], new_target: active.B}"
+        )
+    )
+    lines = findings(report)[0].splitlines()[3:6]
+    assert lines == ["  failed q unknown", "  configured p", "  request arm active.B"]
 
 
 def test_a_rule_that_leads_to_its_own_target_oscillates() -> None:

@@ -134,22 +134,30 @@ def settle(
     failures: Mapping[str, str],
     known: set[str] | None = None,
     levels: Levels = MappingProxyType({}),
+    configured: set[str] | None = None,
 ) -> str:
-    """Return the status that a part ends in; raises OscillatesError. `known` gets the targets that it has."""
+    """Return the status that a part ends in; raises OscillatesError. `known` gets the targets that it has.
+
+    `configured` are the nodes that are not unconfigured before, and gets those that are not in the end: one that is
+    unconfigured and has to be inactive stays as it is.
+    """
+    configured = set() if configured is None else configured
     system = model.systems.get(part)
     if system is None:
-        return "errorprocessing" if "error" in levels.get(part, {}).values() else failures.get(part, target)
+        found = failures.get(part) or _follow(part, target, configured)
+        return "errorprocessing" if "error" in levels.get(part, {}).values() else found
     known = set() if known is None else known
     passed: set[tuple[str, ...]] = set()
     way: list[tuple[str, PlainRule]] = []  # from which target each rule led on
     while True:
         known.add(target)
-        place = (target, *(rule.name for _, rule in way))
+        place = (target, *(rule.name for _, rule in way), *sorted(configured))
         if place in passed:
             raise OscillatesError(part)
         passed.add(place)
         actual = {
-            p: settle(model, p, _commanded(system, target, p), failures, None, levels) for p in system.parts
+            p: settle(model, p, _commanded(system, target, p), failures, None, levels, configured)
+            for p in system.parts
         }
         status = _infer(system, target, actual)
         rule = _following(system, target, status, actual, levels)
@@ -163,6 +171,20 @@ def settle(
             target = way.pop()[0]
         else:
             return status
+
+
+def _follow(node: str, target: str, configured: set[str]) -> str:
+    if target == "inactive":
+        return "inactive" if node in configured else "unconfigured"
+    (configured.discard if target == "unconfigured" else configured.add)(node)
+    return target
+
+
+def befores(model: PlainModel, failures: Mapping[str, str]) -> Iterator[set[str]]:
+    """Yield each combination of nodes, of those that are not stuck, that are configured before a request."""
+    free = [node for node in model.nodes if node not in failures]
+    for count in range(len(free) + 1):
+        yield from map(set, combinations(free, count))
 
 
 def _reports(rule: PlainRule, levels: Levels) -> bool:
@@ -212,8 +234,9 @@ def reached(model: PlainModel, name: str, above: str) -> set[str]:
     found: set[str] = set()
     for target in {DEFAULT, *(_commanded(parent, target, name) for target in parent.targets)}:
         for failures in model.failures():
-            with suppress(OscillatesError):
-                settle(model, name, target, failures, found)
+            for configured in befores(model, failures):
+                with suppress(OscillatesError):
+                    settle(model, name, target, failures, found, {}, configured)
     return found
 
 
