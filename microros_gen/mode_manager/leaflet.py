@@ -20,8 +20,9 @@ from microros_gen.ros.peer import Peer
 
 _KIND = "rcl_interfaces/srv"
 _MODES = "system_modes_msgs/srv"
-_DISCOVERY_S = 1.0
-"""Services of a node that answers are known by then."""
+_QUIET_S = 2.0
+"""The mode services of a node may be those of another process, its manager, which is found later than the node. When no
+further service was found for so long, it counts as one without modes."""
 _PAUSE_S = 0.05
 _OWN = ("use_sim_time", "start_type_description_service", "qos_overrides.")
 """Parameters of every node of rclcpp and rclpy, which no mode sets."""
@@ -98,7 +99,15 @@ class _Node:
         """Return whether it has mode services, or a manager has them for it."""
         graph = self._peer.graph()
         names = [f"/{self.name}/{service}" for service in ("get_mode", "get_available_modes", "change_mode")]
-        return self._peer.spin(lambda: all(map(graph.count_servers, names)), _DISCOVERY_S)
+        known, since = graph.services(), time.monotonic()
+        end = since + self._timeout_s
+        while not self._peer.spin(lambda: all(map(graph.count_servers, names)), _PAUSE_S):
+            found, now = graph.services(), time.monotonic()
+            if found != known:
+                known, since = found, now
+            if now >= min(end, since + _QUIET_S):
+                return False
+        return True
 
     def mode(self) -> str:
         """Return its mode; empty: it is not active, or in none."""

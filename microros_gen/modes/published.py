@@ -20,6 +20,8 @@ LIBRARY_STATUSES = (
     "errors",
 )
 """What the library reports of itself, each as far as it is in the image."""
+_SESSION_TASKS = ("session", "line_and_session")
+"""Names of the task of the session where the application file does not name it."""
 _TYPE = "diagnostic_msgs/msg/DiagnosticArray"
 
 
@@ -36,7 +38,8 @@ def published_of(application: Application, node: int) -> tuple[str, ...] | None:
     if node:
         return checks
     callbacks = (f"callback {callback.name}" for callback in declared.callbacks)
-    return (*checks, *callbacks, *LIBRARY_STATUSES)
+    tasks = (f"task {name}" for name in (*(task.name for task in application.tasks), *_SESSION_TASKS))
+    return (*checks, *callbacks, *(tasks if application.tasks else ()), *LIBRARY_STATUSES)
 
 
 def _is_open(application: Application) -> bool:

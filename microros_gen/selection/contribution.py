@@ -211,7 +211,9 @@ class Setting(Conditional):
 class Counter(Conditional):
     """A uint32_t that a diagnosis reports below `group`: `value` is its expression in C, which may name `client`.
 
-    `warns`: it counts faults, so a change is a warning. `header` declares what the expression calls.
+    `warns`: it counts faults, so a change is a warning. `header` declares what the expression calls. `each` is a
+    tuple of the plan: the counter is there for each of its elements, whose `{name}` and `{index}` are in `group` and
+    `value`.
     """
 
     group: str
@@ -219,6 +221,7 @@ class Counter(Conditional):
     value: str
     warns: bool = False
     header: str = ""
+    each: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)

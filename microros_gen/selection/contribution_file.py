@@ -89,6 +89,7 @@ def read_contributions(node: MappingNode, diagnostics: Diagnostics) -> Contribut
                 value=child_text(i, "value"),
                 warns=bool_of(child(i, "warns")) or False,
                 header=child_text(i, "header"),
+                each=child_text(i, "each"),
                 when=conditions_of(i),
             )
             for i in items(node.get("counters"))

@@ -11,7 +11,9 @@ import pytest
 
 from microros_gen import compiler
 from microros_gen.components.diagnosis.plan import DiagnosisPlan
-from microros_gen.diagnostics import UserError
+from microros_gen.diagnostics import Diagnostics, UserError
+from microros_gen.modes.published import published_of
+from microros_gen.modes.verification import read_applications
 from tests.support.components.rendered import UNITS, planned, rendered, run
 
 BARE = "version: 1\nprofiles: [pure_sender]\n"
@@ -332,6 +334,19 @@ def test_reset_causes_of_the_microbit(tmp_path: Path) -> None:
     assert found == RESETS
 
 
+COUNTING = """\
+component: mine
+summary: Counters of each element of what is no list
+layer: middleware
+status: ready
+needs: [session]
+xrce: []
+sends: []
+receives: []
+objects: []
+sources: []
+counters: [{each: streams.mtu, group: "mine {name}", name: count, value: "0"}]
+"""
 CALLBACKS = """\
 version: 1
 profiles: [pure_sender]
@@ -365,6 +380,46 @@ def test_callbacks_have_a_status_each(tmp_path: Path) -> None:
     assert "static inline rcl_ret_t rclc_handle_call" in (
         out / "include" / "microros" / "rclc_handle_call.h"
     ).read_text("utf-8")
+
+
+TASKS = """\
+components: [+diagnosis, +executor]
+nodes: [{name: device, executors: [{name: fast}, {name: slow}]}]
+tasks: [{name: control, executor: fast, rate: 50 Hz}, {name: session, executor: slow}]
+"""
+
+
+PERIOD = "diagnosis: {period: 1 s}\n"
+
+
+def test_tasks_have_a_status_each(tmp_path: Path) -> None:
+    """That of the session is the last one; its name differs from the declared ones."""
+    part = slice_of(planned(tmp_path, BARE + TASKS))
+    rows = {status.name: part.rows[status.first_row :][: status.row_count] for status in part.statuses}
+    assert [*rows][-3:] == [f"device: task {name}" for name in ("control", "session", "line_and_session")]
+    assert [row.key for row in rows["device: task session"] if row.warns] == ["overruns", "missed", "failed"]
+    assert {re.sub(r"\d", "#", row.value) for row in rows["device: task session"]} == {
+        re.sub(r"\d", "#", row.value) for row in rows["device: task control"]
+    }
+    assert all("1" in row.value for row in rows["device: task session"])
+    plain = planned(tmp_path, BARE + TASKS.partition("tasks:")[0])
+    assert not [name for name in names(plain) if "task" in name]
+
+
+def test_rules_of_a_model_file_can_name_the_status_of_a_task(tmp_path: Path) -> None:
+    statuses = {name.removeprefix("device: ") for name in names(planned(tmp_path, BARE + TASKS + PERIOD))}
+    (application,) = read_applications([tmp_path / "microros.yaml"], Diagnostics())
+    published = published_of(application, 0)
+    assert published is not None
+    assert statuses <= {*published}
+
+
+def test_a_counter_of_no_list_is_refused(tmp_path: Path) -> None:
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    (folder / "component.yaml").write_text(COUNTING, encoding="utf-8")
+    with pytest.raises(UserError, match=r"names 'streams\.mtu', which is not a list of the plan with names"):
+        planned(tmp_path, f"{BARE}components: [{folder}, +diagnosis]\nnodes: [{{name: device}}]\n")
 
 
 def test_the_example_watches_what_is_named_like_a_callback(tmp_path: Path) -> None:

@@ -4,13 +4,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from contextlib import ExitStack
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import microros_gen.mode_manager.leaflet as leaflet_module
 from microros_gen.diagnostics import UserError
 from microros_gen.mode_manager.leaflet import leaflet, mine
 from microros_gen.modes.model import Scalar
@@ -70,6 +73,43 @@ def test_a_node_of_rclpy(monkeypatch: pytest.MonkeyPatch) -> None:
             mine(peer, "/right/wheel", 0.3, reported.append)
     assert [d.id for d in raised.value.diagnostics] == ["MG-8877"]
     assert reported == []
+
+
+class FoundLater:
+    """A graph in which a service is found each second, those of the modes of /device last; time passes in spin."""
+
+    def __init__(self, count: int, last: bool) -> None:
+        self.now = 0.0
+        self._count = count
+        self._last = last
+
+    def graph(self) -> FoundLater:
+        return self
+
+    def services(self) -> tuple[int, ...]:
+        return tuple(range(min(int(self.now), self._count)))
+
+    def count_servers(self, name: str) -> int:
+        assert name.startswith("/device/")
+        return int(self._last and self.now >= self._count)
+
+    def spin(self, done: Callable[[], object], timeout_s: float) -> bool:
+        self.now += timeout_s
+        return bool(done())
+
+
+@pytest.mark.parametrize(
+    ("count", "last", "timeout_s", "took_s"), [(6, True, 10.0, 6), (3, False, 10.0, 5), (9, True, 4.0, 4)]
+)
+def test_mode_services_are_waited_for_while_others_are_found(
+    monkeypatch: pytest.MonkeyPatch, count: int, last: bool, timeout_s: float, took_s: float
+) -> None:
+    """On a busy machine the services of a manager are found seconds after those of its node."""
+    found = FoundLater(count, last)
+    monkeypatch.setattr(leaflet_module, "time", SimpleNamespace(monotonic=lambda: found.now))
+    read = leaflet_module._Node(cast(Peer, found), "device", timeout_s, print)
+    assert read.has_modes() is (last and count < timeout_s)
+    assert found.now == pytest.approx(took_s, abs=0.1)
 
 
 SPEEDS: dict[str, dict[str, Any]] = {

@@ -27,7 +27,7 @@ from tests.support.modes.oracle import (
     PlainModel,
     PlainRule,
     PlainSystem,
-    befores,
+    configurations,
     looking_the_same,
     reached,
     reached_in_time,
@@ -60,7 +60,7 @@ def oscillating(plain: PlainModel, every_level: Callable[[], Iterable[Levels]] =
     """Return the lowest system whose rules never end, for some failures, levels and nodes that are configured."""
     for name, system in plain.systems.items():
         for levels, failures in product(every_level(), plain.failures()):
-            for configured, target in product(befores(plain, failures), system.targets):
+            for configured, target in product(configurations(plain, failures), system.targets):
                 try:
                     settle(plain, name, target, failures, None, levels, set(configured))
                 except OscillatesError as error:

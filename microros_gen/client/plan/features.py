@@ -117,15 +117,23 @@ def _features(selection: Selection) -> Iterator[Feature]:
 
 
 def plan_features(context: PlanContext, diagnostics: Diagnostics) -> Features:
-    """Return the slices of all selected components that plan something for themselves."""
-    slices = []
-    for chosen in context.selection.components:
-        feature = feature_of(chosen.component)
-        if feature is not None:
-            part = feature.plan(context, diagnostics)
-            record = json.dumps(feature.record(part), sort_keys=True, separators=(",", ":"))
-            slices.append(FeatureSlice(chosen.component.name, part, record))
-    return Features(tuple(slices)) if slices else NO_FEATURES
+    """Return the slices of all selected components that plan something for themselves, in their order.
+
+    A plan.py with READS_SLICES is planned after the others, whose slices `context.runtime.features` has then.
+    """
+    found = {c.component.name: feature_of(c.component) for c in context.selection.components}
+    features = {name: feature for name, feature in found.items() if feature is not None}
+    slices: dict[str, FeatureSlice] = {}
+    for name, feature in sorted(features.items(), key=lambda item: hasattr(item[1], "READS_SLICES")):
+        known = context
+        if hasattr(feature, "READS_SLICES"):
+            known = replace(
+                context, runtime=replace(context.runtime, features=Features(tuple(slices.values())))
+            )
+        part = feature.plan(known, diagnostics)
+        record = json.dumps(feature.record(part), sort_keys=True, separators=(",", ":"))
+        slices[name] = FeatureSlice(name, part, record)
+    return Features(tuple(slices[name] for name in features)) if slices else NO_FEATURES
 
 
 def feature_of(component: Component) -> Feature | None:

@@ -49,6 +49,15 @@ class Values:
             what = f"a component.yaml names '{path}', which is not a value of the plan"
             raise UserError([Diagnostic(what, hint=hint, id="MG-7031")]) from error
 
+    def names(self, path: str) -> tuple[str, ...]:
+        """Return the names of the elements of a tuple at `path`. Raises UserError if it is another value."""
+        found = self.value(path)
+        names = tuple(getattr(e, "name", None) for e in found) if isinstance(found, tuple) else (None,)
+        if None in names:
+            what = f"a component.yaml names '{path}', which is not a list of the plan with names"
+            raise UserError([Diagnostic(what, hint="Write a path such as `tasks.tasks`", id="MG-7031")])
+        return tuple(map(str, names))
+
     def holds(self, when: Conditions) -> bool:
         """Return whether each attribute has the value that `when` gives for it."""
         return all(self._is(self.value(path), wanted) for path, wanted in when)

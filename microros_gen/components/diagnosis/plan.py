@@ -28,6 +28,8 @@ from microros_gen.selection.contribution import Counter
 TYPE = TypeName("diagnostic_msgs", "msg", "DiagnosticArray")
 MOST_STATUSES = 32
 """A bit of a word says of each whether it is to be sent."""
+READS_SLICES = True
+"""Counters of components can be those of each element of their slices."""
 _PORT = "microros/port_diagnosis.h"
 _RESET = "microros/rcl_diagnosis_reset.h"
 _OWN = "microros/rcl_diagnosis.h"
@@ -208,7 +210,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> DiagnosisPlan:
     statuses, rows_in_order, checks_in_order = statuses_of(application, declared, rows, checks, diagnostics)
     if len(statuses) > MOST_STATUSES:
         message = f"a device has {len(statuses)} statuses, {MOST_STATUSES} at most"
-        diagnostics.error(message, declared.span, "Remove some checks or callbacks", id="MG-7095")
+        diagnostics.error(message, declared.span, "Remove some checks, callbacks or tasks", id="MG-7095")
     size = largest(statuses, rows_in_order, checks_in_order, declared.hardware_id, _RESETS)
     _check_size(context, size, declared, diagnostics)
     missing = [
@@ -316,7 +318,17 @@ def _contributed(context: PlanContext) -> Iterator[CounterRow]:
     )
     for counter in counters:
         if values.holds(counter.when):
-            yield CounterRow(counter.group, counter.name, counter.value, counter.warns, header=counter.header)
+            yield from _rows_of(counter, values)
+
+
+def _rows_of(counter: Counter, values: Values) -> Iterator[CounterRow]:
+    """Yield a counter, or one for each element of a list of the plan."""
+    for index, name in enumerate(values.names(counter.each) if counter.each else ("",)):
+        group, value = (
+            text.replace("{name}", name).replace("{index}", str(index))
+            for text in (counter.group, counter.value)
+        )
+        yield CounterRow(group, counter.name, value, counter.warns, header=counter.header)
 
 
 def _own_checks(declared: DiagnosisDecl, cpu: bool, stack: bool, supply: bool) -> Iterator[CheckRow]:

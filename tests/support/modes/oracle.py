@@ -180,7 +180,7 @@ def _follow(node: str, target: str, configured: set[str]) -> str:
     return target
 
 
-def befores(model: PlainModel, failures: Mapping[str, str]) -> Iterator[set[str]]:
+def configurations(model: PlainModel, failures: Mapping[str, str]) -> Iterator[set[str]]:
     """Yield each combination of nodes, of those that are not stuck, that are configured before a request."""
     free = [node for node in model.nodes if node not in failures]
     for count in range(len(free) + 1):
@@ -234,7 +234,7 @@ def reached(model: PlainModel, name: str, above: str) -> set[str]:
     found: set[str] = set()
     for target in {DEFAULT, *(_commanded(parent, target, name) for target in parent.targets)}:
         for failures in model.failures():
-            for configured in befores(model, failures):
+            for configured in configurations(model, failures):
                 with suppress(OscillatesError):
                     settle(model, name, target, failures, found, {}, configured)
     return found
