@@ -22,6 +22,7 @@ class Degrading:
         self._settings = settings
         self._log = log
         self._applied: dict[str, int] = {}
+        self._resting: dict[str, float] = {}
         self._histories: dict[str, History] = {}
         self._causes: dict[tuple[str, str], str] = {}
         self._recovered: dict[str, list[float]] = {}
@@ -37,9 +38,13 @@ class Degrading:
         """Return the next target of a system that is at rest; None: it stays. `reported` is of /diagnostics."""
         rule = rule_of(system, target, statuses, reported)
         history = self._histories.get(system.name, ())
+        rests_since = self._resting.setdefault(system.name, now)
+        if now - rests_since >= self._settings.rest_s:
+            self._applied.pop(system.name, None)  # rules that oscillate leave no time in between
         if rule is None:
             undone = recovery_of(history, statuses, reported)
             return None if undone is None else self._recover(system, undone, history, now)
+        self._resting.pop(system.name)
         self._applied[system.name] = self._applied.get(system.name, 0) + 1
         if self._applied[system.name] > 2 * len(self._model.targets(system)):
             self.oscillating.add(system.name)

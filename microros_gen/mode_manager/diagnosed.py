@@ -21,13 +21,14 @@ class Diagnosed:
         leaves: Mapping[str, Leaf],
         clock: Callable[[], float],
         log: Callable[[str], object],
+        repeat_s: float,
     ) -> None:
-        """`log` gets a line about each error of a part."""
+        """`log` gets a line about each error of a part; a status is repeated within `repeat_s` seconds."""
         self._leaves = leaves
         self._clock = clock
         self._log = log
         levels = {name: leaf.reports.levels for name, leaf in leaves.items()}
-        self._outside = Outside([rule for system in scope.systems for rule in system.rules], levels)
+        self._outside = Outside([rule for system in scope.systems for rule in system.rules], levels, repeat_s)
         self.reported: Reported = levels
 
     def hear(self, part: str, name: str, level: str, error: str = "") -> None:

@@ -31,6 +31,7 @@ from microros_gen.mode_manager.knowledge import Knowledge
 from microros_gen.mode_manager.leaf import Leaf
 from microros_gen.mode_manager.parent_values import refusal_of
 from microros_gen.mode_manager.progress import Progress
+from microros_gen.mode_manager.reports import Reports
 from microros_gen.mode_manager.scope import Scope
 from microros_gen.mode_manager.settings import Settings
 from microros_gen.mode_manager.targets import spread
@@ -65,7 +66,8 @@ class Orchestrator:
         self.scope = scope
         self.settings = settings or Settings()
         self.targets: dict[str, Status] = {}
-        self.leaves = {part.name: Leaf(part) for part in scope.leaves}
+        repeat_s = self.settings.repeat_s
+        self.leaves = {part.name: Leaf(part, reports=Reports(repeat_s)) for part in scope.leaves}
         self._clock = clock
         self._log = log
         self._knowledge = Knowledge(model, self.targets)
@@ -77,7 +79,7 @@ class Orchestrator:
         self._degrading = Degrading(model, self.settings, log)
         self._commander = Commander(self._knowledge, self.progress, self.settings, log)
         self._shown: Mapping[str, Status] = self.statuses()
-        self.diagnosed = Diagnosed(scope, self.leaves, clock, log)
+        self.diagnosed = Diagnosed(scope, self.leaves, clock, log, repeat_s)
         """What /diagnostics has of the parts. For inference and rules, a part with an error is in error processing;
         commands to it go on."""
 

@@ -19,8 +19,11 @@ class Outside:
     whether it is still there.
     """
 
-    def __init__(self, rules: Iterable[Rule], levels: dict[str, dict[str, str]]) -> None:
-        """`rules` say which statuses count."""
+    def __init__(
+        self, rules: Iterable[Rule], levels: dict[str, dict[str, str]], repeat_s: float = REPEAT_S
+    ) -> None:
+        """`rules` say which statuses count; each is repeated within `repeat_s` seconds."""
+        self._repeat_s = repeat_s
         wanted = (rule.diagnostics for rule in rules)
         self._wanted = [each for each in wanted if each is not None and each.hardware]
         self._levels = levels
@@ -39,7 +42,7 @@ class Outside:
     def step(self, now: float) -> None:
         """Note that time has passed; the statuses are in the order of their last repetition."""
         for (hardware, name), received in self._received.items():
-            if now - received < REPEAT_S:
+            if now - received < self._repeat_s:
                 break
             self._levels[outside(hardware)][name] = STALE_LEVEL
 

@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 REPEAT_S = 5.0
-"""Seconds after which a status that was not repeated counts no longer: one of a part that was away and is back is
-forgotten, one of no part is stale. diagnostic_aggregator has the same default (`timeout`)."""
+"""Default of the seconds after which a status that was not repeated does not count: one of a part that was away and is
+back is forgotten, one of no part is stale. diagnostic_aggregator has the same default (`timeout`)."""
 
 
 class Reports:
@@ -16,8 +16,9 @@ class Reports:
     does not hide that.
     """
 
-    def __init__(self) -> None:
-        """Begin with nothing."""
+    def __init__(self, repeat_s: float = REPEAT_S) -> None:
+        """Begin with nothing; `repeat_s` is the time in which each status is repeated, seconds."""
+        self._repeat_s = repeat_s
         self.levels: dict[str, str] = {}
         self._errors: dict[str, str] = {}
         self._unconfirmed: set[str] = set()
@@ -52,7 +53,7 @@ class Reports:
         """Note that the part is there; `now` in seconds."""
         self._is_away = False
         self._unconfirmed = {*self.levels, *self._errors}
-        self._until = now + REPEAT_S
+        self._until = now + self._repeat_s
 
     def step(self, now: float) -> None:
         """Forget what was not repeated; `now` in seconds."""

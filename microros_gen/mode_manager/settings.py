@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from microros_gen.mode_manager.reports import REPEAT_S
 from microros_gen.records import dataclass
 
 
@@ -29,4 +30,8 @@ class Settings:
     """Parts may appear so long after the start, and the modes of their systems are taken over."""
     recover_s: float = 60.0
     """A system returns from a degraded mode at most `attempts` times in this time."""
+    rest_s: float = 60.0
+    """Rules that were applied before a system has rested for so long do not count as parts of an oscillation."""
+    repeat_s: float = REPEAT_S
+    """A status on /diagnostics is repeated within this time."""
     reconfigured: frozenset[str] = frozenset()

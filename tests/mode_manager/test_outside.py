@@ -13,6 +13,7 @@ from microros_gen.mode_manager.diagnosis import OtherStatus, array_of, read_othe
 from microros_gen.mode_manager.monitor import Overview
 from microros_gen.mode_manager.outside import MOST, Outside
 from microros_gen.mode_manager.reports import REPEAT_S
+from microros_gen.mode_manager.settings import Settings
 from microros_gen.mode_manager.simulation import Played, simulate
 from microros_gen.modes import check
 from microros_gen.modes.model import active
@@ -92,6 +93,51 @@ def test_one_that_is_not_repeated_is_stale() -> None:
     world.manager.diagnosed.hear_outside("0A0B0C0D", CLIENT, "")
     world.let(2)
     assert world.status("arm") == "active.QUICK"
+
+
+def test_a_slow_publisher_is_not_stale_with_a_longer_time() -> None:
+    for repeat_s, target in ((20.0, "active.QUICK"), (REPEAT_S, "active.GENTLE")):
+        world = World(
+            model_of(ARM), {"gripper": Node(), "joint": Node()}, settings=Settings(repeat_s=repeat_s)
+        )
+        world.request("arm", active("QUICK"))
+        for _ in range(2):
+            world.manager.diagnosed.hear_outside("0A0B0C0D", CLIENT, "")
+            world.let(12)
+        assert world.status("arm") == target
+
+
+IN_TURN = changed(
+    model_text("arm"),
+    PLACE,
+    """\
+      gently:
+        if_target: active.QUICK
+        if_part: [gripper, active.FIRM]
+        diagnostics: {level: warn, hardware: battery, names: [low]}
+        new_target: active.GENTLE
+      quickly:
+        if_target: active.GENTLE
+        if_part: [gripper, active.SOFT]
+        diagnostics: {level: warn, hardware: battery, names: [full]}
+        new_target: active.QUICK
+""",
+)
+
+
+@pytest.mark.parametrize(("rest_s", "oscillates"), [(100, False), (5, True)])
+def test_only_rules_without_a_rest_in_between_are_an_oscillation(rest_s: int, oscillates: bool) -> None:
+    """A battery that is charged once a day is none."""
+    world = World(model_of(IN_TURN), {"gripper": Node(), "joint": Node()})
+    world.request("arm", active("QUICK"))
+    for i in range(24):
+        for name in ("low", "full"):
+            level = "warn" if (name == "low") == (i % 2 == 0) else ""
+            world.manager.diagnosed.hear_outside("battery", name, level)
+        world.let(rest_s)
+    assert world.manager.oscillating == ({"arm"} if oscillates else set())
+    if not oscillates:
+        assert world.log.count("arm: rule gently: active.GENTLE (low: warn)") == 12
 
 
 def test_what_no_rule_wants_is_not_kept_and_the_rest_is_bounded() -> None:

@@ -14,6 +14,7 @@ from microros_gen.cli.modes.options import (
     model_argument,
     modes_peer,
     reconfigure_option,
+    report_option,
     timeout_option,
 )
 from microros_gen.mode_manager.settings import Settings
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
 )
 @reconfigure_option
 @timeout_option
+@report_option
 @domain_option
 def manage_command(
     model: Path,
@@ -48,6 +50,7 @@ def manage_command(
     without: tuple[str, ...],
     reconfigure: tuple[str, ...],
     timeout: float,
+    report_timeout: float,
     domain: int | None,
 ) -> None:
     """Bring the nodes of a system into the states and modes that somebody requests, and apply rules.
@@ -73,7 +76,8 @@ def manage_command(
 
     system, _ = read_system(model, applications)
     scope = select_scope(system, roots, without)
-    settings = Settings(call_s=timeout, reconfigured=select_nodes(system, scope, reconfigure))
+    reconfigured = select_nodes(system, scope, reconfigure)
+    settings = Settings(call_s=timeout, repeat_s=report_timeout, reconfigured=reconfigured)
     turn = ManagerInTurn(
         scope,
         lambda name: modes_peer(name, domain),

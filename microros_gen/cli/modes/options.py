@@ -42,6 +42,15 @@ timeout_option = click.option(
     help="Seconds after which a response is late.",
 )
 
+report_option = click.option(
+    "--report-timeout",
+    type=click.FloatRange(min=0.1),
+    default=Settings().repeat_s,
+    show_default=True,
+    metavar="S",
+    help="Seconds in which each status on /diagnostics is repeated: after that, one of no part is stale, and one of a"
+    " node that was away is forgotten.",
+)
 
 domain_option = click.option(
     "--domain", type=click.IntRange(0, 232), metavar="ID", help="ROS domain. Default: ROS_DOMAIN_ID, else 0."

@@ -11,6 +11,7 @@ from microros_gen.cli.modes.options import (
     application_option,
     model_argument,
     reconfigure_option,
+    report_option,
     timeout_option,
 )
 from microros_gen.cli.options import format_option, json_text
@@ -30,6 +31,7 @@ from microros_gen.mode_manager.settings import Settings
 )
 @reconfigure_option
 @timeout_option
+@report_option
 @format_option
 def simulate_command(
     model: Path,
@@ -38,6 +40,7 @@ def simulate_command(
     with_services: tuple[str, ...],
     reconfigure: tuple[str, ...],
     timeout: float,
+    report_timeout: float,
     kind: str,
 ) -> int:
     """Play the requests and faults of SCRIPT with the decisions of the mode manager, without nodes.
@@ -54,7 +57,8 @@ def simulate_command(
 
     system, devices = read_system(model, applications)
     scope = select_scope(system)
-    settings = Settings(call_s=timeout, reconfigured=select_nodes(system, scope, reconfigure))
+    reconfigured = select_nodes(system, scope, reconfigure)
+    settings = Settings(call_s=timeout, repeat_s=report_timeout, reconfigured=reconfigured)
     services = select_nodes(system, scope, with_services) | devices
     played = simulate(system, read_script(script, system), settings, services)
     click.echo(json_text(played.data()) if kind == "json" else played.text(), nl=False)
