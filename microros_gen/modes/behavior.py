@@ -89,6 +89,16 @@ class Settled:
     led: Mapping[str, _Led]
 
 
+@dataclass(frozen=True)
+class SettledSystem:
+    """The same of one system, with what it can end in; `led` is for each of its targets."""
+
+    kept: int
+    oscillations: tuple[Oscillation, ...]
+    behaviors: Behaviors
+    led: _Led
+
+
 _WORK = 64
 """How many pairs of combinations and behaviors are looked at, for each combination that may be kept."""
 
@@ -133,12 +143,39 @@ def _is_configured(end: Status, before: bool) -> int:
     return int(end.state != UNCONFIGURED and (before or end.state != INACTIVE))
 
 
+def settle_system(
+    model: Model,
+    system: Part,
+    behaviors: Mapping[str, Behaviors],
+    most: int,
+    outside: Mapping[int, Failures],
+) -> SettledSystem | None:
+    """Return where a system ends; None: it has more than `most` different combinations.
+
+    `behaviors` are those of its parts. `outside` has the rules that see statuses of no part that they want, as bits,
+    each with such statuses.
+    """
+    try:
+        combined = _combine(model, system, behaviors, most, outside)
+    except _TooManyError:
+        return None
+    return SettledSystem(size_of(combined), *_outcomes(model, system, combined))
+
+
+Settle = Callable[[Part, Mapping[str, Behaviors]], SettledSystem | None]
+"""`settle_system` for a model and some levels of statuses of no part."""
+
+
 def settle_all(
-    model: Model, most: int, of_node: Callable[[Model, Part], Behaviors] = every_failure
+    model: Model,
+    most: int,
+    of_node: Callable[[Model, Part], Behaviors] = every_failure,
+    settle: Settle | None = None,
 ) -> Settled:
     """Return what is known of all systems; one with more than `most` different combinations stays open.
 
-    `of_node` says what a node can end in.
+    `of_node` says what a node can end in. `settle`: by which function a system is settled; None: `settle_system`, where
+    statuses of no part have any levels, for each system other ones.
     """
     behaviors: dict[str, Behaviors] = {node.name: of_node(model, node) for node in model.nodes}
     oscillations: list[Oscillation] = []
@@ -147,32 +184,38 @@ def settle_all(
     vague: set[str] = set()
     kept = 0
     for system in model.systems:
-        if any(name in unproven for name in system.part_names):
+        found = None
+        if not any(name in unproven for name in system.part_names):
+            found = (
+                settle(system, behaviors)
+                if settle is not None
+                else settle_system(model, system, behaviors, most, outside_reports(system.rules))
+            )
+        if found is None:
             unproven.append(system.name)
             continue
-        try:
-            combined = _combine(model, system, behaviors, most)
-        except _TooManyError:
-            unproven.append(system.name)
-            continue
-        kept += size_of(combined)
-        found, behaviors[system.name], following = _outcomes(model, system, combined)
-        oscillations += found
+        kept += found.kept
+        behaviors[system.name] = found.behaviors
+        oscillations += found.oscillations
         if vague.isdisjoint(system.part_names):
-            led[system.name] = following
-        if found or not vague.isdisjoint(system.part_names):
+            led[system.name] = found.led
+        if found.oscillations or not vague.isdisjoint(system.part_names):
             vague.add(system.name)
     return Settled(tuple(oscillations), tuple(unproven), kept, led)
 
 
 def _combine(
-    model: Model, system: Part, behaviors: Mapping[str, Behaviors], most: int
+    model: Model,
+    system: Part,
+    behaviors: Mapping[str, Behaviors],
+    most: int,
+    outside: Mapping[int, Failures],
 ) -> dict[Machine[_Seen], Origin]:
     """Return what can be seen of all parts together, by target, with the fewest failures that this takes."""
     targets = model.targets(system)
     kept = {
         constant(((False, False, -1, -1, 0, held, 0),) * len(targets)): Origin(statuses)
-        for held, statuses in outside_reports(system.rules).items()
+        for held, statuses in outside.items()
     }
     for name in system.part_names:
         seen = _distinct(
@@ -259,7 +302,7 @@ def _seen_in(
 
 def _outcomes(
     model: Model, system: Part, combined: Mapping[Machine[_Seen], Origin]
-) -> tuple[list[Oscillation], Behaviors, _Led]:
+) -> tuple[tuple[Oscillation, ...], Behaviors, _Led]:
     targets = model.targets(system)
     cycles: dict[frozenset[str], Oscillation] = {}
     behaviors: Behaviors = {}
@@ -282,7 +325,7 @@ def _outcomes(
             after.append(tuple(following for _, following in row))
         behavior, smallest = reduced((tuple(ends), tuple(after)), origin)
         behaviors.setdefault(behavior, smallest)
-    return list(cycles.values()), behaviors, {target: frozenset(after) for target, after in led.items()}
+    return tuple(cycles.values()), behaviors, {target: frozenset(after) for target, after in led.items()}
 
 
 _At = tuple[int, int, tuple[int, ...]]

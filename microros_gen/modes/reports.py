@@ -63,10 +63,13 @@ def reports_of(node: Part, rules: Iterable[Rule]) -> Mapping[Report, tuple[Diagn
     return found
 
 
-def outside_reports(rules: Iterable[Rule]) -> Mapping[int, tuple[tuple[str, Diagnosis], ...]]:
-    """Return what the statuses of no part can say to the rules of a system: which rules have those that they want.
+def outside_reports(
+    rules: Iterable[Rule], most: int | None = None
+) -> Mapping[int, tuple[tuple[str, Diagnosis], ...]]:
+    """Return what the statuses of no part can say to some rules: which rules have those that they want.
 
-    A bit for each rule by its index; each with the fewest statuses that this takes, by the keys of `outside`.
+    A bit for each rule by its index; each with the fewest statuses that this takes, by the keys of `outside`. With more
+    than `most` of them, not all are returned, but more than that.
     """
     wanted = [(i, r.diagnostics) for i, r in enumerate(rules) if r.diagnostics and r.diagnostics.hardware]
     hardware = dict.fromkeys(diagnostics.hardware for _, diagnostics in wanted)
@@ -79,4 +82,6 @@ def outside_reports(rules: Iterable[Rule]) -> Mapping[int, tuple[tuple[str, Diag
                 after = held | sum(1 << i for i, diagnostics in about if diagnostics.covers(name, level))
                 if len(statuses) + 1 < len(found.get(after, range(len(statuses) + 2))):
                     found[after] = (*statuses, (key, Diagnosis(name, level)))
+        if most is not None and len(found) > most:
+            break
     return found

@@ -8,11 +8,12 @@ from math import prod
 
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Severity
 from microros_gen.modes.alike import alike_modes, with_inferred
-from microros_gen.modes.behavior import Oscillation, Settled, failure_states, settle_all
+from microros_gen.modes.behavior import Oscillation, Settled, every_failure, failure_states, settle_all
 from microros_gen.modes.manager import OSCILLATES, Manager, Step
 from microros_gen.modes.model import INACTIVE, Model, Status
 from microros_gen.modes.report import OPEN, PROVEN, REFUTED, Property
 from microros_gen.modes.reports import Diagnosis
+from microros_gen.modes.together import has_shared_statuses, settle_together
 
 MOST_COMBINATIONS = 100_000
 """Different combinations of a system that are kept by default; 6 parts with a few modes and rules have some hundred."""
@@ -25,7 +26,14 @@ def check_stability(model: Model, settled: Settled, most: int, diagnostics: Diag
 
     `settled` is what `settle_all` returns of the model.
     """
-    inferred = settle_all(model, most, with_inferred) if any(map(alike_modes, model.nodes)) else settled
+    has_alike = any(map(alike_modes, model.nodes))
+    inferred = settle_all(model, most, with_inferred) if has_alike else settled
+    if not all(_is_possible(model, found) for found in settled.oscillations):
+        settled = settle_together(model, most, every_failure, settled) or settled
+    if not has_alike:
+        inferred = settled
+    elif inferred.oscillations and has_shared_statuses(model):
+        inferred = settle_together(model, most, with_inferred, inferred) or inferred
     certain = [found for found in settled.oscillations if _is_possible(model, found)]
     for oscillation in settled.oscillations:
         diagnostics.add((_oscillation if oscillation in certain else _possible)(model, oscillation))
@@ -59,11 +67,10 @@ def _undecided(model: Model, found: Oscillation) -> Diagnostic:
 def _is_possible(model: Model, found: Oscillation) -> bool:
     """Return whether the failures that were found let rules oscillate.
 
-    With rules of several systems on statuses of no part they may not: each system was taken for itself, and two of them
+    With rules of several systems on statuses of no part they may not: if each system was taken for itself, two of them
     may have been given different levels of one status.
     """
-    wanting = [s for s in model.systems if any(r.diagnostics and r.diagnostics.hardware for r in s.rules)]
-    return len(wanting) < 2 or any(line.startswith(OSCILLATES) for line in trace(model, found))
+    return not has_shared_statuses(model) or any(line.startswith(OSCILLATES) for line in _lines(model, found))
 
 
 def _possible(model: Model, found: Oscillation) -> Diagnostic:
@@ -87,7 +94,12 @@ def _oscillation(model: Model, found: Oscillation) -> Diagnostic:
 
 
 def trace(model: Model, found: Oscillation) -> list[str]:
-    """Return the lines of what happens when a system is requested while nodes are stuck."""
+    """Return the first lines of what happens when a system is requested while nodes are stuck."""
+    lines = _lines(model, found)
+    return lines if len(lines) <= _LONGEST_TRACE else [*lines[:_LONGEST_TRACE], "…"]
+
+
+def _lines(model: Model, found: Oscillation) -> list[str]:
     manager = Manager(model)
     lines = []
     for node, what in found.failures:
@@ -99,8 +111,7 @@ def trace(model: Model, found: Oscillation) -> list[str]:
         for _ in manager.change(node, Status(INACTIVE)):
             pass
     lines.append(f"request {found.system} {found.request}")
-    lines += [str(step) for step in manager.request(found.system, found.request)]
-    return lines if len(lines) <= _LONGEST_TRACE else [*lines[:_LONGEST_TRACE], "…"]
+    return [*lines, *(str(step) for step in manager.request(found.system, found.request))]
 
 
 def _steps(manager: Manager, node: str, what: Status | Diagnosis) -> Iterator[Step]:

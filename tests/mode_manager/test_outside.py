@@ -15,7 +15,7 @@ from microros_gen.mode_manager.outside import MOST, Outside
 from microros_gen.mode_manager.reports import REPEAT_S
 from microros_gen.mode_manager.settings import Settings
 from microros_gen.mode_manager.simulation import Played, simulate
-from microros_gen.modes import check
+from microros_gen.modes import Report, check
 from microros_gen.modes.model import active
 from microros_gen.modes.script import parse_script
 from tests.support.mode_manager.arm import start_diagnosed
@@ -240,11 +240,34 @@ motor:
 """
 
 
-def test_a_cycle_for_a_status_with_two_levels_at_once_is_not_refuted(tmp_path: Path) -> None:
-    """While the status warns, the lower system is not in A: the two rules above never follow each other."""
+def checked(tmp_path: Path, text: str) -> Report:
     path = tmp_path / "two.yaml"
-    path.write_text(TWO, encoding="utf-8")
-    report = check(path)
+    path.write_text(text, encoding="utf-8")
+    return check(path)
+
+
+def test_a_cycle_that_needs_two_levels_of_one_status_is_not_found(tmp_path: Path) -> None:
+    """While the status warns, the lower system is not in A: the two rules above never follow each other."""
+    report = checked(tmp_path, TWO)
+    assert ([d.render() for d in report.diagnostics], report.result) == ([], "proven")
+    elsewhere = changed(
+        TWO,
+        "        new_target: active.B\n        diagnostics: {level: warn, hardware: b}",
+        "        new_target: active.B\n        diagnostics: {level: warn, hardware: c}",
+    )
+    report = checked(tmp_path, elsewhere)
+    assert [d.id for d in report.diagnostics] == ["MG-8844"]
+    assert "diagnosed hardware b * warn" in report.diagnostics[0].block[0]
+
+
+def test_too_many_levels_leave_such_a_cycle_open(tmp_path: Path) -> None:
+    """Eleven more rules, each with its own hardware, can be combined in 2048 ways."""
+    more = "".join(
+        f"      also_{i}: {{if_target: active.B, if_part: [motor, active.B], new_target: inactive,"
+        f" diagnostics: {{level: warn, hardware: c{i}}}}}\n"
+        for i in range(11)
+    )
+    report = checked(tmp_path, changed(TWO, "      weak:\n", more + "      weak:\n"))
     assert [d.id for d in report.diagnostics] == ["MG-9838"], [d.render() for d in report.diagnostics]
     assert "not proven for 'top'" in report.diagnostics[0].message
     assert (report.exit_status, report.diagnostics[0].hint) == (
