@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import pytest
 
 from microros_gen.diagnostics import UserError
@@ -121,12 +123,13 @@ def test_parts_stop_before_others_start() -> None:
     assert world.status("arm") == "active.QUICK"
 
 
-def test_a_node_that_is_reconfigured_by_convention() -> None:
-    """Inactive, the parameters, active again."""
+def reconfigured(refuses: Callable[[Call], bool]) -> World:
+    """Return the arm after a change of mode, for which its joint was inactive meanwhile, as its convention says."""
     world = arm(gripper=Node(values={"force": 0.5}), joint=Node(values={"speed": 0.1, "law": "TORQUE"}))
     world.settings = Settings(reconfigured=frozenset({"joint"}))
     world.start()
     world.request("arm", QUICK)
+    world.nodes["joint"].refuses = refuses
     first = len(world.sent)
     world.request("arm", GENTLE)
     assert [c for c in world.commands(first) if "joint" in c] == [
@@ -134,22 +137,16 @@ def test_a_node_that_is_reconfigured_by_convention() -> None:
         "joint set_parameters_atomically",
         "joint change_state activate",
     ]
-    assert world.status("joint") == "active.CRAWL"
+    return world
+
+
+def test_a_node_that_is_reconfigured_by_convention() -> None:
+    """Inactive, the parameters, active again."""
+    assert reconfigured(lambda _: False).status("joint") == "active.CRAWL"
 
 
 def test_a_refused_reconfiguration_ends_in_the_former_mode() -> None:
-    world = arm(gripper=Node(values={"force": 0.5}))
-    world.settings = Settings(reconfigured=frozenset({"joint"}))
-    world.start()
-    world.request("arm", QUICK)
-    world.nodes["joint"].refuses = lambda call: call.kind is Kind.SET_PARAMETERS
-    first = len(world.sent)
-    world.request("arm", GENTLE)
-    assert [c for c in world.commands(first) if "joint" in c] == [
-        "joint change_state deactivate",
-        "joint set_parameters_atomically",
-        "joint change_state activate",
-    ]
+    world = reconfigured(lambda call: call.kind is Kind.SET_PARAMETERS)
     assert world.status("joint") == "active.RUSH"
     assert "refuses the parameters" in world.manager.leaves["joint"].failure
     assert world.status("arm") == "activating"

@@ -8,17 +8,16 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.mode_manager.diagnosis import OtherStatus, array_of, read_others, read_rows, rows_of
 from microros_gen.mode_manager.monitor import Overview
 from microros_gen.mode_manager.outside import MOST, Outside
 from microros_gen.mode_manager.reports import REPEAT_S
 from microros_gen.mode_manager.settings import Settings
-from microros_gen.mode_manager.simulation import Played, simulate
+from microros_gen.mode_manager.simulation import Played
 from microros_gen.modes import Report, check
 from microros_gen.modes.model import active
-from microros_gen.modes.script import parse_script
 from tests.support.mode_manager.arm import start_diagnosed
+from tests.support.mode_manager.played import play
 from tests.support.mode_manager.world import Node, World
 from tests.support.modes.models import changed, model_of, model_text
 
@@ -37,10 +36,7 @@ CLIENT = "agent: client 0A0B0C0D"
 
 
 def played(script: str, text: str = ARM) -> Played:
-    model, found = model_of(text), Diagnostics()
-    events = parse_script(Source("s.yaml", script), model, found)
-    assert not found.has_errors(), [d.render() for d in found]
-    return simulate(model, events)
+    return play(script, text)
 
 
 def warned(level: str, name: str, hardware: str = "0A0B0C0D", at: int = 2) -> str:

@@ -9,18 +9,18 @@ from typing import Any
 
 import pytest
 
-from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.mode_manager.calls import Kind, Link
 from microros_gen.mode_manager.diagnosis import TOPIC, TYPE
-from microros_gen.mode_manager.simulation import Played, simulate
+from microros_gen.mode_manager.simulation import Played
 from microros_gen.modes import Manager, Status, check
 from microros_gen.modes.model import active
-from microros_gen.modes.script import parse_script
 from tests.support.mode_manager.arm import start
+from tests.support.mode_manager.played import CELL_NODES, play
 from tests.support.mode_manager.world import Node, World
 from tests.support.modes.models import changed, model_of
 
-ARM = """\
+ARM = (
+    """\
 arm:
   ros__parameters:
     type: system
@@ -40,14 +40,9 @@ arm:
         if_part: [q, errorprocessing]
         new_target: active.STOP
         recover_if: [q, inactive, unconfigured]
-p: {ros__parameters: {type: node, modes: {__DEFAULT__: {ros__parameters: {v: 1}}}}}
-q:
-  ros__parameters:
-    type: node
-    modes:
-      __DEFAULT__: {ros__parameters: {w: 1}}
-      SLOW: {ros__parameters: {w: 0}}
 """
+    + CELL_NODES
+)
 
 
 def world() -> World:
@@ -59,10 +54,7 @@ def world() -> World:
 
 
 def played(script: str, text: str = ARM) -> Played:
-    model, found = model_of(text), Diagnostics()
-    events = parse_script(Source("s.yaml", script), model, found)
-    assert not found.has_errors()
-    return simulate(model, events)
+    return play(script, text)
 
 
 def targets(world: World) -> str:

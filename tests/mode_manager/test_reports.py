@@ -5,18 +5,18 @@ from __future__ import annotations
 
 import pytest
 
-from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.mode_manager.calls import Link
 from microros_gen.mode_manager.diagnosis import PartStatus
 from microros_gen.mode_manager.problems import Problem, Problems
 from microros_gen.mode_manager.reports import REPEAT_S, Reports
-from microros_gen.mode_manager.simulation import Played, simulate
+from microros_gen.mode_manager.simulation import Played
 from microros_gen.modes.model import active
-from microros_gen.modes.script import parse_script
+from tests.support.mode_manager.played import CELL_NODES, play
 from tests.support.mode_manager.world import Node, World
 from tests.support.modes.models import model_of
 
-CELL = """\
+CELL = (
+    """\
 cell:
   ros__parameters:
     type: system
@@ -30,14 +30,9 @@ cell:
         if_part: [p, errorprocessing]
         new_target: active.LIMP
         recover_if: [p, inactive, unconfigured]
-p: {ros__parameters: {type: node, modes: {__DEFAULT__: {ros__parameters: {v: 1}}}}}
-q:
-  ros__parameters:
-    type: node
-    modes:
-      __DEFAULT__: {ros__parameters: {w: 1}}
-      SLOW: {ros__parameters: {w: 0}}
 """
+    + CELL_NODES
+)
 BROKEN = """\
 - {at: 0 s, request: cell, target: active}
 - {at: 2 s, diagnose: p, level: error, name: motor}
@@ -46,10 +41,7 @@ BACK_S = 20
 
 
 def played(script: str) -> Played:
-    model, found = model_of(CELL), Diagnostics()
-    events = parse_script(Source("s.yaml", script), model, found)
-    assert not found.has_errors(), [d.render() for d in found]
-    return simulate(model, events)
+    return play(script, CELL)
 
 
 def reconnected(level: str, after_s: float) -> Played:
