@@ -38,7 +38,7 @@ parameters       proven      nodes as in application files: 1, as in __DEFAULT__
 start order      proven      parts that wait for another one: 0
 inference        proven      modes of systems: 3
 reachable modes  proven      modes: 9
-stable rules     proven      rules: 3; combinations of failures: 225, different: 20
+stable rules     proven      rules: 3; combinations of failures: 225, different: 17
 single commands  proven      parts with one system: 2; pairs of rules of which the last by name is applied: 1
 """
     )
