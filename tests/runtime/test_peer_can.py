@@ -264,3 +264,25 @@ def test_a_bus_that_is_there_only_later(tmp_path: Path) -> None:
                 meet(a, b)
                 both_ways(a, b, range(3))
                 assert later.identifiers() == {0x10120, 0x12001}
+
+
+def test_a_bus_that_is_removed_and_returns(tmp_path: Path) -> None:
+    """As with a USB adapter: reliable messages wait, best-effort ones get an error, and each return is counted."""
+    with tempfile.TemporaryDirectory() as short:
+        path = Path(short) / "bus"
+        ends = system(f"unix:{path}", f"unix:{path}", "canfd")
+        first, second = (board_program(tmp_path, own, ends, CANFD, CANFD) for own in PAIR)
+        with started(first) as a, started(second) as b:
+            for life in range(3):
+                with CanBus(path):
+                    until(lambda: a.reconnects() == b.reconnects() == life, a, b)  # noqa: B023
+                    meet(a, b)
+                    both_ways(a, b, range(4 * life, 4 * life + 4))
+                path.unlink()
+                until(lambda: "the line to the board b is gone" in a.publish(BEST, 0), a, b)
+                assert a.reconnects() == life
+                a.begin("rest 700")
+                assert a.heard() < 100, "each look at the time is one of the line: it ended the wait"
+                until(lambda: "is gone" in b.publish(BEST, 0), a, b)
+                for board in (a, b):
+                    board.values[SURE].clear()

@@ -98,7 +98,7 @@ class PeerPlan:
     """`mtu`: the largest of all links, bytes; `slots` of `slot_size` bytes each hold reliable messages of a link.
 
     `loads`, `buses`: of the lines and CAN buses on which publishers have a rate. `in_fragments`: messages that are
-    larger than an MTU.
+    larger than an MTU. `finds`: the library looks for a network interface that is removed and returns.
     """
 
     links: tuple[PeerLinkPlan, ...]
@@ -106,6 +106,7 @@ class PeerPlan:
     slots: int
     slot_size: int
     alone: bool
+    finds: bool = False
     loads: tuple[LinkLoad, ...] = ()
     buses: tuple[BusLoad, ...] = ()
     in_fragments: FragmentsPlan = FragmentsPlan()
@@ -227,6 +228,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> PeerPlan:
         slots=max((link.history for link in context.application.links), default=1) if largest else 1,
         slot_size=(max(largest, MESSAGE_OVERHEAD) + fragments.head + 3) & ~3,
         alone=is_alone(context.application),
+        finds=context.target.hosted and any(link.kind != "serial" for link in context.application.links),
         loads=plan_loads(context, ends, diagnostics),
         buses=plan_bus_loads(context, ends, diagnostics),
         in_fragments=fragments,

@@ -5,6 +5,7 @@
 #include "microros/port.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_peer_calling.h"
+#include "microros/xrce_peer_find.h"
 #include "microros/xrce_peer_serving.h"
 #include "microros/xrce_peer_settle.h"
 #include "microros/xrce_turn_bytes.h"
@@ -250,10 +251,10 @@ static void peer_receive(xrce_client_t * client, uint8_t index, uint32_t now)
   }
 }
 
-/* Counts a line whose device has returned. A port without such lines never has this handle. */
-static void peer_look_at_line(xrce_client_t * client, uint8_t index)
+/* Counts a line whose device has returned. */
+static void peer_look_at_line(xrce_client_t * client, uint8_t index, uint32_t now)
 {
-  const bool lost = xrce_transport_handle(&xrce_peer_ports[index].transport) < -1;
+  const bool lost = xrce_peer_find(client, index, now);
 
   if (client->peers[index].lost && !lost) {
     ++client->session.statistics.reconnects;
@@ -270,7 +271,7 @@ static void peer_step(xrce_client_t * client, uint32_t now)
   for (uint8_t i = 0; i < MICROROS_PEERS; ++i) {
     xrce_transport_begin_turn(&xrce_peer_ports[i].transport);
     peer_receive(client, i, now);
-    peer_look_at_line(client, i);
+    peer_look_at_line(client, i, now);
     peer_connect(client, i, now);
     xrce_peer_flow(client, i, now);
   }
@@ -293,7 +294,7 @@ uint32_t xrce_peer_left(const xrce_client_t * client, uint32_t left, uint32_t no
     if (peer->key == 0u || peer->more) {
       soonest = xrce_sooner(soonest, now, now);
     } else if (peer->lost) {
-      /* the port ends the wait to look for the device */
+      /* the wait ends to look for the device */
     } else if (peer->ready && peer->unsent != 0u) {
       soonest = xrce_sooner(soonest, now + 1u, now); /* the line has no room */
     } else if (!peer->ready || peer->count != 0u) {
@@ -301,6 +302,7 @@ uint32_t xrce_peer_left(const xrce_client_t * client, uint32_t left, uint32_t no
     } else {
       /* what arrives ends the wait */
     }
+    soonest = xrce_peer_find_left(i, soonest, now);
   }
   return soonest;
 }

@@ -6,6 +6,7 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_peer.h"
 #include "microros/xrce_peer_alert.h"
+#include "microros/xrce_peer_find.h"
 #include "microros/xrce_peer_slots.h"
 #include "microros/xrce_wire.h"
 
@@ -22,12 +23,13 @@ static uint16_t peer_bits(uint8_t count)
 bool xrce_peer_send(xrce_client_t * client, uint8_t index, const uint8_t * message, size_t size)
 {
   xrce_peer_port_t * port = &xrce_peer_ports[index];
+  const bool is_sent = port->is_open && xrce_transport_send(&port->transport, message, size);
 
-  if (!port->is_open || !xrce_transport_send(&port->transport, message, size)) {
-    return false;
+  xrce_peer_find_note(index, is_sent);
+  if (is_sent) {
+    ++client->session.statistics.sent;
   }
-  ++client->session.statistics.sent;
-  return true;
+  return is_sent;
 }
 
 size_t xrce_peer_capacity(uint8_t index, bool reliable)

@@ -13,7 +13,8 @@ extern "C" {
 
 enum { PORT_CAN_DATA = 64 }; /* bytes of data in the longest frame of CAN FD */
 
-/* One controller. `handle` is that of port_wait, -1 for none; it belongs to the port, the library only copies it. */
+/* One controller. `handle` is that of port_wait, -1 for none; it belongs to the port, the library only copies it. On a host,
+ * where a device can be removed, send and receive set it to -2 when the device is gone: the library opens a link again. */
 typedef struct port_can_t {
   intptr_t handle;
   uint32_t id; /* extended identifier of the frames that are sent, and of those from an agent, 29 bits */

@@ -5,6 +5,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "microros/port_can.h"
 
+#include <errno.h>
 #include <fcntl.h>
 #include <linux/can.h>
 #include <linux/can/raw.h>
@@ -16,6 +17,9 @@
 #include <unistd.h>
 
 #define PLAYED "unix:"
+
+/* The handle of a device that is gone: no descriptor, so no wait looks at it. */
+enum { LOST = -2 };
 
 static bool can_connect(int handle, const char * path)
 {
@@ -90,15 +94,31 @@ void port_can_close(port_can_t * can)
   can->handle = -1;
 }
 
+/* Gives up a device that was removed; one that is only down works again by itself. `result` is that of a failed call. */
+static void can_look(port_can_t * can, ssize_t result)
+{
+  const bool lost = result == 0 || errno == ENODEV || errno == ENXIO || errno == EPIPE || errno == ECONNRESET;
+
+  if (can->handle >= 0 && lost) {
+    port_can_close(can);
+    can->handle = LOST;
+  }
+}
+
 bool port_can_send(port_can_t * can, const uint8_t * data, size_t size)
 {
   struct canfd_frame frame;
+  ssize_t sent;
 
   (void)memset(&frame, 0, sizeof(frame));
   frame.can_id = can->id | CAN_EFF_FLAG;
   frame.len = (uint8_t)size;
   (void)memcpy(frame.data, data, size);
-  return send((int)can->handle, &frame, sizeof(frame), MSG_NOSIGNAL) == (ssize_t)sizeof(frame);
+  sent = send((int)can->handle, &frame, sizeof(frame), MSG_NOSIGNAL);
+  if (sent < 0) {
+    can_look(can, sent);
+  }
+  return sent == (ssize_t)sizeof(frame);
 }
 
 /* A classic frame has the same members with less data. */
@@ -121,5 +141,6 @@ size_t port_can_receive(port_can_t * can, uint8_t * data)
       return frame.len;
     }
   } while (size > 0);
-  return 0; /* nothing arrived, or the interface is down, which the session detects */
+  can_look(can, size); /* a played bus that has ended returns 0 */
+  return 0;            /* nothing arrived, or the interface is down, which the session detects */
 }
