@@ -43,6 +43,15 @@ nodes:
     action_clients: [{name: run, type: example_interfaces/action/Fibonacci}]
 limits: {'*': {string: 16, sequence: 4}}
 """
+RCLC_ACTIONS = """\
+version: 1
+components: [+action_server, +action_client, +executor]
+nodes:
+  - name: n
+    actions: [{name: walk, type: example_interfaces/action/Fibonacci, goals: 2}]
+    action_clients: [{name: run, type: example_interfaces/action/Fibonacci, goals: 2}]
+limits: {'*': {string: 16, sequence: 4}}
+"""
 
 DIFFERENT: dict[str, tuple[int, int]] = {}
 """Call: what librcl returns, and what is returned here, for a reason."""
@@ -69,6 +78,17 @@ DIFFERENT_RCLC = {
     # rclc spins one that is finalized, and not one that was never initialized.
     "rclc_executor_spin_some(executor, 1)": (0, 1),
     "rclc_executor_spin_one_period(executor, 1)": (0, 1),
+}
+
+
+DIFFERENT_RCLC_ACTIONS = {
+    # As for publishers and subscriptions.
+    'rclc_action_server_init_default(&server, NULL, &support, type, "walk")': (11, 200),
+    'rclc_action_client_init_default(&client, NULL, type, "run")': (11, 200),
+    "rclc_action_server_fini(&server, NULL)": (11, 200),
+    "rclc_action_client_fini(&client, NULL)": (11, 200),
+    # As for a server.
+    'rclc_action_client_init_default(&client, &node, type, "")': (1, 2000),
 }
 
 
@@ -156,3 +176,17 @@ def test_actions_return_what_librcl_action_returns(tmp_path: Path) -> None:
     ours = of_ours(source, write_application(tmp_path / "ours", ACTIONS), tmp_path)
     assert differing(ours, of_librcl(source, tmp_path, more=["rcl_action"])) == {}
     assert len(ours) > 250
+
+
+def test_actions_return_what_rclc_returns(tmp_path: Path) -> None:
+    """Every function of rclc's action headers: wrong arguments, before and after each step, and with all goals in use.
+
+    actions_rclc.txt says what rclc's commit f401871 returned over the wheels' librcl_action.
+    """
+    whole = write_application(tmp_path / "ours", RCLC_ACTIONS)
+    tree = Tree(whole.folder, tuple(s for s in whole.sources if not s.parent.name.startswith("port_posix")))
+    ours = of_ours(FOLDER / "actions_rclc.c", tree, tmp_path, [FIXTURES / "port_agent.c"])
+    lines = (FOLDER / "actions_rclc.txt").read_text(encoding="utf-8").splitlines()
+    found = differing(ours, returned(lines))
+    assert {key.split(" ", 1)[1]: pair for key, pair in found.items()} == DIFFERENT_RCLC_ACTIONS
+    assert len(found) == 2 * len(DIFFERENT_RCLC_ACTIONS)

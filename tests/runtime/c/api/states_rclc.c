@@ -32,6 +32,36 @@ static void on_service(const void * asked, void * answer)
   ++calls;
 }
 
+static void on_message_in(const void * taken, void * context)
+{
+  (void)taken;
+  (void)context;
+  ++calls;
+}
+
+static void on_request_of(const void * asked, rmw_request_id_t * id, void * answer)
+{
+  (void)asked;
+  (void)id;
+  (void)answer;
+  ++calls;
+}
+
+static void on_request_in(const void * asked, void * answer, void * context)
+{
+  (void)asked;
+  (void)answer;
+  (void)context;
+  ++calls;
+}
+
+static void on_reply_of(const void * taken, rmw_request_id_t * id)
+{
+  (void)taken;
+  (void)id;
+  ++calls;
+}
+
 static void on_time(rcl_timer_t * timer, int64_t since)
 {
   (void)timer;
@@ -264,6 +294,132 @@ static void executors(void)
   TELL(rcl_guard_condition_fini(&guard));
 }
 
+/* Callbacks with a context or the id of a request, guard conditions, and what removes them. */
+static void add_others(
+  rclc_executor_t * executor, rcl_subscription_t * subscription, rcl_guard_condition_t * guard,
+  rcl_service_t * service, rcl_client_t * client)
+{
+  TELL(
+    rclc_executor_add_subscription_with_context(NULL, subscription, &message, on_message_in, &calls, ALWAYS));
+  TELL(rclc_executor_add_subscription_with_context(executor, NULL, &message, on_message_in, &calls, ALWAYS));
+  TELL(
+    rclc_executor_add_subscription_with_context(executor, subscription, NULL, on_message_in, &calls, ALWAYS));
+  TELL(rclc_executor_add_subscription_with_context(executor, subscription, &message, NULL, &calls, ALWAYS));
+  TELL(rclc_executor_add_subscription_with_context(
+    executor, subscription, &message, on_message_in, NULL, ALWAYS));
+  TELL(rclc_executor_add_service_with_request_id(NULL, service, &request, &response, on_request_of));
+  TELL(rclc_executor_add_service_with_request_id(executor, NULL, &request, &response, on_request_of));
+  TELL(rclc_executor_add_service_with_request_id(executor, service, NULL, &response, on_request_of));
+  TELL(rclc_executor_add_service_with_request_id(executor, service, &request, NULL, on_request_of));
+  TELL(rclc_executor_add_service_with_request_id(executor, service, &request, &response, NULL));
+  TELL(rclc_executor_add_service_with_request_id(executor, service, &request, &response, on_request_of));
+  TELL(rclc_executor_remove_service(executor, service));
+  TELL(rclc_executor_add_service_with_context(NULL, service, &request, &response, on_request_in, &calls));
+  TELL(rclc_executor_add_service_with_context(executor, NULL, &request, &response, on_request_in, &calls));
+  TELL(rclc_executor_add_service_with_context(executor, service, NULL, &response, on_request_in, &calls));
+  TELL(rclc_executor_add_service_with_context(executor, service, &request, NULL, on_request_in, &calls));
+  TELL(rclc_executor_add_service_with_context(executor, service, &request, &response, NULL, &calls));
+  TELL(rclc_executor_add_service_with_context(executor, service, &request, &response, on_request_in, NULL));
+  TELL(rclc_executor_add_client_with_request_id(NULL, client, &response, on_reply_of));
+  TELL(rclc_executor_add_client_with_request_id(executor, NULL, &response, on_reply_of));
+  TELL(rclc_executor_add_client_with_request_id(executor, client, NULL, on_reply_of));
+  TELL(rclc_executor_add_client_with_request_id(executor, client, &response, NULL));
+  TELL(rclc_executor_add_client_with_request_id(executor, client, &response, on_reply_of));
+  TELL(rclc_executor_add_guard_condition(NULL, guard, on_guard));
+  TELL(rclc_executor_add_guard_condition(executor, guard, on_guard));
+}
+
+static void remove_others(
+  rclc_executor_t * executor, rcl_subscription_t * subscription, rcl_guard_condition_t * guard,
+  rcl_service_t * service, rcl_client_t * client)
+{
+  TELL(rclc_executor_remove_guard_condition(NULL, guard));
+  TELL(rclc_executor_remove_guard_condition(executor, NULL));
+  TELL(rclc_executor_remove_guard_condition(executor, guard));
+  TELL(rclc_executor_remove_guard_condition(executor, guard));
+  TELL(rclc_executor_remove_client(NULL, client));
+  TELL(rclc_executor_remove_client(executor, client));
+  TELL(rclc_executor_remove_client(executor, client));
+  TELL(rclc_executor_remove_service(NULL, service));
+  TELL(rclc_executor_remove_service(executor, NULL));
+  TELL(rclc_executor_remove_service(executor, service));
+  TELL(rclc_executor_remove_subscription(NULL, subscription));
+  TELL(rclc_executor_remove_subscription(executor, NULL));
+  TELL(rclc_executor_remove_subscription(executor, subscription));
+  TELL(rclc_executor_remove_timer(NULL, NULL));
+}
+
+/* Which handles a trigger lets run; ALWAYS calls without a message, too. */
+static void triggers(rclc_executor_t * executor, rcl_guard_condition_t * guard)
+{
+  calls = 0;
+  TELL(rclc_executor_set_trigger(executor, rclc_executor_trigger_always, NULL));
+  TELL(rclc_executor_spin_some(executor, RCL_MS_TO_NS(1)));
+  TELL(calls);
+  TELL(rclc_executor_set_trigger(executor, rclc_executor_trigger_any, NULL));
+  TELL(rclc_executor_spin_some(executor, RCL_MS_TO_NS(1)));
+  TELL(calls);
+  TELL(rcl_trigger_guard_condition(guard));
+  TELL(rclc_executor_spin_some(executor, RCL_MS_TO_NS(100)));
+  TELL(calls);
+}
+
+/* The functions of executor_handle.h. */
+static void handles(rcl_guard_condition_t * guard)
+{
+  rclc_executor_handle_counters_t counters;
+  rclc_executor_handle_t handle;
+
+  TELL(rclc_executor_handle_counters_zero_init(NULL));
+  TELL(rclc_executor_handle_counters_zero_init(&counters));
+  TELL(counters.number_of_subscriptions);
+  TELL(rclc_executor_handle_init(NULL, 1));
+  TELL(rclc_executor_handle_init(&handle, 3));
+  TELL(handle.initialized);
+  TELL(rclc_executor_handle_get_ptr(&handle) == NULL);
+  TELL(rclc_executor_handle_print(NULL));
+  TELL(rclc_executor_handle_print(&handle));
+  handle.type = RCLC_GUARD_CONDITION;
+  handle.gc = guard;
+  TELL(rclc_executor_handle_get_ptr(&handle) == guard);
+  TELL(rclc_executor_handle_print(&handle));
+  TELL(rclc_executor_handle_clear(NULL, 1));
+  TELL(rclc_executor_handle_clear(&handle, 3));
+}
+
+static void others(void)
+{
+  const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
+  const rosidl_service_type_support_t * service_type = ROSIDL_GET_SRV_TYPE_SUPPORT(std_srvs, srv, SetBool);
+  rcl_guard_condition_t guard = rcl_get_zero_initialized_guard_condition();
+  rclc_executor_t executor = rclc_executor_get_zero_initialized_executor();
+  rcl_subscription_t subscription;
+  rcl_service_t service;
+  rcl_client_t client;
+
+  TELL(rclc_subscription_init(&subscription, &node, type, "b", &rmw_qos_profile_default));
+  TELL(rclc_service_init_best_effort(NULL, &node, service_type, "c"));
+  TELL(rclc_service_init_best_effort(&service, &node, service_type, "c"));
+  TELL(rclc_client_init_best_effort(NULL, &node, service_type, "d"));
+  TELL(rclc_client_init_best_effort(&client, &node, service_type, "d"));
+  TELL(rcl_guard_condition_init(&guard, &support.context, rcl_guard_condition_get_default_options()));
+  handles(&guard);
+  TELL(rclc_executor_add_guard_condition(&executor, &guard, on_guard));
+  TELL(rclc_executor_init(&executor, &support.context, 4, &allocator));
+  TELL(rclc_executor_remove_guard_condition(&executor, &guard));
+  TELL(rclc_executor_remove_client(&executor, &client));
+  add_others(&executor, &subscription, &guard, &service, &client);
+  triggers(&executor, &guard);
+  remove_others(&executor, &subscription, &guard, &service, &client);
+  TELL(rclc_executor_spin_some(&executor, 1));
+  TELL(rclc_executor_prepare(&executor));
+  TELL(rclc_executor_fini(&executor));
+  TELL(rcl_guard_condition_fini(&guard));
+  TELL(rcl_client_fini(&client, &node));
+  TELL(rcl_service_fini(&service, &node));
+  TELL(rcl_subscription_fini(&subscription, &node));
+}
+
 int main(void)
 {
   allocator = heap;
@@ -277,6 +433,7 @@ int main(void)
   TELL(rclc_support_fini(&support));
   start();
   endpoints();
+  others();
   TELL(rcl_node_fini(&node));
   TELL(rclc_support_fini(&support));
   return 0;
