@@ -9,7 +9,7 @@
 
 #include <stdbool.h>
 
-enum { FROM_ROS = 100000, ROS_REQUESTS = 5, TURNS = 3000, LAST_TURNS = 100 };
+enum { FROM_ROS = 100000, ROS_REQUESTS = 5, TURNS = 20000, LAST_TURNS = 100 };
 
 static int32_t asked_by_ros;
 static int64_t asked;
