@@ -28,6 +28,7 @@ from tests.bench.images import bench_images
 from tests.bench.instructions import bench_instructions
 from tests.bench.lifecycle import bench_lifecycle
 from tests.bench.local import bench_local
+from tests.bench.local_route import bench_local_route
 from tests.bench.parameters import bench_parameters
 from tests.bench.peer import bench_peer
 from tests.bench.tasks import bench_tasks
@@ -40,6 +41,7 @@ PARTS = (
     "parameters",
     "lifecycle",
     "local",
+    "local_route",
     "codec",
     "types",
     "footprint",
@@ -80,6 +82,8 @@ def main() -> int:
             bench_lifecycle(work / "lifecycle")
         if "local" in options.parts:
             bench_local(work / "local")
+        if "local_route" in options.parts:
+            bench_local_route(work / "local_route")
         if "codec" in options.parts:
             bench_codec(work / "codec")
         if "types" in options.parts:
