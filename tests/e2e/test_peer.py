@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-import signal
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -19,15 +17,16 @@ from tests.support.e2e.board_and_ros import (
     INT32,
     SURE,
     Numbers,
+    exchange_alone,
     hear_ros,
     in_domain,
+    kill,
     of_b,
     of_ros,
     until,
     with_agent,
 )
 from tests.support.free_ports import free_ports
-from tests.support.patience import seconds
 from tests.support.runtime.peers import APPLICATION, HOST, board_program, started, system
 
 pytestmark = pytest.mark.ros
@@ -65,15 +64,9 @@ def test_besides_an_agent_that_is_killed(observer: Observer, domain: int, tmp_pa
         assert first == sorted(set(first))
         hear_ros(observer, FROM_ROS, boards)
 
-        agent.process.send_signal(signal.SIGKILL)
-        agent.process.wait(timeout=seconds(15))
+        kill(agent)
         errors = {numbers.publish() for _ in range(2)}
-        end = time.monotonic() + 2  # the time-out of the liveliness, and more
-        while time.monotonic() < end:
-            errors.add(numbers.publish())
-            until(lambda: len(b.values[SURE]) == numbers.count, *boards)
-            assert numbers_of_b.publish() == ""
-            until(lambda: len(of_b(a)) == numbers_of_b.count, *boards)
+        errors |= exchange_alone(boards, numbers, numbers_of_b, 2)  # the time-out of the liveliness, and more
         assert any("session" in error or "acknowledged" in error for error in errors), errors
         assert not any("board b" in error for error in errors), errors
 

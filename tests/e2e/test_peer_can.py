@@ -4,8 +4,6 @@
 from __future__ import annotations
 
 import random
-import signal
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -21,15 +19,16 @@ from tests.support.e2e.board_and_ros import (
     SURE,
     TIMES,
     Numbers,
+    exchange_alone,
     hear_ros,
     in_domain,
+    kill,
     of_b,
     of_ros,
     until,
     with_agent,
 )
 from tests.support.e2e.can_bus import CanBus
-from tests.support.patience import seconds
 from tests.support.runtime.peers import APPLICATION, Board, board_program, started, system
 
 pytestmark = [pytest.mark.ros, pytest.mark.system]
@@ -101,14 +100,8 @@ def test_an_agent_and_links_share_a_bus(observer: Observer, domain: int, tmp_pat
             bus.lost = lambda frame: False
             assert bus.losses
 
-            agent.process.send_signal(signal.SIGKILL)
-            agent.process.wait(timeout=seconds(15))
-            end = time.monotonic() + 1
-            while time.monotonic() < end:
-                numbers.publish()
-                until(lambda: len(b.values[SURE]) == numbers.count, *boards)
-                assert numbers_of_b.publish() == ""
-                until(lambda: len(of_b(a)) == numbers_of_b.count, *boards)
+            kill(agent)
+            exchange_alone(boards, numbers, numbers_of_b, 1)
 
             with agent_on(bus, domain):
                 again = of_ros(observer, numbers, boards, 3)

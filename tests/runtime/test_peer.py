@@ -14,12 +14,12 @@ import pytest
 from microros_gen.agent.wire.data_messages import WriteData
 from microros_gen.agent.wire.session_messages import CreateClient, StatusAgent
 from tests.support.free_ports import free_ports
+from tests.support.runtime.peer_scenarios import BEST, SURE, meet, restart_one, send
 from tests.support.runtime.peers import (
     HOST,
     Board,
     Relay,
     board_program,
-    published,
     received,
     started,
     system,
@@ -29,7 +29,6 @@ from tests.support.runtime.peers import (
 
 BEST_EFFORT = 1
 """The stream."""
-BEST, SURE = 0, 1
 SHORTLY_BEFORE_WRAP = 0xFFFFFFFF - 300
 HALF_BEFORE_WRAP = 0x7FFFFFFF - 300
 
@@ -71,27 +70,11 @@ def pair(programs: tuple[Path, Path], clock: int = 0) -> Iterator[tuple[Board, B
         yield first, second
 
 
-def meet(first: Board, second: Board) -> None:
-    """Let both boards run until each can send to the other, and forget what they have sent for that."""
-    for sender, receiver in ((first, second), (second, first)):
-        until(partial(published, sender, BEST, -1), first, second)
-        until(partial(received, receiver, BEST, 1), first, second)
-    for board in (first, second):
-        board.spin()
-        board.values[BEST].clear()
-
-
-def send(board: Board, other: Board, topic: int, values: range) -> None:
-    """Publish each value; repeat a call that finds no room."""
-    for value in values:
-        until(partial(published, board, topic, value), board, other)
-
-
 def test_both_ways_on_both_streams(programs: tuple[Path, Path], relay: Relay) -> None:
     with pair(programs) as (first, second):
         for topic in (BEST, SURE):
-            send(first, second, topic, range(10))
-            send(second, first, topic, range(100, 110))
+            send(first, [second], topic, range(10))
+            send(second, [first], topic, range(100, 110))
         until(lambda: all(len(g) == 10 for board in (first, second) for g in board.values), first, second)
         assert first.values == ([*range(100, 110)], [*range(100, 110)])
         assert second.values == ([*range(10)], [*range(10)])
@@ -112,14 +95,14 @@ def test_one_number_far_ahead_stops_no_messages(programs: tuple[Path, Path], rel
             return (data[:2] + (number & 0xFFFF).to_bytes(2, "little") + data[4:],)
 
         relay.fate = forged
-        send(first, second, BEST, range(5))
+        send(first, [second], BEST, range(5))
         until(partial(received, second, BEST, 5), first, second)
         assert second.values[BEST] == [*range(5)]
 
 
 def test_what_a_sniffer_sees(programs: tuple[Path, Path], relay: Relay) -> None:
     with pair(programs) as (first, second):
-        send(first, second, SURE, range(1))
+        send(first, [second], SURE, range(1))
         until(lambda: second.values[SURE] and relay.of("Acknack"), first, second)
     creates = {(sender, sub.session) for sender, _, sub in relay.seen if isinstance(sub, CreateClient)}
     assert {(sender, session % 2) for sender, session in creates} == {(0, 1), (1, 0)}
@@ -140,8 +123,8 @@ def test_a_network_that_loses_repeats_and_reorders(
         relay.fate = unreliable(seed)
         for start in range(0, 60, 20):
             for topic in (BEST, SURE):
-                send(first, second, topic, range(start, start + 20))
-                send(second, first, topic, range(start, start + 20))
+                send(first, [second], topic, range(start, start + 20))
+                send(second, [first], topic, range(start, start + 20))
             for board in (first, second):
                 until(partial(received, board, SURE, start + 20), first, second)
         for board in (first, second):
@@ -152,17 +135,7 @@ def test_a_network_that_loses_repeats_and_reorders(
 
 
 def test_a_board_restarts(programs: tuple[Path, Path], relay: Relay) -> None:
-    with started(programs[1]) as second:
-        for life in range(4):
-            with started(programs[0]) as first:
-                meet(first, second)
-                second.values[SURE].clear()
-                send(first, second, SURE, range(7))
-                send(second, first, SURE, range(7))
-                for board in (first, second):
-                    until(partial(received, board, SURE, 7), first, second)
-                assert first.values[SURE] == second.values[SURE] == [*range(7)], life
-                first.kill()
+    restart_one(programs, 4)
 
 
 def test_what_is_not_acknowledged_outlasts_a_restart_of_the_other_board(
@@ -172,7 +145,7 @@ def test_what_is_not_acknowledged_outlasts_a_restart_of_the_other_board(
         with started(programs[1]) as second:
             meet(first, second)
             second.kill()
-        send(first, first, SURE, range(4))
+        send(first, [first], SURE, range(4))
         assert "the board b has not acknowledged 4 messages" in first.publish(SURE, 4)
         relay.fate = lambda data: ()  # what arrives before its subscription is open is for nobody
         with started(programs[1]) as second:
@@ -202,7 +175,7 @@ def test_a_repeated_request_for_a_session_ends_none(programs: tuple[Path, Path],
         first.kill()
         with started(programs[0]) as again:
             meet(again, second)
-            send(again, second, SURE, range(20))
+            send(again, [second], SURE, range(20))
             until(lambda: len(second.values[SURE]) == 20, again, second)
             assert second.values[SURE] == [*range(20)]
     assert kept
@@ -231,7 +204,7 @@ def test_the_clock_wraps(programs: tuple[Path, Path], relay: Relay, clock: int) 
         end = time.monotonic() + 0.6
         count = 0
         while time.monotonic() < end:
-            send(first, second, SURE, range(count, count + 4))
+            send(first, [second], SURE, range(count, count + 4))
             count += 4
         until(lambda: len(second.values[SURE]) == count, first, second)
         assert second.values[SURE] == [*range(count)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import random
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from pathlib import Path
@@ -18,6 +18,7 @@ from microros_gen.agent.wire.session_messages import CreateClient
 from microros_gen.agent.wire.submessages import decode
 from tests.support.components.rendered import program_of, rendered
 from tests.support.e2e.can_bus import CanBus, record
+from tests.support.runtime.peer_scenarios import BEST, SURE, meet, restart_one, send
 from tests.support.runtime.peers import (
     APPLICATION,
     PAIR,
@@ -31,7 +32,6 @@ from tests.support.runtime.peers import (
     until,
 )
 
-BEST, SURE = 0, 1
 CANFD = APPLICATION + "transport: {type: canfd}\n"
 A_TO_B, B_TO_A = 0x10102, 0x10201
 THREE = """\
@@ -93,27 +93,6 @@ def three(tmp_path_factory: pytest.TempPathFactory, bus: CanBus) -> dict[str, Pa
         )
         for own, text in texts.items()
     }
-
-
-def meet(first: Board, second: Board) -> None:
-    """Let both boards run until each has a session with the present life of the other one, and forget what that took.
-
-    What is published in a session with a former life is lost.
-    """
-    ways = ((first, second), (second, first))
-    for sender, receiver in ways:
-        until(lambda s=sender, r=receiver: published(s, BEST, -1) and received(r, BEST, 1), first, second)  # type: ignore[misc]
-    for sender, receiver in ways:
-        assert published(sender, BEST, -2)
-        until(lambda r=receiver: -2 in r.values[BEST], first, second)  # type: ignore[misc]
-    for board in (first, second):
-        board.values[BEST].clear()
-
-
-def send(board: Board, others: Sequence[Board], topic: int, values: range) -> None:
-    """Publish each value; repeat a call that finds no room."""
-    for value in values:
-        until(partial(published, board, topic, value), board, *others)
 
 
 def in_order(values: list[int], wanted: range) -> bool:
@@ -193,17 +172,7 @@ def test_frames_of_others_change_nothing(programs: tuple[Path, Path], bus: CanBu
 
 
 def test_a_board_restarts(programs: tuple[Path, Path]) -> None:
-    with started(programs[1]) as second:
-        for life in range(3):
-            with started(programs[0]) as first:
-                meet(first, second)
-                values = range(10 * life, 10 * life + 7)
-                for board, other in ((first, second), (second, first)):
-                    send(board, [other], SURE, values)
-                for board in (first, second):
-                    until(lambda b=board, v=values: set(v) <= set(b.values[SURE]), first, second)  # type: ignore[misc]
-                    assert [value for value in board.values[SURE] if value in values] == [*values]
-                first.kill()
+    restart_one(programs)
 
 
 @pytest.mark.parametrize("loss", [0.0, 0.2])

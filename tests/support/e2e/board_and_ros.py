@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+import signal
 import time
 from collections.abc import Callable
 
 from tests.support.agent.observer import Observer
-from tests.support.patience import deadline
+from tests.support.agent.process import AgentProcess
+from tests.support.patience import deadline, seconds
 from tests.support.runtime.peers import Board
 
 BEST, SURE, INT32 = 0, 1, "std_msgs/msg/Int32"
@@ -82,3 +84,25 @@ def hear_ros(observer: Observer, value: int, boards: tuple[Board, Board]) -> Non
 def of_b(board: Board) -> list[int]:
     """Return the numbers that are from board b."""
     return [value for value in board.values[SURE] if value < FROM_ROS]
+
+
+def exchange_alone(
+    boards: tuple[Board, Board], numbers: Numbers, numbers_of_b: Numbers, for_s: float
+) -> set[str]:
+    """Let the boards exchange numbers while no agent runs; return the errors that board a got.
+
+    Each of its numbers reaches the other board all the same, and each of b reaches a.
+    """
+    errors, end = set[str](), time.monotonic() + for_s
+    while time.monotonic() < end:
+        errors.add(numbers.publish())
+        until(lambda: len(boards[1].values[SURE]) == numbers.count, *boards)
+        assert numbers_of_b.publish() == ""
+        until(lambda: len(of_b(boards[0])) == numbers_of_b.count, *boards)
+    return errors
+
+
+def kill(agent: AgentProcess) -> None:
+    """End an agent at once."""
+    agent.process.send_signal(signal.SIGKILL)
+    agent.process.wait(timeout=seconds(15))
