@@ -22,9 +22,10 @@ class Step:
     """An instruction. `next` may follow it in its function, after what it calls: the function at `call`, or one that a
     register holds (`through`). `returns`: the function may end here, after the call. `lost`: nobody knows what follows.
 
-    `size`: the third argument of the call where it is a constant; `stored`: bytes by which
-    its stores move on. `tested`: the function whose result a jump tests for zero; then `next` has where it goes with
-    zero first. `passes`: the third argument of the call is that of the function itself.
+    `size`: the third argument of the call where it is a constant; `stored`: bytes by which its stores move on; `moved`:
+    by which it moves a register on that the function loads from. `tested`: the function whose result a jump tests for
+    zero; then `next` has where it goes with zero first. `passes`: the third argument of the call is that of the
+    function itself.
     """
 
     address: int
@@ -35,6 +36,7 @@ class Step:
     lost: bool = False
     size: int | None = None
     stored: int = 0
+    moved: int = 0
     tested: int | None = None
     passes: bool = False
 
@@ -58,6 +60,8 @@ _ARM_JUMP = re.compile(rf"^(b{_CONDITION}?|cbn?z)$")
 _ARM_RETURN = re.compile(rf"^(?:pop|ldmia|ldm|ldr|bx|mov){_CONDITION}?$")
 _ARM_LAST = re.compile(rf"^\w+{_CONDITION}$")
 _ARM_STORE = re.compile(r"\], #(\d+)")
+_ARM_LOADS = re.compile(r"\[(\w+)")
+_ARM_MOVES = re.compile(r"^(\w+), (?:\1, )?#(\d+)\b")
 _RISCV_JUMP = re.compile(r"^b(?:eq|ne|lt|ge|gt|le)[uz]?z?$")
 _X86_JUMP = re.compile(r"^j(?!mp)\w+$")
 _LAST_WORDS = ("udf", "ud2", "hlt", "ebreak", "unimp", "bkpt")
@@ -83,6 +87,7 @@ def read_flows(text: str, image: Elf) -> Mapping[int, Flow]:
             steps.update(
                 (a, _sized(steps[a], size)) for a, size in sizes.items() if steps[a].call is not None
             )
+            steps.update((a, replace(steps[a], moved=far)) for a, far in _moves(within))
         copies = dict(_copies(within)) if image.arm else {}
         found[address] = Flow(name, address, steps, copies)
     return found
@@ -90,6 +95,17 @@ def read_flows(text: str, image: Elf) -> Mapping[int, Flow]:
 
 def _sized(step: Step, size: int) -> Step:
     return replace(step, passes=True) if size == PASSED else replace(step, size=size)
+
+
+def _moves(lines: Sequence[Line]) -> Iterator[tuple[int, int]]:
+    """Yield where a function on Arm adds a constant to a register that it loads from."""
+    bases = {
+        base for _, word, operands in lines if word.startswith("ldr") for base in _ARM_LOADS.findall(operands)
+    }
+    for address, word, operands in lines:
+        match = _ARM_MOVES.match(operands) if word.split(".")[0] in ("add", "adds") else None
+        if match and match[1] in bases:
+            yield address, int(match[2])
 
 
 def _follow(after: int | None) -> tuple[int, ...]:

@@ -43,7 +43,8 @@ class Rules:
     None: nobody knows. `bytes`: those that a call is told to handle at most, by what its function is told; None: nobody
     knows. `of_port`: what counts for a function of the port, by its name and what was found.
     `zero`: functions that return zero at each call.
-    `calls`: in how many rounds of its loop a call is reached at most; None: in all of them.
+    `calls`: in how many rounds of its loop a call is reached at most; None: in all of them. `anywhere`: functions whose
+    loops may be entered in several places, as each way round is one of `rounds`.
     """
 
     rounds: Callable[[Flow, int, frozenset[int], int | None], Length]
@@ -52,6 +53,7 @@ class Rules:
     of_port: Callable[[str, Length], Length]
     zero: frozenset[int] = frozenset()
     calls: Callable[[Flow, Step], int | None] = lambda flow, step: None
+    anywhere: Callable[[Flow], bool] = lambda flow: False
 
 
 @dataclass
@@ -249,7 +251,10 @@ class _Walk:
 
     def _measure(self, begins: Mapping[Place, Length]) -> tuple[Length | None, dict[int, Length]]:
         """Return the longest paths from `begins` to where the lock is released, and to each end."""
-        reached = longest(self._edges, begins, self._rounds, self._limit)
+        rules = self._holds.rules
+        reached = longest(
+            self._edges, begins, self._rounds, self._limit, lambda _: rules.anywhere(self._flow)
+        )
         released: Length | None = None
         ends: dict[int, Length] = {}
         for place, length in reached.items():

@@ -3,22 +3,25 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 from microros_gen.image.attribution import Chunk
 from microros_gen.image.callgraph import disassembly_text, reached
-from microros_gen.image.dwarf import source_places
+from microros_gen.image.dwarf import read_units, source_places
 from microros_gen.image.elf import Elf
 from microros_gen.image.flow import Flow, Step, read_flows
 from microros_gen.image.folder import Folder
+from microros_gen.image.guards import Written
 from microros_gen.image.holds import Hold, Holds, Rules
+from microros_gen.image.inlined import Inlined
 from microros_gen.image.lines import Lines
-from microros_gen.image.paths import Length, inner_parts
+from microros_gen.image.paths import Length, inner_parts, parts_of
 from microros_gen.image.pointers import read_pointers
 from microros_gen.image.report import SizeReport
-from microros_gen.image.rounds import SIZE_OF, Sources
+from microros_gen.image.rounds import SIZE_OF, Sources, is_of_cdr
 from microros_gen.records import dataclass
 
 OF_SESSION = "rclc_tasks_run_session"
@@ -27,6 +30,10 @@ _ASKS_TURN = ("xrce_turn_is_mine", "xrce_turn_begin")
 """Functions that say to all other tasks that they do not receive and send, unless one of them borrows the turn."""
 _BORROWS = "xrce_turn_borrow"
 _LIBRARIES = ("C library", "compiler")
+_THIRD_IS_SIZE = re.compile(
+    r"^(?:mem(?:cpy|move|set|cmp|chr|ccpy)|str(?:ncpy|ncmp|ncat)|__aeabi_mem(?:cpy|move)[48]?)(?:\.|$)"
+)
+"""Functions of libraries whose third argument says how many bytes they handle. Others may have any number there."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +73,8 @@ class _Image:
         self.flows = read_flows(disassembly_text(folder, image), image)
         self.names = {a: str(p.symbol) for a, p in self._functions.items()}
         self.names.update({a: flow.name for a, flow in self.flows.items() if a not in self.names})
-        self._lines, self._port = Lines(image), port
+        self._lines, self._inlined, self._port = Lines(image), Inlined(image), port
+        self._units = read_units(image)
         self._sources = Sources(_reader(folder), _headers(folder))
         self._sized = self._functions_with_size(_sized_names(folder))
         self._targets = _targets(folder, image, self._functions, self.flows)
@@ -77,7 +85,9 @@ class _Image:
 
     def rules(self, zero: frozenset[int] = frozenset()) -> Rules:
         """Return what the code does not say."""
-        return Rules(self._rounds, self._targets.get, self._bytes, self._of_port, zero, self._calls)
+        return Rules(
+            self._rounds, self._targets.get, self._bytes, self._of_port, zero, self._calls, self._has_size
+        )
 
     def _rounds(self, flow: Flow, head: int, part: frozenset[int], size: int | None) -> Length:
         if head in flow.rounds:
@@ -91,6 +101,14 @@ class _Image:
         rounds = self._sources.rounds(ends[0], self._places(own), within, (flow.name, size))
         if isinstance(rounds, int):
             return Length(rounds)
+        written = [self._written(flow, a) for a in _left(flow, part)]
+        if (
+            written
+            and not inner
+            and (most := [w.count for w in written if w is not None])
+            and None not in written
+        ):
+            return Length(max(most))
         return Length(1, frozenset({f"{flow.name}: a loop without a bound ({rounds})"}))
 
     def _places(self, addresses: Iterable[int]) -> list[tuple[str, int]]:
@@ -98,12 +116,16 @@ class _Image:
         return sorted({place for place in places if place is not None})
 
     def _of_library(self, flow: Flow, part: frozenset[int], size: int | None) -> Length:
-        """Return the rounds of a loop of memcpy and the like: each stores a byte or more, of `size` at most."""
+        """Return the rounds of a loop of memcpy and the like: each handles a byte or more, of `size` at most.
+
+        What every round moves a register on by, from which it loads, is handled at once, but for the first and last.
+        """
         if size is None:
             return Length(1, frozenset({f"{flow.name}: called for an unknown number of bytes"}))
         forks = sum(1 for a in part if sum(to in part for to in flow.steps[a].next) > 1)
         stored = 0 if forks else sum(flow.steps[a].stored for a in part)
-        return Length(size // max(stored, 1))
+        far = max((flow.steps[a].moved for a in part if _is_in_each_round(flow, part, a)), default=0)
+        return Length(size // stored if stored else min(size, size // far + 2) if far else size)
 
     def _functions_with_size(self, names: frozenset[str]) -> frozenset[int]:
         """Return the functions whose work depends on their third argument: of libraries, of `names`, and what hands
@@ -114,6 +136,10 @@ class _Image:
             found |= more
         return frozenset(found)
 
+    def _has_size(self, flow: Flow) -> bool:
+        """Return whether each round of the loops of a function handles a byte or more, wherever it begins."""
+        return self._is_library(flow.address)
+
     def _is_library(self, address: int) -> bool:
         chunk = self._functions.get(address)
         return chunk is not None and chunk.owner.group in _LIBRARIES
@@ -121,10 +147,23 @@ class _Image:
     def _bytes(self, flow: Flow, step: Step, size: int | None) -> int | None:
         if step.call is None or step.call not in self._sized:
             return None
-        if step.size is not None or (step.passes and size is not None):
+        is_argument = not self._is_library(step.call) or _THIRD_IS_SIZE.match(self.names.get(step.call, ""))
+        if is_argument and (step.size is not None or (step.passes and size is not None)):
             return step.size if step.size is not None else size
-        place = self._lines.place(step.address) if self._is_library(step.call) else None
+        if not self._is_library(step.call):
+            return None
+        place, written = self._lines.place(step.address), self._written(flow, step.address)
+        if written is not None:
+            return written.count * written.width
         return self._sources.size(place) if place is not None else None
+
+    def _written(self, flow: Flow, address: int) -> Written | None:
+        """Return what the function of microros/cdr.h that an instruction is of writes at most."""
+        place = self._lines.place(address)
+        if place is None or not is_of_cdr(place[0]):
+            return None
+        unit = self._units.get(flow.address, "")
+        return self._sources.written(self._inlined.calls(address), flow.name, unit)
 
     def _calls(self, flow: Flow, step: Step) -> int | None:
         place = None if self._is_library(flow.address) else self._lines.place(step.address)
@@ -132,6 +171,14 @@ class _Image:
 
     def _of_port(self, name: str, length: Length) -> Length:
         return Length(self._port) if length.open and self._port is not None else length
+
+
+def _is_in_each_round(flow: Flow, part: frozenset[int], address: int) -> bool:
+    """Return whether no way round a loop leaves out an instruction of it."""
+    others = {
+        a: [to for to in flow.steps[a].next if to in part and to != address] for a in part if a != address
+    }
+    return not any(len(each) > 1 or each[0] in others[each[0]] for each in parts_of(others))
 
 
 def _left(flow: Flow, part: frozenset[int]) -> list[int]:

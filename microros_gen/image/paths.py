@@ -10,7 +10,7 @@ longest one without it.
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
-from typing import TypeVar
+from typing import Generic, TypeVar
 
 from microros_gen.records import dataclass
 
@@ -38,9 +38,27 @@ Limits = Callable[[Node], int | None]
 None: in all of them."""
 
 
+Anywhere = Callable[[Node], bool]
+"""Of a place of a loop: whether it does not matter where the loop is entered, as each way round counts as a round."""
+
+
 def _everywhere(node: Hashable) -> int | None:
     """Limit no place."""
     return None
+
+
+def _nowhere(node: Hashable) -> bool:
+    """Let no loop be entered in several places."""
+    return False
+
+
+@dataclass(frozen=True)
+class _Bounds(Generic[Node]):
+    """What is known of loops besides their places."""
+
+    rounds: Rounds[Node]
+    limits: Limits[Node]
+    anywhere: Anywhere[Node]
 
 
 def longer(known: Length | None, other: Length) -> Length:
@@ -53,9 +71,10 @@ def longest(
     begins: Mapping[Node, Length],
     rounds: Rounds[Node],
     limits: Limits[Node] = _everywhere,
+    anywhere: Anywhere[Node] = _nowhere,
 ) -> dict[Node, Length]:
     """Return the longest path to each place that one of `begins` leads to, from what each of those begins with."""
-    return _longest(_reached(edges, begins), edges, begins, rounds, limits)
+    return _longest(_reached(edges, begins), edges, begins, _Bounds(rounds, limits, anywhere))
 
 
 def _reached(edges: Edges[Node], begins: Iterable[Node]) -> set[Node]:
@@ -73,8 +92,7 @@ def _longest(
     nodes: set[Node],
     edges: Edges[Node],
     begins: Mapping[Node, Length],
-    rounds: Rounds[Node],
-    limits: Limits[Node],
+    bounds: _Bounds[Node],
 ) -> dict[Node, Length]:
     found: dict[Node, Length] = {}
     coming: dict[Node, Length] = {node: value for node, value in begins.items() if node in nodes}
@@ -83,7 +101,7 @@ def _longest(
             if part[0] in coming:
                 found[part[0]] = coming[part[0]]
         else:
-            found.update(_loop(frozenset(part), edges, coming, frozenset(begins), rounds, limits))
+            found.update(_loop(frozenset(part), edges, coming, frozenset(begins), bounds))
         for node in part:
             for after, length in edges.get(node, {}).items():
                 if after in nodes and after not in part and node in found:
@@ -96,10 +114,12 @@ def _loop(
     edges: Edges[Node],
     coming: Mapping[Node, Length],
     begins: frozenset[Node],
-    rounds: Rounds[Node],
-    limits: Limits[Node],
+    bounds: _Bounds[Node],
 ) -> dict[Node, Length]:
-    """Return the longest paths into a loop; one that begins in its middle counts as one from its entry."""
+    """Return the longest paths into a loop; one that begins in its middle counts as one from its entry.
+
+    From another entry than the first one a path has a part of a round before that, which counts as a further one.
+    """
     entered = [node for node in part if node in coming]
     if not entered:
         return {}
@@ -112,18 +132,21 @@ def _loop(
     within = {
         node: {n: w for n, w in edges.get(node, {}).items() if n in part and n != head} for node in part
     }
-    inner = _longest(set(part), within, {head: NOTHING}, rounds, limits)
-    most = rounds(head, part)
+    several = len(outside) > 1 and bounds.anywhere(head)
+    inner = _longest(set(part), within, dict.fromkeys(outside if several else (head,), NOTHING), bounds)
+    most = bounds.rounds(head, part)
+    if several:
+        most += Length(1)
     more = _rounds(part, head, edges, inner, most)
-    limited = _limited(part, within, limits)
+    limited = _limited(part, within, bounds.limits)
     few = sum(limited.values())
-    if limited and few < most.count:
+    if limited and few < most.count and not several:
         others = {node: {} if node in limited else after for node, after in within.items()}
-        shorter = _longest(set(part), others, {head: NOTHING}, rounds, limits)
+        shorter = _longest(set(part), others, {head: NOTHING}, bounds)
         free = {node: edges.get(node, {}) if node not in limited else {} for node in part}
         rest = _rounds(part, head, free, shorter, Length(most.count - few))
         more = _rounds(part, head, edges, inner, Length(few, most.open)) + rest
-    if len(outside) > 1:
+    if len(outside) > 1 and not several:
         more += Length(0, frozenset({"a loop with several entries"}))
     return {node: value + more + length for node, length in inner.items()}
 
@@ -149,6 +172,11 @@ def _limited(part: frozenset[Node], within: Edges[Node], limits: Limits[Node]) -
     return {
         node: limit for node, limit in known.items() if node not in inner and node not in within.get(node, {})
     }
+
+
+def parts_of(edges: Mapping[Node, Iterable[Node]]) -> Sequence[tuple[Node, ...]]:
+    """Return the strongly connected parts of a graph."""
+    return _parts(set(edges), {n: dict.fromkeys(after, NOTHING) for n, after in edges.items()})
 
 
 def inner_parts(edges: Mapping[Node, Iterable[Node]], head: Node) -> Sequence[frozenset[Node]]:

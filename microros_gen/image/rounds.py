@@ -14,12 +14,13 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cache
 
+from microros_gen.image.guards import Guards, Written
 from microros_gen.records import dataclass
 
 _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
 _TEXT = re.compile(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'')
 _LOOP = re.compile(r"\b(for|while|do)\b")
-_COUNTED = re.compile(r"^[^;]*\b(\w+) = 0[uU]?;\s*(\w+) < ([^;&|?<>]+);\s*(?:\+\+(\w+)|(\w+)\+\+)\s*$")
+_COUNTED = re.compile(r"^[^;]*\b(\w+) = 0[uU]?;\s*(\w+) < ((?:[^;&|?<>]|->)+);\s*(?:\+\+(\w+)|(\w+)\+\+)\s*$")
 _DEFINED = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)[ \t]+([^\n]+?)[ \t]*$", re.MULTILINE)
 _ENUM = re.compile(r"\benum\b[^{;()]*\{([^}]*)\}")
 _CAST = re.compile(r"\(\s*(?:u?int(?:8|16|32|64)_t|size_t|int)\s*\)")
@@ -56,6 +57,7 @@ class Source:
         self.plain = blank
         self.loops = tuple(_loops(blank))
         self.constants = read_constants(blank)
+        self.guards = Guards(blank)
         self._functions = tuple(
             (blank.count("\n", 0, found.start()) + 1, found[1]) for found in _FUNCTION.finditer(blank)
         )
@@ -250,6 +252,17 @@ class Sources:
         statement = self._source(place[0]).stated(place[1], "bytes")
         return self._value(place[0], statement) if statement is not None else None
 
+    def written(self, calls: Iterable[Place], function: str, file: str) -> Written | None:
+        """Return what a function of microros/cdr.h writes, or None where nobody knows.
+
+        `calls` are those of inlined functions around its instruction, the innermost one first; without one of a source
+        the code is that of `function` of microros/cdr.h itself, as the compiler made it of the source `file`.
+        """
+        outside = [place for place in calls if not is_of_cdr(place[0])]
+        if outside:
+            return self._source(outside[0][0]).guards.written(outside[0][1])
+        return self._source(file).guards.largest(function.partition(".")[0])
+
     def calls(self, place: tuple[str, int]) -> int | None:
         """Return in how many rounds of its loop a call is reached at most, or None: in all of them."""
         statement = self._source(place[0]).stated(place[1], "calls")
@@ -271,7 +284,10 @@ class Sources:
             return None
         name = rf"\b{match[1]}\b"
         changed = rf"{name}\s*(?:[-+*/|&^]|<<|>>)?=(?!=)|(?:\+\+|--|&)\s*{name}|{name}\s*(?:\+\+|--)"
-        return None if re.search(changed, loop.body) else value_of(match[3], self._all(file))
+        if re.search(changed, loop.body):
+            return None
+        checked = self._source(file).guards.limit(match[3], loop.first)
+        return checked if isinstance(checked, int) else value_of(checked or match[3], self._all(file))
 
     def _all(self, name: str) -> Mapping[str, str]:
         return {**self._constants, **self._source(name).constants}
@@ -283,6 +299,11 @@ def _encloses(outer: tuple[Place, Loop], inner: tuple[Place, Loop]) -> bool:
     return (
         name == other and around is not within and around.first <= within.first and within.last <= around.last
     )
+
+
+def is_of_cdr(name: str) -> bool:
+    """Return whether a file has the functions with which encoders write, which the compiler makes part of them."""
+    return name.endswith(("microros/cdr.h", "microros/cdr_double.h"))
 
 
 def _short(name: str) -> str:

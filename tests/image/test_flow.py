@@ -177,3 +177,10 @@ def test_the_third_argument_is_unknown_where_two_ways_to_the_call_differ() -> No
         0x10C
     ]
     assert step.size == 4
+
+
+def test_what_a_function_loads_from_moves_on_by_a_constant() -> None:
+    lines = ("ldrd\tr2, r3, [r1, #8]", "add.w\tr0, r0, #8", "add.w\tr1, r1, #32", "adds\tr1, #4", "bx\tlr")
+    text = function(*(f"{0x100 + 4 * at:x}:\t{line}" for at, line in enumerate(lines)))
+    steps = read("EM_ARM", text)["work"].steps
+    assert [step.moved for step in steps.values()] == [0, 0, 32, 4, 0], "nothing is loaded from r0"

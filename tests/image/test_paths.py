@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import pytest
 
@@ -101,3 +101,39 @@ def test_no_path_is_longer_than_what_was_found(seed: int) -> None:
         walked(graph, rounds, 0, 0, best, (node, 1))
         few = limited(graph, rounds, {node: 1})
         assert all(length <= few[at] <= found[at] for at, length in best.items())
+
+
+def heaviest(graph: Graph, end: int, cycles: int, walk: tuple[int, ...] = (0,)) -> int | None:
+    """Return the weight of the heaviest walk to `end` that goes round at most `cycles` times; None: nothing does."""
+    found = 0 if walk[-1] == end else None
+    for to, weight in graph.get(walk[-1], {}).items():
+        after = walk[: walk.index(to) + 1] if to in walk else (*walk, to)
+        if to in walk and cycles == 0:
+            continue
+        more = heaviest(graph, end, cycles - (to in walk), after)
+        if more is not None:
+            found = max(found or 0, weight + more)
+    return found
+
+
+def constant(rounds: int) -> Callable[[int, frozenset[int]], Length]:
+    return lambda head, part: Length(rounds)
+
+
+def test_a_loop_with_several_entries_is_bounded_where_each_way_round_counts() -> None:
+    rng = random.Random(17)
+    compared = 0
+    while compared < 300:
+        edges = {(a, b) for a in (1, 2, 3) for b in (1, 2, 3) if a != b and rng.random() < 0.6}
+        edges |= {(0, 1), (0, 2), (rng.choice((1, 2, 3)), 4)}
+        graph: dict[int, dict[int, int]] = {}
+        for a, b in sorted(edges):
+            graph.setdefault(a, {})[b] = rng.randint(1, 9)
+        rounds = rng.randint(1, 3)
+        lengths = {node: {to: Length(w) for to, w in after.items()} for node, after in graph.items()}
+        found = longest(lengths, {0: NOTHING}, constant(rounds), anywhere=lambda head: True)
+        most = heaviest(graph, 4, rounds)
+        if most is not None:
+            assert most <= found[4].count, (graph, rounds)
+            assert not found[4].open
+            compared += 1

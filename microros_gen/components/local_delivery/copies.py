@@ -83,6 +83,7 @@ def _field(field: Field, messages: Messages) -> Iterator[str]:
             yield from _each(element, f"{source}.size", f"{source}.data", f"{target}.data")
         else:
             yield f"  if ({source}.size != 0u) {{"
+            yield "    /* at most MICROROS_LOCAL_ROOM bytes */"
             yield f"    (void)memcpy({target}.data, {source}.data, {source}.size * sizeof(*{target}.data));"
             yield "  }"
         yield f"  {target}.size = {source}.size;"
@@ -105,6 +106,8 @@ def _varies(element: ElementType, messages: Messages) -> bool:
 
 
 def _each(element: ElementType, count: str, source: str, target: str) -> Iterator[str]:
+    if not count[0].isdigit():
+        yield "  /* at most MICROROS_LOCAL_ELEMENTS rounds */"
     yield f"  for (size_t i = 0; i < {count}; ++i) {{"
     yield f"    if (!{_call(element, f'{source}[i]', f'{target}[i]')}) {{"
     yield "      return false;"

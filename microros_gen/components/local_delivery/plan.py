@@ -30,6 +30,7 @@ from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
 from microros_gen.typesupport.plan.names import include_path
 from microros_gen.typesupport.plan.size import is_fixed
+from microros_gen.typesupport.plan.storage_units import StorageMember
 from microros_gen.typesupport.plan.types import TypePlan
 
 _NONE = "RMW_LOCAL_NONE"
@@ -142,6 +143,8 @@ class LocalPlan:
     `chip_images`: how many there are, `shared_image`: the position of this one among them. `memory_limit`: bytes of the
     shared memory, if known.
     `copies` are functions that the queues call, as lines of C; `headers`: of the types and of their storage.
+    What they copy is bounded by `text`, the characters of the longest string of a type and its terminator, `elements`
+    of the longest sequence of strings or messages, and `room`, the bytes of all strings and sequences of a message.
     """
 
     queues: tuple[LocalQueue, ...]
@@ -150,6 +153,9 @@ class LocalPlan:
     services: bool
     routes: tuple[LocalRoute, ...]
     copies: tuple[str, ...]
+    text: int
+    elements: int
+    room: int
     headers: tuple[str, ...]
     chip_rings: tuple[ChipRing, ...]
     rings: tuple[SharedRing, ...]
@@ -248,6 +254,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LocalPlan:
     servers = tuple(_servers(context, queues))
     types = [queue.type for queue in queues]
     messages = {name: known.message for name, known in context.types.items()}
+    stored = [m for known in context.types.values() for unit in known.storage for m in unit.members]
     return LocalPlan(
         queues=queues,
         queue_of=tuple(receivers),
@@ -255,6 +262,9 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LocalPlan:
         services=any(ring.ring.part for ring in shared) or any(server != _NONE for server in servers),
         routes=tuple(_routes(context, queues)),
         copies=copy_lines(types, messages),
+        text=max((m.dimensions[-1] for m in stored if m.characters), default=0),
+        elements=max((n for m in stored if not m.primitive for n in _elements(m)), default=0),
+        room=max((n for known in context.types.values() for n in _rooms(known)), default=0),
         headers=tuple(sorted({h for name in types for h in _headers(context.types[name])})),
         chip_rings=all_rings,
         rings=shared,
@@ -264,6 +274,14 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LocalPlan:
         ring_of=tuple(ring_of.get(place, _NONE) for place in range(endpoints)),
         shown=_shown(application, is_alone(application)),
     )
+
+
+def _elements(member: StorageMember) -> Iterable[int]:
+    return member.dimensions[:-1] if member.characters else member.dimensions
+
+
+def _rooms(known: TypePlan) -> Iterable[int]:
+    return (*known.storage_sizes, *(size for sizes in known.topic_sizes.values() for size in sizes))
 
 
 def record(part: LocalPlan) -> object:

@@ -3,7 +3,7 @@
  * The jobs of tasks, one after the other in main: what a task calls to rest ends its job, and returns for the next one
  * until there were enough. A mark stands before and after each job; with MEASURED_HOLDS=TASK instead before and
  * after that task holds the library's lock, and with MEASURED_STACKS each task has its own stack, whose high-water mark is found. The agent
- * is in the firmware. The application file is that of test_tasks.py.
+ * is in the firmware. The application file is that of test_tasks.py; with MEASURED_TEXTS that of test_task_texts.py.
  */
 #include "measured.h"
 
@@ -14,7 +14,12 @@
 #include <rcl/rcl.h>
 #include <rclc/executor.h>
 #include <rclc/rclc.h>
-#include <std_msgs/msg/int32.h>
+
+#ifdef MEASURED_TEXTS
+#include "measured_texts.h"
+#else
+#include "measured_number.h"
+#endif
 
 enum { JOBS = 4, ROUNDS = 3, EXECUTORS = 2 };
 
@@ -23,10 +28,10 @@ static uint32_t rests;
 static uint32_t depth;
 static bool is_measured;
 static bool is_in_job;
-static rcl_publisher_t publisher;
-static std_msgs__msg__Int32 said;
-static std_msgs__msg__Int32 heard;
 static uint32_t heard_count;
+#ifdef RECURSES
+static volatile uint32_t recursed;
+#endif
 
 static void check(bool holds)
 {
@@ -171,7 +176,7 @@ static uint32_t recurse(uint32_t depth_left)
 static void on_release(uint8_t task)
 {
 #ifdef RECURSES
-  said.data = (int32_t)recurse(task);
+  recursed = recurse(task);
 #endif
 #ifdef LARGE_SIZE
   volatile uint8_t large[LARGE_SIZE];
@@ -180,8 +185,7 @@ static void on_release(uint8_t task)
   large[LARGE_SIZE - 1] = large[0];
 #endif
   (void)task;
-  ++said.data;
-  check(rcl_publish(&publisher, &said, NULL) == RCL_RET_OK);
+  check(messages_publish());
 }
 
 static void on_message(const void * message)
@@ -264,13 +268,11 @@ int main(void)
   static rcl_node_t node;
   static rcl_subscription_t subscription;
   static rclc_executor_t executors[EXECUTORS];
-  const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
   rcl_allocator_t allocator = rcl_get_default_allocator();
 
   check(rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK);
   check(rclc_node_init_default(&node, "device", "", &support) == RCL_RET_OK);
-  check(rclc_publisher_init_default(&publisher, &node, type, "count") == RCL_RET_OK);
-  check(rclc_subscription_init_default(&subscription, &node, type, "count") == RCL_RET_OK);
+  check(messages_init(&node, &subscription));
   for (uint8_t i = 0; i < (uint8_t)EXECUTORS; ++i) {
     check(rclc_executor_init(&executors[i], &support.context, 1, &allocator) == RCL_RET_OK);
   }
@@ -284,7 +286,7 @@ int main(void)
     run(RCLC_TASK_WORKER);
     run(RCLC_TASK_SESSION);
   }
-  check(heard_count == (uint32_t)ROUNDS * (uint32_t)JOBS);
+  check(published == (uint32_t)ROUNDS * (uint32_t)JOBS && heard_count == published / (uint32_t)HEARD_EACH);
 #ifdef MEASURED_STACKS
   stack_report[MICROROS_TASKS] = 1;
   for (;;) {

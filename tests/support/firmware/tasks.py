@@ -49,13 +49,38 @@ tasks:
 """
 
 
-def built_tasks(home: Path, transport: str = "udp") -> Built:
-    """Build the library of the tasks in `home`; skip without the tools."""
+TEXTS = """\
+version: 1
+profiles: [pure_sender, pure_reader]
+components: [+executor]
+errors: code
+transport: {type: udp}
+limits: {"*": {string: 40, sequence: 8}}
+pools: {history: 8}
+session: {key: 1, connect_timeout: 20 s, create_timeout: 20 s, liveliness_timeout: 20 s}
+nodes:
+  - name: device
+    publishers:
+      - {topic: words, type: std_msgs/msg/String, local: also}
+      - {topic: joints, type: sensor_msgs/msg/JointState}
+      - {topic: scan, type: sensor_msgs/msg/LaserScan}
+    subscriptions: [{topic: words, type: std_msgs/msg/String, local: only, queue: 8, qos: {depth: 8}}]
+    executors: [{name: fast}, {name: slow, handles: [words]}]
+tasks:
+  - {name: control, executor: fast, rate: 100 Hz}
+  - {name: worker, executor: slow, interval: 10 ms}
+  - {name: session, session: true, interval: 10 ms}
+"""
+"""Messages with texts and sequences (c/measured_texts.h)."""
+
+
+def built_tasks(home: Path, transport: str = "udp", application: str = "") -> Built:
+    """Build the library of the tasks in `home`, for `application` if that is not empty; skip without the tools."""
     need(BOARD, emulator=True)
     network = "" if transport == "serial" else f", {transport}"
     (home / "tasked.yaml").write_text(TARGET.replace(", udp]", f"{network}]"))
     text = APPLICATION.format(**INSTRUCTIONS, **HOLDS).replace("{type: udp}", f"{{type: {transport}}}")
-    done = build(home, "tasked.yaml", text)
+    done = build(home, "tasked.yaml", application or text)
     assert done.returncode == 0, done.stderr
     found = read_target("tasked.yaml", home, None, Diagnostics())
     assert found is not None

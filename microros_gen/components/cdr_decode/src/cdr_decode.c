@@ -123,6 +123,7 @@ void cdr_get_bool(cdr_in_t * in, bool * to, size_t count, const char * field)
 {
   const uint8_t * const from = take(in, count, 1U, field);
 
+  /* at most MICROROS_INPUT_BUFFER_SIZE + MICROROS_QUEUES_SIZE rounds */
   for (size_t i = 0U; (from != NULL) && (i < count); ++i) {
     to[i] = from[i] != 0U;
   }

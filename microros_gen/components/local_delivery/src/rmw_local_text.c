@@ -12,7 +12,7 @@ bool rmw_local_copy_text(const rosidl_runtime_c__String * from, rosidl_runtime_c
     if (from->size >= capacity) {
       return false;
     }
-    (void)memcpy(to->data, from->data, from->size);
+    (void)memcpy(to->data, from->data, from->size); /* at most MICROROS_LOCAL_TEXT bytes */
   }
   if (capacity > 1u || (capacity == 1u && to->data[0] != '\0')) {
     to->data[from->size] = '\0'; /* but not over the terminator that all initialized strings share */

@@ -12,6 +12,7 @@ bool rmw_local_copy_wide(const rosidl_runtime_c__U16String * from, rosidl_runtim
     if (from->size >= capacity) {
       return false;
     }
+    /* at most 2 * MICROROS_LOCAL_TEXT bytes */
     (void)memcpy(to->data, from->data, from->size * sizeof(*to->data));
   }
   if (capacity > 1u || (capacity == 1u && to->data[0] != 0u)) {
