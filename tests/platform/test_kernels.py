@@ -94,6 +94,8 @@ PAIRS = [
     ("nuttx", "posix_sockets"),
     ("esp_idf", "lwip"),
 ]
+BASES, OF_BASES = {"esp_idf": ("freertos",)}, {"esp_idf": ("-DESP_PLATFORM",)}
+"""Of an OS: another one whose files it uses, too, and the flags with which its declarations differ."""
 OF_PAIRS = {
     "lwip": VARIANTS,
     "freertos_tcp": (VARIANTS[0], *VARIANTS[2:]),
@@ -127,12 +129,13 @@ def application(names: tuple[str, str], variant: dict[str, str]) -> str:
     return APPLICATION.format(**more) + variant.get("tasks", "")
 
 
-def complaints(compiler: str, out: Path, names: tuple[str, str], *flags: str) -> str:
+def complaints(compiler: str, out: Path, names: tuple[str, ...], *flags: str) -> str:
     """Return what the compiler says of the sources of an OS and a network, and of a self-test."""
+    names, more = (*names, *BASES.get(names[0], ())), OF_BASES.get(names[0], ())
     files = [str(path) for name in names for path in sources(out, name)]
     files += [str(path) for path in sorted((out / "selftest").glob("*.c"))]
     folders = [f"-I{path}" for path in (out / "include", *(KERNELS / name for name in names))]
-    call = [compiler, "-std=c99", "-fsyntax-only", *WARNINGS, *flags, *folders, *files]
+    call = [compiler, "-std=c99", "-fsyntax-only", *WARNINGS, *flags, *more, *folders, *files]
     return subprocess.run(call, capture_output=True, text=True, check=False).stderr
 
 

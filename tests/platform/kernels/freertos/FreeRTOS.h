@@ -21,8 +21,10 @@
 #define INCLUDE_xTaskDelayUntil 1
 #define INCLUDE_xTaskGetCurrentTaskHandle 1
 #define INCLUDE_uxTaskGetStackHighWaterMark 1
-#ifdef KERNEL_CORES
+#if defined(KERNEL_CORES) && !defined(ESP_PLATFORM)
 #define configNUMBER_OF_CORES KERNEL_CORES
+#endif
+#if defined(KERNEL_CORES) || defined(ESP_PLATFORM)
 #define INCLUDE_eTaskGetState 1
 #endif
 
@@ -37,6 +39,22 @@ typedef uint32_t configSTACK_DEPTH_TYPE;
 #define pdFALSE ((BaseType_t)0)
 #define pdTRUE ((BaseType_t)1)
 #define pdPASS pdTRUE
+
+#ifdef ESP_PLATFORM /* as the FreeRTOS of ESP-IDF has it */
+#define portNUM_PROCESSORS 2
+#define portMUX_INITIALIZER_UNLOCKED {0, 0}
+#define portENTER_CRITICAL(mux) kernel_mux_enter(mux)
+#define portEXIT_CRITICAL(mux) kernel_mux_exit(mux)
+
+typedef struct portMUX_TYPE {
+  uint32_t owner;
+  uint32_t count;
+} portMUX_TYPE;
+
+void kernel_mux_enter(portMUX_TYPE * mux);
+void kernel_mux_exit(portMUX_TYPE * mux);
+BaseType_t xPortInIsrContext(void);
+#endif
 
 void port_yield_from_isr(BaseType_t is_switched);
 BaseType_t xPortIsInsideInterrupt(void);

@@ -33,8 +33,10 @@ void vTaskDelete(TaskHandle_t task);
 void vTaskPrioritySet(TaskHandle_t task, UBaseType_t priority);
 void vTaskSuspend(TaskHandle_t task);
 
+#ifndef ESP_PLATFORM /* which has a lock as an argument */
 #define taskENTER_CRITICAL() kernel_critical(1)
 #define taskEXIT_CRITICAL() kernel_critical(0)
+#endif
 
 void kernel_critical(int is_entered);
 void vTaskDelay(TickType_t ticks);

@@ -5,6 +5,7 @@
 #include "semphr.h"
 #include "task.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #if !defined(configUSE_MUTEXES) || configUSE_MUTEXES != 1
@@ -16,6 +17,28 @@
 
 static SemaphoreHandle_t lock; /* the kernel's mutexes inherit priority */
 
+#ifdef ESP_PLATFORM
+/* vTaskSuspendAll of ESP-IDF stops the tasks of the caller's core only: if tasks of two cores call the library first at
+ * once, one of them makes the lock, and the other waits for it. */
+static void lock_make(void)
+{
+  static portMUX_TYPE guard = portMUX_INITIALIZER_UNLOCKED;
+  static StaticSemaphore_t storage;
+  static bool is_begun;
+  bool makes;
+
+  portENTER_CRITICAL(&guard);
+  makes = !is_begun;
+  is_begun = true;
+  portEXIT_CRITICAL(&guard);
+  if (makes) {
+    lock = xSemaphoreCreateRecursiveMutexStatic(&storage); /* with storage, it cannot fail */
+  }
+  while (lock == NULL) {
+    vTaskDelay(1);
+  }
+}
+#else
 /* The first call of the library makes it, while no other task runs. */
 static void lock_make(void)
 {
@@ -27,6 +50,7 @@ static void lock_make(void)
   }
   (void)xTaskResumeAll();
 }
+#endif
 
 void port_lock(void)
 {

@@ -30,7 +30,9 @@
 #error "FreeRTOSConfig.h: set INCLUDE_uxTaskGetStackHighWaterMark to 1"
 #endif
 
-#if defined(configNUMBER_OF_CORES) && configNUMBER_OF_CORES > 1
+/* ESP-IDF before 5.2 has only its own name for the number of cores. */
+#if (defined(configNUMBER_OF_CORES) && configNUMBER_OF_CORES > 1) || \
+  (defined(portNUM_PROCESSORS) && portNUM_PROCESSORS > 1)
 #define TASKS_RUN_AT_ONCE 1
 #if !defined(INCLUDE_eTaskGetState) || INCLUDE_eTaskGetState != 1
 #error "FreeRTOSConfig.h: set INCLUDE_eTaskGetState to 1"
@@ -152,8 +154,33 @@ static uint32_t tick_time_us(uint64_t ticks)
 }
 
 #ifdef PORT_FREERTOS_TIME_US
+#ifdef ESP_PLATFORM
+/* vTaskSuspendAll of ESP-IDF stops the tasks of the caller's core only. */
+static portMUX_TYPE clock_guard = portMUX_INITIALIZER_UNLOCKED;
+
+static void clock_enter(void)
+{
+  portENTER_CRITICAL(&clock_guard);
+}
+
+static void clock_leave(void)
+{
+  portEXIT_CRITICAL(&clock_guard);
+}
+#else
+static void clock_enter(void)
+{
+  vTaskSuspendAll();
+}
+
+static void clock_leave(void)
+{
+  (void)xTaskResumeAll();
+}
+#endif
+
 /* What the timer of the application showed at a tick, less the time of the tick: the least that was seen, because it is
- * read after the tick. Written while no other task runs. */
+ * read after the tick. Written between clock_enter and clock_leave. */
 static uint32_t timer_lead_us;
 static uint32_t timer_lost_us; /* the tick at which it was unknown */
 static bool timer_is_known;
@@ -183,10 +210,10 @@ uint32_t port_task_time_us(void)
 {
   uint32_t time_us;
 
-  vTaskSuspendAll();
+  clock_enter();
   time_us = tick_time_us(port_freertos_now());
   time_us += since_tick_us(time_us, PORT_FREERTOS_TIME_US());
-  (void)xTaskResumeAll();
+  clock_leave();
   return time_us;
 }
 
