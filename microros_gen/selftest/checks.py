@@ -20,6 +20,7 @@ class Check:
 
 _POOL = ("selftest_pool.c", "selftest_pool.h")
 _LENGTHS = ("selftest_lengths.c", "selftest_lengths.h")
+_LINK = ("selftest_link.c", "selftest_link.h")
 CHECKS = (
     Check("steady", ("steady",)),
     Check("epoch", ("epoch",)),
@@ -37,13 +38,14 @@ CHECKS = (
     Check("unique_id", ("unique_id",)),
     Check("udp", ("udp",)),
     Check("udp_loop", ("udp", "udp_local"), _LENGTHS),
-    Check("udp_link", ("udp",)),
+    Check("udp_link", ("udp",), _LINK),
     Check("tcp", ("tcp",)),
-    Check("tcp_link", ("tcp",)),
+    Check("tcp_link", ("tcp",), _LINK),
     Check("multicast", ("multicast",)),
     Check("serial", ("serial",), _LENGTHS),
-    Check("serial_link", ("serial",)),
+    Check("serial_link", ("serial",), _LINK),
     Check("canfd", ("canfd",), _LENGTHS),
+    Check("canfd_link", ("canfd",), _LINK),
     Check("storage", ("storage",)),
 )
 

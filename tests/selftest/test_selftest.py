@@ -181,6 +181,13 @@ SERIAL_LINK_FAULTS = {
     "link_refuses": "serial_link_up_opens serial_link_up_returns",
     "link_stays_down": "serial_link_up_returns",
 }
+CAN_LINK_FAULTS = {
+    "link_send_waits": "canfd_link_down_send_never_waits",
+    "link_invents": "canfd_link_down_receive_nothing",
+    "link_receive_waits": "canfd_link_down_receive_never_waits",
+    "link_refuses": "canfd_link_up_opens canfd_link_up_returns",
+    "link_stays_down": "canfd_link_up_returns",
+}
 CAN_FAULTS = {
     "can_none": "canfd_open",
     "can_refuses": "canfd_send",
@@ -286,7 +293,7 @@ def test_the_port_to_posix_passes(program: Path) -> None:
     if skipped.get("lock_inheritance"):
         print(skipped.pop("lock_inheritance"))
     assert "-DSELFTEST_LINK" in skipped.pop("link_down")
-    for transport in ("tcp", "serial"):
+    for transport in ("tcp", "serial", "canfd"):
         assert skipped.pop(f"{transport}_link") == f"the library does not use '{transport}'"
     assert skipped == {
         name: f"the library does not use '{name}'"
@@ -497,6 +504,18 @@ def test_a_controller_that_is_looped(outputs: Path) -> None:
     assert (word, why.startswith("seen no controller expected the controller 'unix:")) == ("FAIL", True)
 
 
+def test_a_bus_that_is_taken_and_comes_back(outputs: Path) -> None:
+    with CanBus(outputs / "bus2") as bus:
+        text = f"{HEAD}transport: {{type: canfd, id: 0x7f, device: '{bus.device}'}}\n{SMALL}"
+        out = generated(outputs / "can_link", text)
+        program = link(["gcc", "-O1", "-DSELFTEST_LINK"], out, out / "faulty", (*LINK, *CAN))
+        found = results(all_pass(program))
+        assert (found["canfd_link_up_opens"][0], found["canfd_link_up_returns"][0]) == ("PASS", "SKIP")
+        bus.echoes = True
+        check_passes(program, "canfd_link_up_returns")
+        check_faults(program, CAN_LINK_FAULTS)
+
+
 def test_storage_is_tested_where_a_slot_is_free(outputs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     parameters = SMALL.replace("name: device,", "name: device, parameters: [{name: on, type: bool}],")
     out = generated(outputs / "storage", f"{HEAD}components: [+parameter_storage]\n{parameters}")
@@ -584,7 +603,7 @@ def test_a_serial_line_of_a_board_that_is_looped(outputs: Path) -> None:
 def test_every_check_has_a_fault() -> None:
     """Each name in the C files is one that some fault makes fail."""
     of_lines = (SERIAL_FAULTS, TCP_FAULTS, MULTICAST_FAULTS, CAN_FAULTS)
-    of_links = (LINK_FAULTS, TCP_LINK_FAULTS, SERIAL_LINK_FAULTS)
+    of_links = (LINK_FAULTS, TCP_LINK_FAULTS, SERIAL_LINK_FAULTS, CAN_LINK_FAULTS)
     faults = (HOST_FAULTS, *of_lines, *of_links, STORAGE_FAULTS, BOARD_FAULTS)
     wanted = [checks for group in faults for checks in group.values()]
     tested = {name for checks in wanted if ": " not in checks for name in checks.split()}

@@ -26,7 +26,7 @@ uint32_t selftest_run(void);
  * the function yourself. Called by the task that called selftest_run. */
 void selftest_line(const char * text);
 
-/* Takes the link, a network or a serial line, down or up, and returns when it is: a switch, or a person at the cable. The
+/* Takes the link (a network, a serial line or a bus) down or up, and returns when it is: a switch, or a person at the cable. The
  * application defines it where the self-test is compiled with -DSELFTEST_LINK. Called by the task that called
  * selftest_run. */
 void selftest_set_link(bool is_up);

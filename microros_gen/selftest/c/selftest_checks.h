@@ -31,6 +31,7 @@ void selftest_multicast(void);
 void selftest_serial(void);
 void selftest_serial_link(void);
 void selftest_canfd(void);
+void selftest_canfd_link(void);
 void selftest_storage(void);
 
 /* Round trips of the message types (selftest_types.c). */

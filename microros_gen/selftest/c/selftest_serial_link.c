@@ -7,8 +7,9 @@
 
 #include "microros/port.h"
 #include "selftest.h"
+#include "selftest_link.h"
 
-enum { ZERO_MS = 10, PATIENCE_MS = 200, PAUSE_MS = 200, TRIES = 10, CHUNKS = 64, BYTES = 64, SENT = 0x55 };
+enum { ZERO_MS = 10, PATIENCE_MS = 200, CHUNKS = 64, BYTES = 64, SENT = 0x55 };
 
 static const uint8_t sent = SENT;
 
@@ -73,23 +74,12 @@ static void check_down(void)
 
 static void check_up(bool was_looped)
 {
-  bool has_returned = false;
-  bool opens = false;
+  const selftest_link_t link = selftest_link_again(open_line, is_looped, was_looped);
 
-  for (uint8_t i = 0; i < (uint8_t)TRIES && !has_returned; ++i) {
-    opens = open_line();
-    has_returned = is_looped();
-    if (!opens || !has_returned) {
-      port_sleep_ms(PAUSE_MS);
-    }
-    if (opens && !was_looped) {
-      break;
-    }
-  }
-  selftest_true("serial_link_up_opens", opens, "no line", "one within 2 s after it is plugged in");
+  selftest_true("serial_link_up_opens", link.opens, "no line", "one within 2 s after it is plugged in");
   if (was_looped) {
     selftest_true(
-      "serial_link_up_returns", has_returned, "nothing that came back",
+      "serial_link_up_returns", link.is_answered, "nothing that came back",
       "a byte, as before the line was unplugged");
   } else {
     selftest_skip("serial_link_up_returns", "nothing came back while the line was there: connect TX to RX");

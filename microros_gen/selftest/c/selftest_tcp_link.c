@@ -7,8 +7,9 @@
 
 #include "microros/port.h"
 #include "selftest.h"
+#include "selftest_link.h"
 
-enum { ZERO_MS = 10, PATIENCE_MS = 200, PAUSE_MS = 200, TRIES = 10, MESSAGES = 16, BYTES = 64 };
+enum { ZERO_MS = 10, PATIENCE_MS = 200, MESSAGES = 16, BYTES = 64 };
 
 /* GET_INFO outside of a session after its length (OMG DDS-XRCE 1.0, 8.3.5.3 and 11.3), which every agent answers. */
 static const uint8_t question[] = {
@@ -81,23 +82,12 @@ static void check_down(void)
 
 static void check_up(bool was_answered)
 {
-  bool is_answer = false;
-  bool opens = false;
+  const selftest_link_t link = selftest_link_again(open_connection, is_answered, was_answered);
 
-  for (uint8_t i = 0; i < (uint8_t)TRIES && !is_answer; ++i) {
-    opens = open_connection();
-    is_answer = is_answered();
-    if (!opens || !is_answer) {
-      port_sleep_ms(PAUSE_MS);
-    }
-    if (opens && !was_answered) {
-      break;
-    }
-  }
-  selftest_true("tcp_link_up_opens", opens, "no connection", "one within 2 s after the link is up");
+  selftest_true("tcp_link_up_opens", link.opens, "no connection", "one within 2 s after the link is up");
   if (was_answered) {
     selftest_true(
-      "tcp_link_up_answers", is_answer, "no answer of the agent", "one, as before the link was down");
+      "tcp_link_up_answers", link.is_answered, "no answer of the agent", "one, as before the link was down");
   } else {
     selftest_skip("tcp_link_up_answers", "no agent at " SELFTEST_HOST " answers while the link is up");
   }

@@ -351,6 +351,9 @@ WRAP(bool, port_can_open, (port_can_t * can, const char * device, uint32_t id))
   static uint32_t calls;
 
   ++calls;
+  if (was_down && IS("link_refuses")) {
+    return false;
+  }
   return !IS("can_none") && !(IS("can_once") && calls > 1u) && __real_port_can_open(can, device, id);
 }
 
@@ -361,8 +364,11 @@ WRAP(bool, port_can_send, (port_can_t * can, const uint8_t * data, size_t size))
   if (IS("can_refuses")) {
     return false;
   }
-  if (IS("can_send_waits")) {
+  if (IS("can_send_waits") || (is_down && IS("link_send_waits"))) {
     __real_port_sleep_ms(50);
+  }
+  if (is_down || (was_down && IS("link_stays_down"))) {
+    return is_down && IS("link_takes");
   }
   (void)memcpy(bytes, data, size);
   if (IS("can_flips") && size > 20u) {
@@ -373,8 +379,11 @@ WRAP(bool, port_can_send, (port_can_t * can, const uint8_t * data, size_t size))
 
 WRAP(size_t, port_can_receive, (port_can_t * can, uint8_t * data))
 {
-  if (IS("can_waits")) {
+  if (IS("can_waits") || (is_down && IS("link_receive_waits"))) {
     __real_port_sleep_ms(50);
+  }
+  if (is_down) {
+    return IS("link_invents") ? 8u : 0u;
   }
   return IS("can_invents") ? 8u : __real_port_can_receive(can, data);
 }
