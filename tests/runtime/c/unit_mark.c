@@ -163,7 +163,7 @@ static void change(void)
 static bool is_over(xrce_mark_t * mark, bool sees_all)
 {
   const bool is_counted = mark->is_counted && mark->session == session.statistics.reconnects;
-  const bool found = xrce_stream_reliable_passes(&stream, &session, mark);
+  const bool found = xrce_stream_reliable_has_passed(&stream, &session, mark);
   const bool expected = stored_count == 0u || stored[0] >= marked_end;
 
   CHECK(expected || !found);

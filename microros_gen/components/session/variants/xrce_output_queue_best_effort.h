@@ -23,7 +23,7 @@ static inline bool xrce_output_queue_exists(void)
 bool xrce_output_queue_is_empty(void);
 
 /* Returns whether those that waited at the first call with `mark` have left the queue. */
-bool xrce_output_queue_passes(xrce_mark_t * mark);
+bool xrce_output_queue_has_passed(xrce_mark_t * mark);
 
 /* Drops the oldest one and returns its submessage, valid until the next reservation; NULL: the queue is empty. */
 const uint8_t * xrce_output_queue_drop_oldest(void);

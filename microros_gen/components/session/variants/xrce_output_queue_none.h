@@ -26,7 +26,7 @@ static inline bool xrce_output_queue_is_empty(void)
 }
 
 /* Returns whether those that waited at the first call with `mark` have left the queue. */
-static inline bool xrce_output_queue_passes(const xrce_mark_t * mark)
+static inline bool xrce_output_queue_has_passed(const xrce_mark_t * mark)
 {
   (void)mark;
   return true;

@@ -101,7 +101,7 @@ bool xrce_output_queue_is_empty(void)
 
 /* Where as many have left as there are places, or several times that, since the last look, none is seen to have left: the
  * wait is longer, never shorter. */
-bool xrce_output_queue_passes(xrce_mark_t * mark)
+bool xrce_output_queue_has_passed(xrce_mark_t * mark)
 {
   const uint32_t around = best_effort.head < mark->head ? (uint32_t)MICROROS_BEST_EFFORT_PLACES : 0u;
   const uint32_t left_it = around + best_effort.head - mark->head;

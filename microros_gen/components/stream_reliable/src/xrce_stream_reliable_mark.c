@@ -27,7 +27,7 @@ static uint32_t mark_left(
          (session->state == (uint8_t)XRCE_READY ? 0u : (uint32_t)xrce_stream_reliable_again(stream));
 }
 
-bool xrce_stream_reliable_passes(
+bool xrce_stream_reliable_has_passed(
   const xrce_stream_reliable_t * stream, const xrce_session_t * session, xrce_mark_t * mark)
 {
   const bool is_ready = session->state == (uint8_t)XRCE_READY;

@@ -12,7 +12,7 @@
 static bool client_has_sent(xrce_session_t * session, xrce_mark_t * mark)
 {
   if (!mark->is_handed) {
-    const bool has_passed = xrce_output_queue_passes(mark);
+    const bool has_passed = xrce_output_queue_has_passed(mark);
 
     mark->is_handed = has_passed && xrce_turn_is_sent();
   }
@@ -27,7 +27,7 @@ static bool client_has_passed(xrce_client_t * client, xrce_mark_t * mark)
 {
   const bool is_sent = client_has_sent(&client->session, mark);
 
-  return xrce_route_passes(client, mark) && is_sent;
+  return xrce_route_has_passed(client, mark) && is_sent;
 }
 
 bool rmw_client_flush(xrce_client_t * client, uint32_t timeout_ms)

@@ -55,7 +55,7 @@ const uint8_t * xrce_route_drop_oldest(xrce_client_t * client);
 uint16_t xrce_route_unacknowledged(const xrce_client_t * client);
 
 /* Returns whether every reliable message is acknowledged that was stored at the first call with `mark`. */
-bool xrce_route_passes(const xrce_client_t * client, xrce_mark_t * mark);
+bool xrce_route_has_passed(const xrce_client_t * client, xrce_mark_t * mark);
 
 /* Returns whether every wanted entity exists at the agent. */
 bool xrce_route_settled(const xrce_client_t * client);

@@ -68,7 +68,7 @@ bool xrce_stream_reliable_on_acknack(
   uint8_t flags, uint32_t now);
 
 /* Returns whether every message is acknowledged that was stored at the first look with `mark`. */
-bool xrce_stream_reliable_passes(
+bool xrce_stream_reliable_has_passed(
   const xrce_stream_reliable_t * stream, const xrce_session_t * session, xrce_mark_t * mark);
 
 /* For this component only: sends a HEARTBEAT with the available numbers, `count` (not 0) from

@@ -116,7 +116,7 @@ uint16_t xrce_route_unacknowledged(const xrce_client_t * client)
   return 0;
 }
 
-bool xrce_route_passes(const xrce_client_t * client, xrce_mark_t * mark)
+bool xrce_route_has_passed(const xrce_client_t * client, xrce_mark_t * mark)
 {
   (void)client;
   (void)mark;

@@ -101,9 +101,9 @@ uint16_t xrce_route_unacknowledged(const xrce_client_t * client)
   return client->reliable.count;
 }
 
-bool xrce_route_passes(const xrce_client_t * client, xrce_mark_t * mark)
+bool xrce_route_has_passed(const xrce_client_t * client, xrce_mark_t * mark)
 {
-  return xrce_stream_reliable_passes(&client->reliable, &client->session, mark);
+  return xrce_stream_reliable_has_passed(&client->reliable, &client->session, mark);
 }
 
 bool xrce_route_settled(const xrce_client_t * client)
