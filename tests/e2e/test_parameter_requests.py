@@ -175,7 +175,7 @@ def test_cut_requests_are_answered(program: Path, codec: Codec) -> None:
 def test_long_names_are_unknown_ones(program: Path, codec: Codec) -> None:
     with serving(program, codec) as server:
         (reason,) = server.set(("é" * 100, BOOL, True))
-        assert reason == f"parameter '{'é' * 24}' cannot be set because it was not declared"
+        assert reason == f"parameter '{'é' * 44}' cannot be set because it was not declared"
         assert server.set(("", BOOL, True)) == ["parameter name must not be empty"]
         assert server.values("b.gain" + "x" * 100) == []
 
@@ -232,7 +232,8 @@ def test_undeclared_parameters(program: Path, codec: Codec) -> None:
             "ok",
             "parameter 'new' cannot be set because it was not declared",
         ]
-        assert server.set(("x" * 50, BOOL, True)) == [f"parameter name '{'x' * 49}' is too long"]
+        assert server.set(("x" * 50, BOOL, True)) == [f"parameter name '{'x' * 50}' is too long"]
+        assert server.set(("x" * 90, BOOL, True)) == [f"parameter name '{'x' * 89}' is too long"]
         assert server.set(("text", STRING, "t")) == ["parameter 'text' cannot have a value of type {string}"]
         two = parameters(("one", BOOL, True), ("two", BOOL, True))
         assert server.call("set_parameters_atomically", parameters=two)["result"] == {

@@ -75,11 +75,15 @@ static const char * reason_type(uint8_t type)
 static parameter_text_t reason_insertion(
   char letter, const rclc_parameter_server_t * server, const parameter_requested_t * requested)
 {
+  /*
+   * A name that no parameter has may be longer by this many bytes: the longest reason with such a name has 48 bytes less
+   * than the one for which a reply has room. */
+  static const uint32_t longer_name = 40;
   const rclc_parameter_place_t * place;
 
   if (letter == 'n') {
-    /* one that is too long for any parameter is cut */
-    return rclc_parameter_words_cut(&requested->name, (uint32_t)MICROROS_PARAMETER_NAME_SIZE - 1u);
+    return rclc_parameter_words_cut(
+      &requested->name, (uint32_t)MICROROS_PARAMETER_NAME_SIZE - 1u + longer_name);
   }
   if (letter == 't') {
     return rclc_parameter_text(reason_type(requested->type));
