@@ -92,7 +92,7 @@ def _report(error: UserError, package: Path, origins: dict[Path, Path]) -> None:
     for diagnostic in error.diagnostics:
         text = (
             diagnostic.render()
-            .replace(f"Looked in {package}, ", "Looked in ")
+            .replace(f"looked in {package}, ", "looked in ")
             .replace("--interface-path", "-I")
         )
         for copy, origin in origins.items():

@@ -1,7 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a user is told: places in sources, diagnostics and their printed form."""
 
-from microros_gen.diagnostics.diagnostic import Diagnostic, Diagnostics, Severity, UserError, nearest
+from microros_gen.diagnostics.diagnostic import (
+    Diagnostic,
+    Diagnostics,
+    Severity,
+    UserError,
+    nearest,
+    nearest_package,
+)
 from microros_gen.diagnostics.internal import TRACEBACK, internal_error, reads
 from microros_gen.diagnostics.source import Source, Span
 
@@ -15,5 +22,6 @@ __all__ = [
     "UserError",
     "internal_error",
     "nearest",
+    "nearest_package",
     "reads",
 ]

@@ -139,6 +139,20 @@ class Diagnostics:
             self._found.append(diagnostic)
 
 
+_ENDING = re.compile(r"_(msgs?|srvs?|actions?|interfaces?|messages?)$")
+
+
+def nearest_package(name: str, known: Iterable[str]) -> str | None:
+    """Return the hint `did you mean 'x'?` for a package of interfaces, or None.
+
+    What such names end in, as _msgs, makes no two of them alike.
+    """
+    packages = sorted(known)
+    stems = {package: _ENDING.sub("", package) for package in packages}
+    close = difflib.get_close_matches(_ENDING.sub("", name), stems.values(), n=1, cutoff=0.7)
+    return nearest(name, [package for package in packages if stems[package] == close[0]]) if close else None
+
+
 def nearest(name: str, known: Iterable[str]) -> str | None:
     """Return the hint `did you mean 'x'?` for the known name closest to `name`, or None when none is close."""
     choices = sorted(known)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from graphlib import CycleError, TopologicalSorter
 from types import MappingProxyType
 
-from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
+from microros_gen.diagnostics import Diagnostics, Source, Span, nearest, nearest_package
 from microros_gen.documents.named import Named
 from microros_gen.interfaces.derived import declaring_name
 from microros_gen.interfaces.find import KINDS, InterfaceFinder, PackagePlace, read_type, types_in
@@ -160,8 +160,8 @@ class _Resolver:
         return False
 
     def _unknown_package(self, package: str, span: Span | None, need: str) -> None:
-        suggestion = nearest(package, (place.name for place in self._finder.packages()))
-        looked = f"Looked in {self._finder.searched()}; --interface-path adds a place"
+        suggestion = nearest_package(package, (place.name for place in self._finder.packages()))
+        looked = f"Add --interface-path and the folder of the package; looked in {self._finder.searched()}"
         self._diagnostics.error(
             f"unknown interface package '{package}'{need}",
             span,

@@ -18,13 +18,17 @@ _NO_CALLS = ("if", "for", "while", "switch", "return", "sizeof", "defined", "cat
 
 @dataclass(frozen=True)
 class Function:
-    """A function with a body; `parameters` are the names that its head has."""
+    """A function with a body; `parameters` are the names that its head has.
+
+    `is_free`: it is no member of a class and in no namespace, so that a system can call it by its name.
+    """
 
     name: str
     parameters: frozenset[str]
     first: int
     last: int
     span: Span
+    is_free: bool = True
 
 
 @dataclass(frozen=True)
@@ -150,6 +154,7 @@ def split_arguments(tokens: Tokens) -> tuple[Tokens, ...]:
 def _functions(tokens: Sequence[Token], ends: Mapping[int, int]) -> Iterator[Function]:
     starts = {end: begin for begin, end in ends.items()}
     index = 0
+    scope_ends = 0  # of the class or namespace around
     while index < len(tokens):
         if tokens[index].text == "{" and tokens[index].kind == "punct" and index:
             head = _head(tokens, starts, index)
@@ -157,8 +162,11 @@ def _functions(tokens: Sequence[Token], ends: Mapping[int, int]) -> Iterator[Fun
                 name, begin = head
                 parameters = tokens[begin + 1 : ends[begin]]
                 names = frozenset(token.text for token in parameters if token.kind == "name")
-                yield Function(tokens[name].text, names, index, ends[index], tokens[name].span)
+                is_free = index >= scope_ends and tokens[name - 1].text != "::"
+                yield Function(tokens[name].text, names, index, ends[index], tokens[name].span, is_free)
                 index = ends[index]
+            elif tokens[index - 1].kind != "string":  # extern "C" { … } is no scope
+                scope_ends = max(scope_ends, ends[index])
         index += 1
 
 
@@ -186,10 +194,14 @@ def _loops(tokens: Sequence[Token], ends: Mapping[int, int]) -> Iterator[Loop]:
         if len(stops) != 2 or end + 1 >= len(tokens):
             continue
         start, test = head[: stops[0]], tuple(head[stops[0] + 1 : stops[1]])
-        counts = [t.text for t in start[-2:]] == ["=", "0"] and len(test) > 2 and len(start) > 2
+        counts = len(test) > 2 and len(start) > 2 and start[-2].text == "=" and _is_zero(start[-1])
         if counts and test[0].text == start[-3].text and test[1].text in ("<", "<=", "!="):
             last = ends.get(end + 1) if tokens[end + 1].text == "{" else _end_of_statement(tokens, end + 1)
             yield Loop(test[0].text, test[2:], test[1].text == "<=", end + 1, last or end + 1)
+
+
+def _is_zero(token: Token) -> bool:
+    return token.text.rstrip("uUlL") == "0"
 
 
 def _end_of_statement(tokens: Sequence[Token], begin: int) -> int:

@@ -69,13 +69,22 @@ class Macro:
 
 
 @dataclass(frozen=True)
+class Include:
+    """A header that is included, by its name between the quotes or angle brackets; `condition`: it is in an `#if`."""
+
+    name: str
+    span: Span
+    condition: str = ""
+
+
+@dataclass(frozen=True)
 class CText:
     """One file: its tokens and macros in their order, and what it includes."""
 
     source: Source
     tokens: tuple[Token, ...]
     macros: tuple[Macro, ...]
-    includes: tuple[str, ...]
+    includes: tuple[Include, ...]
 
 
 @reads
@@ -95,7 +104,7 @@ class _Reader:
         self._conditions: list[str] = []
         self._guards: set[str] = set()
         self.macros: list[Macro] = []
-        self.includes: list[str] = []
+        self.includes: list[Include] = []
 
     def read(self) -> Iterator[Token]:
         position, line, line_start = 0, 1, True
@@ -119,8 +128,10 @@ class _Reader:
             position = match.end()
 
     def _token(self, kind: str, text: str, line: int, column: int) -> Token:
-        condition = next((c for c in reversed(self._conditions) if c), "")
-        return Token("string" if kind == "raw" else kind, text, self._source, line, column, condition)
+        return Token("string" if kind == "raw" else kind, text, self._source, line, column, self._innermost())
+
+    def _innermost(self) -> str:
+        return next((c for c in reversed(self._conditions) if c), "")
 
     def _directive(self, word: str, rest: str, line: int) -> None:
         rest = re.sub(r"/\*.*?\*/|//[^\n]*|\\\r?\n", " ", rest, flags=re.DOTALL).strip()
@@ -134,7 +145,7 @@ class _Reader:
         elif word == "define" and "0" not in self._conditions:
             self._define(rest, line)
         elif word == "include" and "0" not in self._conditions:
-            self.includes.append(rest.strip('<>"'))
+            self.includes.append(Include(rest.strip('<>"'), Span(self._source, line, 1), self._innermost()))
 
     def _condition(self, word: str, rest: str) -> str:
         """Return how a condition is shown: `0` for what is never compiled, nothing for the guard of a header."""

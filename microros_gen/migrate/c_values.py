@@ -24,6 +24,7 @@ _OPERATORS = {
     ast.FloorDiv: operator.floordiv,
     ast.LShift: operator.lshift,
 }
+_NUMBERS = ("int", "unsigned", "long", "short", "char", "float", "double")
 _DEEPEST = 8
 _LARGEST = 1 << 64
 
@@ -66,6 +67,9 @@ class Values:
     def __init__(self, files: Iterable[CFile]) -> None:
         self._files = tuple(files)
         self._macros = {m.name: m for f in self._files for m in f.macros if not m.has_arguments and m.body}
+        self._empty = {
+            m.name for f in self._files for m in f.macros if not m.has_arguments
+        } - self._macros.keys()
         self._enumerators = {name: value for f in self._files for name, value in f.enumerators.items()}
         self._arrays = {name: size for f in self._files for name, size in f.arrays.items()}
 
@@ -82,12 +86,12 @@ class Values:
                 if isinstance(part, Unknown):
                     return part
                 parts.append(part)
-            elif token.text in ("(", ")"):
+            elif token.text in ("(", ")") or (token.kind == "name" and token.text in self._empty):
                 continue
             else:
                 break
         else:
-            return "".join(parts)
+            return "".join(parts) if parts else Unknown("it is empty")
         return self._text_of_variable(tokens, call, depth)
 
     def _text_of_variable(self, tokens: Tokens, call: Call, depth: int) -> str | Unknown:
@@ -271,7 +275,7 @@ def _without_casts(tokens: Tokens) -> Tokens:
 
 
 def _is_number_type(token: Token) -> bool:
-    return token.kind == "name" and (token.text.endswith("_t") or token.text in ("int", "unsigned", "long"))
+    return token.kind == "name" and (token.text.endswith("_t") or token.text in _NUMBERS)
 
 
 def _evaluate(node: ast.expr) -> int:

@@ -17,6 +17,12 @@ READ = (*COMPILED, ".h", ".hh", ".hpp")
 _LARGEST = 1 << 20
 _MANIFEST = "manifest.json"  # in every folder that this tool wrote
 _LEFT_OUT = ("build", "install", "log", "managed_components", "node_modules")
+_BESIDES = (
+    "example",
+    "examples",
+    "test",
+    "tests",
+)  # of an application or a library in it, with programs of their own
 
 
 def code_files(folder: Path) -> tuple[Path, ...]:
@@ -74,11 +80,16 @@ def _paths(folder: Path) -> list[Path]:
         return [folder]
     found = (path for path in folder.rglob("*") if path.suffix in READ and path.is_file())
     generated = {path.parent for path in folder.rglob(_MANIFEST)}
-    return sorted(
+    kept = sorted(
         path
         for path in found
         if not _is_left_out(path.relative_to(folder)) and not generated.intersection(path.parents)
     )
+    return [path for path in kept if not _is_besides(path.relative_to(folder))] or kept
+
+
+def _is_besides(path: Path) -> bool:
+    return any(part.lower() in _BESIDES for part in path.parts[:-1])
 
 
 def _is_left_out(path: Path) -> bool:

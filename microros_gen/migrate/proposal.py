@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 import re
 import zlib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,7 +15,7 @@ from microros_gen.compiler import DEFAULT_INTERFACE
 from microros_gen.diagnostics import Diagnostics, Source, UserError
 from microros_gen.documents.files import read_text
 from microros_gen.documents.named import Named
-from microros_gen.interfaces.closure import resolve_interfaces
+from microros_gen.interfaces.closure import InterfaceSet, resolve_interfaces
 from microros_gen.interfaces.derived import parts_of
 from microros_gen.interfaces.find import InterfaceFinder
 from microros_gen.interfaces.types import Declaration, Message
@@ -23,6 +23,7 @@ from microros_gen.migrate.code import code_files, code_folder, read_code
 from microros_gen.migrate.colcon_meta import MetaSetting, read_settings
 from microros_gen.migrate.draft import Draft, DraftValue, Flow, Remark
 from microros_gen.migrate.first import AGENT, first_draft
+from microros_gen.migrate.included import included_types
 from microros_gen.migrate.limits import DEFAULT_LIMITS, limits_of
 from microros_gen.migrate.meta_draft import meta_draft
 from microros_gen.migrate.profiles import first_profile
@@ -131,7 +132,7 @@ def _provided(package: PackageDescription) -> frozenset[str]:
 
 def _joined(options: InitOptions, meta: Draft, adopted: Adopted) -> Draft:
     """Return what sources and settings say together; the sources have the last word."""
-    code = adopted.draft
+    code, remarks = _with_included(options, adopted)
     groups = {name: dict(values) for name, values in meta.groups.items()}
     for name, values in code.groups.items():
         groups[name] = {**groups.get(name, {}), **values}
@@ -140,19 +141,51 @@ def _joined(options: InitOptions, meta: Draft, adopted: Adopted) -> Draft:
         components=tuple(sorted({*meta.components, *code.components})),
         settings=meta.settings,
         groups=groups,
-        limits={**_limits(options, adopted), **code.limits},
-        remarks=(*code.remarks, *meta.remarks),
+        limits={**_limits(options, adopted, code.interfaces), **code.limits},
+        remarks=(*code.remarks, *remarks, *meta.remarks),
     )
 
 
-def _limits(options: InitOptions, adopted: Adopted) -> Mapping[str, DraftValue]:
-    """Return the limits; where a type is not found, that is reported when the proposal is planned."""
-    types = [e.type for node in adopted.draft.nodes for e in node.endpoints if e.type]
-    types += [action.type for node in adopted.draft.nodes for action in node.actions if action.type]
+def _with_included(options: InitOptions, adopted: Adopted) -> tuple[Draft, tuple[Remark, ...]]:
+    """Return the proposal with the types whose headers are included and that no entity brings, and what is unknown."""
     finder = InterfaceFinder.from_environment(options.interface_paths)
+    own = [path.as_posix() for path in code_files(options.code)] if options.code is not None else []
+    included, remarks = included_types(adopted.includes, own, finder)
+    draft = adopted.draft
+    if not draft.nodes:
+        return draft, remarks
+    brought = _closure((*_types(draft), *adopted.implied), finder)
+    types = brought.messages.keys() | set(brought.roots) if brought is not None else ()
+    more = set(included) - {str(name) for name in types}
+    # That the package of an entity is unknown is reported when the proposal is planned
+    reported = {package for package in map(package_of, _types(draft)) if finder.package(package) is None}
+    remarks = tuple(remark for remark in remarks if package_of(remark.text) not in reported)
+    return replace(draft, interfaces=tuple(sorted({*draft.interfaces, *more}))), remarks
+
+
+def _types(draft: Draft) -> list[str]:
+    types = [e.type for node in draft.nodes for e in node.endpoints if e.type]
+    return types + [action.type for node in draft.nodes for action in node.actions if action.type]
+
+
+def package_of(name: str) -> str:
+    """Return the package of a type or header."""
+    return name.split("/", 1)[0]
+
+
+def _closure(types: Iterable[str], finder: InterfaceFinder) -> InterfaceSet | None:
+    """Return the types with all that they contain; None where one is unknown, which planning reports."""
     try:
-        interfaces = resolve_interfaces(tuple(Named(t) for t in dict.fromkeys(types)), finder, Diagnostics())
+        return resolve_interfaces(tuple(Named(t) for t in dict.fromkeys(types)), finder, Diagnostics())
     except UserError:
+        return None
+
+
+def _limits(options: InitOptions, adopted: Adopted, more: tuple[str, ...]) -> Mapping[str, DraftValue]:
+    """Return the limits; `more` are types without entities."""
+    finder = InterfaceFinder.from_environment(options.interface_paths)
+    interfaces = _closure((*_types(adopted.draft), *more), finder)
+    if interfaces is None:
         return {"*": DEFAULT_LIMITS}
     exchanged = [message.name for root in interfaces.roots for message in _own(interfaces.declaration(root))]
     return limits_of(adopted.capacities, exchanged, interfaces.messages)

@@ -86,7 +86,29 @@ def find_endpoints(calls: Iterable[Call], values: Values) -> list[FoundEndpoint]
         _endpoint(turn, values)
         for call in calls
         if call.name in ENDPOINT_CALLS and len(call.arguments) >= 4
-        for turn in turns(call, values)
+        for alternative in _alternatives(call)
+        for turn in turns(alternative, values)
+    ]
+
+
+def _alternatives(call: Call) -> list[Call]:
+    """Return the call once for each branch of an `#if … #else` among its arguments: only one of them is compiled."""
+    inside = [
+        t.condition for argument in call.arguments for t in argument if t.condition != call.token.condition
+    ]
+    branches = list(dict.fromkeys(inside))
+    if len(branches) < 2 or not any(branch.startswith("#el") for branch in branches):
+        return [call]
+    return [
+        replace(
+            call,
+            arguments=tuple(
+                tuple(t for t in argument if t.condition in (call.token.condition, branch))
+                for argument in call.arguments
+            ),
+            token=replace(call.token, condition=branch),
+        )
+        for branch in branches
     ]
 
 

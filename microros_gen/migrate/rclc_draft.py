@@ -10,7 +10,7 @@ from dataclasses import replace
 from microros_gen.application import diagnosis_decl
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.migrate.c_program import Call, CFile, read_program
-from microros_gen.migrate.c_tokens import read_c
+from microros_gen.migrate.c_tokens import Include, read_c
 from microros_gen.migrate.c_values import Values, handle_of
 from microros_gen.migrate.capacities import Fact, find_capacities
 from microros_gen.migrate.diagnosis_checks import find_diagnosis
@@ -57,10 +57,15 @@ _HELD = ("rclc_parameter_check_held", "rclc_parameter_count_overruled")
 
 @dataclass(frozen=True)
 class Adopted:
-    """The proposal, and the capacities that the sources give to members of messages."""
+    """The proposal, the capacities that the sources give to members of messages, and what the sources include.
+
+    `implied`: types of the endpoints that the components open by themselves.
+    """
 
     draft: Draft
     capacities: tuple[Fact, ...]
+    includes: tuple[Include, ...] = ()
+    implied: tuple[str, ...] = ()
 
 
 def rclc_draft(
@@ -114,7 +119,15 @@ def rclc_draft(
             hint="Give the folder of one application: it calls rclc_support_init",
             id="MG-9011",
         )
-    return Adopted(draft, tuple(find_capacities(files, calls, values)))
+    includes = tuple(include for file in files for include in file.text.includes)
+    implied = _implied(draft.components, catalogue)
+    return Adopted(draft, tuple(find_capacities(files, calls, values)), includes, implied)
+
+
+def _implied(components: Iterable[str], catalogue: Catalogue) -> tuple[str, ...]:
+    named = {name.removeprefix("+") for name in components}
+    all_of_them = named.union(*(_below(name, catalogue) for name in named))
+    return tuple(sorted({end.type for name in all_of_them for end in catalogue[name].implies}))
 
 
 def _is_of_library(function: str) -> bool:
@@ -142,7 +155,7 @@ def _types_without_entity(nodes: Iterable[DraftNode]) -> tuple[str, ...]:
 
 
 def _check_one(files: Iterable[CFile], diagnostics: Diagnostics) -> None:
-    starts = [function for file in files for function in file.functions if function.name in _STARTS]
+    starts = [f for file in files for f in file.functions if f.name in _STARTS and f.is_free]
     for start in starts[1:]:
         if start.name == starts[0].name:
             diagnostics.error(
@@ -268,7 +281,7 @@ def _wanted(
     """Return the components that have what is called, have the headers that are included, or serve several tasks."""
     headers = {header: component.name for component in catalogue.values() for header in component.headers}
     found = {name for call in called for name in selected.get(call.name, ())}
-    found |= {headers[name] for file in files for name in file.text.includes if name in headers}
+    found |= {headers[i.name] for file in files for i in file.text.includes if i.name in headers}
     starts = {call.name for file in files for call in file.calls} & _TASKS
     names = {token.text for file in files for token in file.text.tokens if token.kind == "name"}
     return found | ({"multithread"} if starts or names >= _THREADS else set())

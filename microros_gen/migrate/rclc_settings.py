@@ -22,6 +22,7 @@ _RECEIVES = re.compile(r"rclc?_(subscription|service|client)_init\w*")
 # Lists of the ROS graph, whose length is that of the graph.
 _LISTS_GRAPH = re.compile(r"rcl_get_((?!zero)\w+_names_and_types(_by_node)?|node_names|\w+_info_by_topic)")
 _TRANSPORT = "transport_"
+_CUSTOM = re.compile(r"rmw_uros_set_custom_transport|set_microros_\w+")
 _ARENA = 4096
 _GRAPH_ARENA = 16384
 _MOST_ARENA = 1 << 20
@@ -102,12 +103,17 @@ def find_settings(
     remarks: list[Remark] = []
     for call in calls:
         reader = _SETTINGS.get(call.name)
-        if call.name in transports:
-            _set(groups["transport"], "type", transports[call.name], call)
-        if reader:
+        kind = transports.get(call.name, "custom" if _CUSTOM.fullmatch(call.name) else "")
+        if kind:
+            _set(groups["transport"], "type", kind, call)
+        chosen = groups["transport"].get("type")
+        if kind and chosen is not None and chosen.value != kind:
+            text = (
+                f"{call.name} is of the transport {kind}: `transport.type` has {chosen.value} ({chosen.note})"
+            )
+            remarks.append(Remark(text, call.span))
+        elif reader:
             reader(call, values, groups, remarks)
-        elif call.name.startswith("set_microros_"):
-            _set(groups["transport"], "type", "custom", call)
         if call.name.startswith("set_microros_") and call.name not in provided:
             text = f"{call.name}() is of another library: here rmw_uros_set_custom_transport takes your four functions"
             remarks.append(Remark(text, call.span))
@@ -131,7 +137,6 @@ def _guard_conditions(calls: Sequence[Call], values: Values) -> dict[str, DraftV
 
 
 def _custom(call: Call, values: Values, groups: _Groups, remarks: list[Remark]) -> None:
-    _set(groups["transport"], "type", "custom", call)
     framing = call.arguments[0][0].text if call.arguments and len(call.arguments[0]) == 1 else ""
     if framing in ("true", "false"):
         _set(groups["transport"], "framing", framing == "true", call)

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from microros_gen.components.diagnosis.plan import DiagnosisPlan
+from microros_gen.diagnostics import UserError
 from microros_gen.migrate.draft import DraftEndpoint
 from tests.support.components.rendered import planned
 from tests.support.examples import examples
@@ -33,6 +34,7 @@ def only(text: str) -> DraftEndpoint:
         ('"chatter"', ""),
         ('"chat" /* said */ "ter"', ""),
         ("TOPIC", '#define TOPIC "chatter"'),
+        ("PREFIX TOPIC", '#ifndef PREFIX\n#define PREFIX\n#endif\n#define TOPIC "chatter"'),
         ("TOPIC", '#define PART "chat"\n#define TOPIC PART \\\n  "ter"'),
         ("topic", 'static const char * const topic = "chatter";'),
         ("topic", 'const char topic[] = "chatter"; /* char topic[] = "other"; */'),
@@ -181,6 +183,7 @@ def test_unknown_qos_is_reported() -> None:
     [
         ("RCL_MS_TO_NS(100)", 100_000_000),
         ("RCL_S_TO_NS(1)", 1_000_000_000),
+        ("RCL_MS_TO_NS(1000 / (float)PERIOD)", 2_000_000),
         ("RCL_MS_TO_NS(PERIOD / 2)", 250_000_000),
         ("RCL_MS_TO_NS(period_ms)", 20_000_000),
         ("1000 * 1000ULL", 1_000_000),
@@ -247,6 +250,21 @@ def test_cpp_sources_with_namespaces_and_classes() -> None:
         '}\n rcl_node_t node; }; }\nextern "C" { int main() { return 0; } }\n'
     )
     assert endpoints(text) == [("publisher", "a", "std_msgs/msg/Int32")]
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        "void Motors::setup() { start(); }",
+        "namespace motors { void setup() { start(); } }",
+        "class Motors { void setup() { start(); } };",
+    ],
+)
+def test_a_member_named_setup_is_no_second_application(other: str) -> None:
+    sketch = f'extern "C" {{ void setup() {{ {NODE} }} }}'
+    assert len(adopted(sketch, other).draft.nodes) == 1
+    with pytest.raises(UserError, match=r"several applications in these sources: setup\(\) is also in 0.c:1"):
+        adopted(sketch, "void setup() {}")
 
 
 def test_several_files_are_one_program() -> None:
@@ -419,12 +437,16 @@ LOOP = (
     [
         ("3", '"a"', "", ["a", "a", "a"]),
         ("COUNT", "names[i]", '#define COUNT 2\nconst char * names[] = {"a", "b"};', ["a", "b"]),
+        ("COUNT", "NAMES[i]", 'enum { COUNT = 2u };\nconst char * NAMES[] = {"a", "b"};', ["a", "b"]),
         ("n", "names[i]", 'unsigned n = 2;\nconst char * names[3] = {"a", "b", "c"};', ["a", "b"]),
     ],
 )
 def test_what_a_loop_creates(limit: str, topic: str, before: str, found: list[str]) -> None:
     body = LOOP.format(limit=limit, topic=topic, type=INT32)
     assert endpoints(program(body, before)) == [("publisher", name, "std_msgs/msg/Int32") for name in found]
+    assert endpoints(program(body.replace("size_t i = 0", "auto i = 0u"), before)) == endpoints(
+        program(body, before)
+    )
     inclusive = body.replace("<", "<=")
     if topic == '"a"':
         assert len(endpoints(program(inclusive, before))) == len(found) + 1
@@ -539,3 +561,29 @@ def test_callbacks_of_a_diagnosis_are_declared(tmp_path: Path) -> None:
 
 def test_without_calls_of_a_diagnosis_none_is_proposed() -> None:
     assert "diagnosis" not in adopted(program("rclc_other(DIAGNOSIS_BATTERY, 5);")).draft.groups
+
+
+def test_each_branch_of_a_condition_among_arguments_is_an_endpoint() -> None:
+    topic = '#ifdef FILTERED\n  "imu/data"\n#else\n  "imu/data_raw"\n#endif\n'
+    text = program(f"rclc_publisher_init_default(&p, &node, {INT32},\n{topic});")
+    found = adopted(text).draft.nodes[0].endpoints
+    assert [endpoint.name for endpoint in found] == ["imu/data", "imu/data_raw"]
+    assert [endpoint.remarks[0].text for endpoint in found] == [
+        "only with `#ifdef FILTERED`",
+        "only with `#else`",
+    ]
+    assert reasons(text) == []
+
+
+def test_the_first_of_two_transports_is_proposed_and_the_other_marked() -> None:
+    text = program(
+        'rmw_uros_options_set_udp_address("10.0.0.7", "8888", rmw);\n'
+        "  rmw_uros_set_custom_transport(true, NULL, o, c, w, r);"
+    )
+    groups = adopted(text).draft.groups
+    assert {key: value.value for key, value in groups["transport"].items()} == {
+        "type": "udp",
+        "agent": "10.0.0.7:8888",
+    }
+    (reason,) = reasons(text)
+    assert "custom_transport is of the transport custom: `transport.type` has udp (0.c:5)" in reason

@@ -239,10 +239,18 @@ def test_a_domain_of_the_application_wins(bench: Bench) -> None:
     assert client.ok("names 0 0").lines[0].endswith(" 12")
 
 
+def test_the_domain_of_the_agent_can_be_requested(bench: Bench) -> None:
+    client = bench.start(DECLARED)
+    client.ok("init_options 255 h 1 1")
+    client.ok("node 0 imu /arm")
+    assert client.sent[-1][-2:] == b"\xff\0"
+
+
 @pytest.mark.parametrize(
     ("call", "error"),
     [
         ("init_options 233 h 1 1", "domain 233 is above 232"),
+        ("init_options 254 h 1 1", "domain 254 is above 232"),
         ("init_options 0 h 0 1", "address h or port 0 is not valid (host: up to 31 bytes)"),
         ("init_options 0 h 65536 1", "address h or port 65536 is not valid (host: up to 31 bytes)"),
         ("init_options 0 h 8x 1", "address h or port 8x is not valid (host: up to 31 bytes)"),

@@ -226,6 +226,6 @@ def test_rosidl_prints_the_tools_diagnostics(tmp_path: Path, capsys: pytest.Capt
     assert end.value.code == 2
     output = capsys.readouterr().err
     assert output.startswith(f"{tmp_path}/msg/Wrong.msg:2:1: error: unknown interface package 'other_msgs'")
-    assert "-I adds a place" in output
+    assert "Add -I and the folder of the package" in output
     with pytest.raises(SystemExit, match=r"cannot read the interface file 'msg/None\.msg'"):
         Generator("microros").generate("mine", ["msg/None.msg"], [], tmp_path / "out")

@@ -707,7 +707,7 @@ _NODES = {
         232,
         "nodes: [{name: a, domain_id: 233}]",
         "1:30",
-        "'nodes[0].domain_id' must be a whole number between 0 and 232; it is 233",
+        "'nodes[0].domain_id' must be a whole number between 0 and 232, or 255 for the agent's own; it is 233",
     ),
     "nodes[].remap": KeyCase(
         "nodes: [{name: a, remap: {__ns: /b}}]",

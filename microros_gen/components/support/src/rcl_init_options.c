@@ -8,7 +8,10 @@
 #include <string.h>
 
 /* UDP ports of higher domains would exceed 65535 (RTPS 2.5, 9.6.1.1). */
-enum { DOMAIN_MOST = 232 };
+enum {
+  DOMAIN_MOST = 232,
+  DOMAIN_OF_AGENT = 255 /* a convention of the public client and agent */
+};
 
 static bool options_are_valid(const rcl_init_options_t * init_options)
 {
@@ -68,7 +71,7 @@ rcl_ret_t rcl_init_options_set_domain_id(rcl_init_options_t * init_options, size
   if (!options_are_valid(init_options)) {
     return RCL_RET_INVALID_ARGUMENT;
   }
-  if (domain_id != RCL_DEFAULT_DOMAIN_ID && domain_id > DOMAIN_MOST) {
+  if (domain_id != RCL_DEFAULT_DOMAIN_ID && domain_id > DOMAIN_MOST && domain_id != DOMAIN_OF_AGENT) {
     microros_error_set(microros_error_domain, NULL, NULL, (uint32_t)domain_id, DOMAIN_MOST);
     return RCL_RET_INVALID_ARGUMENT;
   }

@@ -30,7 +30,8 @@ rcl_ret_t rcl_init_options_fini(rcl_init_options_t * init_options);
 
 rcl_ret_t rcl_init_options_get_domain_id(const rcl_init_options_t * init_options, size_t * domain_id);
 
-/* Overrides the domain of the application file. 0 to 232, or RCL_DEFAULT_DOMAIN_ID. */
+/* Overrides the domain of the application file. 0 to 232; 255: that of the agent (its ROS_DOMAIN_ID);
+ * RCL_DEFAULT_DOMAIN_ID: that of the application file. */
 rcl_ret_t rcl_init_options_set_domain_id(rcl_init_options_t * init_options, size_t domain_id);
 
 /* Returns the options for rmw_microros/init_options.h; NULL for options that are not initialized. */

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which files below a folder are the application's sources."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from microros_gen.migrate.code import c_sources
+
+
+def made(folder: Path, *names: str) -> list[str]:
+    """Write files of these names; return those that are sources of the application."""
+    for name in names:
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text("")
+    return [path.relative_to(folder).as_posix() for path in c_sources(folder)]
+
+
+def test_tests_and_examples_of_libraries_are_no_part_of_the_application(tmp_path: Path) -> None:
+    beside = ("lib/imu/examples/Basic/Basic.ino", "test/native/test_pid.c", "lib/imu/Tests/all.cpp")
+    assert made(tmp_path, "src/main.cpp", "lib/imu/imu.cpp", *beside) == ["lib/imu/imu.cpp", "src/main.cpp"]
+
+
+def test_a_folder_that_has_only_examples_is_read(tmp_path: Path) -> None:
+    assert made(tmp_path, "examples/talker/talker.c") == ["examples/talker/talker.c"]
+    assert made(tmp_path / "examples/talker") == ["talker.c"]

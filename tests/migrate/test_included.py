@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Headers of interfaces that a program includes are in the library that `init` proposes, with or without an entity."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from tests.support.migrate.proposals import Init, application_in, undecided_in
+from tests.support.migrate.rclc import NODE
+
+MAIN = """
+#include <rclc/rclc.h>
+#include <std_msgs/msg/int32.h>
+#include <std_msgs/msg/string.h>
+#include <geometry_msgs/msg/vector3.h>
+#include "sensor_msgs/msg/detail/laser_scan__struct.h"
+MORE
+int main(void)
+{
+  NODE
+  rclc_publisher_init_default(&p, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32), "count");
+  rclc_publisher_init_default(&q, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(geometry_msgs, msg, Twist), "twist");
+}
+""".replace("NODE", NODE)
+
+
+def proposed(init: Init, folder: Path, more: str) -> tuple[int, str]:
+    """Return exit status and messages of `init` for the program with `more` lines."""
+    (folder / "main.c").write_text(MAIN.replace("MORE", more))
+    status, _, error = init("app", "--from", "main.c")
+    return status, error
+
+
+def test_types_without_an_entity_become_interfaces(init: Init, tmp_path: Path) -> None:
+    assert proposed(init, tmp_path, "") == (0, "")
+    named = [interface.name for interface in application_in(tmp_path / "app/microros.yaml").interfaces]
+    assert named == ["sensor_msgs/msg/LaserScan", "std_msgs/msg/String"]
+
+
+def test_an_unknown_package_names_the_line_of_its_header(init: Init, tmp_path: Path) -> None:
+    status, error = proposed(init, tmp_path, "#include <arm_msgs/srv/set_gains.h>")
+    assert status == 2
+    text = "main.c:7:1: error: arm_msgs/srv/set_gains.h: unknown interface package 'arm_msgs'."
+    assert f"{text} Add --interface-path and the folder of the package [MG-9099]\n" in error
+    assert "  #include <arm_msgs/srv/set_gains.h>\n" in error
+
+
+def test_an_unknown_type_names_the_command_that_lists_them(init: Init, tmp_path: Path) -> None:
+    status, error = proposed(init, tmp_path, "#include <std_msgs/msg/integer.h>")
+    assert status == 2
+    assert (
+        "the interface package 'std_msgs' has no such type. `microros-gen interfaces std_msgs` lists" in error
+    )
+
+
+def test_what_may_not_be_compiled_is_left_to_the_user(init: Init, tmp_path: Path) -> None:
+    more = "#ifdef WITH_ARM\n#include <arm_msgs/srv/set_gains.h>\n#endif"
+    status, error = proposed(init, tmp_path, more)
+    assert status == 0
+    assert "main.c:8:1: warning: arm_msgs/srv/set_gains.h: unknown interface package 'arm_msgs'" in error
+    assert len(undecided_in(tmp_path / "app/microros.yaml")) == 1
+
+
+def test_a_header_of_the_program_is_no_interface(init: Init, tmp_path: Path) -> None:
+    header = tmp_path / "src/arm_msgs/msg/gains.h"
+    header.parent.mkdir(parents=True)
+    header.write_text("struct gains;\n")
+    (tmp_path / "src/main.c").write_text(MAIN.replace("MORE", "#include <arm_msgs/msg/gains.h>"))
+    assert init("app", "--from", "src")[0] == 0
