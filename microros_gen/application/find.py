@@ -22,5 +22,7 @@ def read_application(config: Path | None, folder: Path, diagnostics: Diagnostics
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or "it is not UTF-8 text"
         hint = "Give the path of an application file with -c, or none to use --profile alone"
+        if isinstance(error, UnicodeDecodeError):
+            hint = "Save it as UTF-8"
         diagnostics.error(f"cannot read the application file '{shown}': {reason}", hint=hint, id="MG-3001")
         return None

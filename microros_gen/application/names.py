@@ -133,7 +133,9 @@ def _shape_fault(name: str, allowed: str) -> NameFault | None:
 def _character_fault(name: str, allowed: str) -> NameFault | None:
     for index, character in enumerate(name):
         if not (character.isascii() and character.isalnum()) and character not in f"_{allowed}":
-            hint = (
+            corrected = re.sub(r"[-. ]", "_", name)
+            hint = f"Write {corrected}. " if re.fullmatch(rf"[A-Za-z0-9_{allowed}]+", corrected) else ""
+            hint += (
                 "Letters a to z, digits, _"
                 + (f" and {' '.join(allowed)}" if allowed else "")
                 + " are allowed"

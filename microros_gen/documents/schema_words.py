@@ -20,7 +20,7 @@ _TYPES = {
 _OLD_BOOLEANS = {"yes": "true", "on": "true", "y": "true", "no": "false", "off": "false", "n": "false"}
 # `pkg/Type`, and what C++, Python and IDL write
 _LOOSE_TYPE = re.compile(
-    r"([a-z][a-z0-9_]*)(?:/|::|\.)(?:(?:msg|srv|action)(?:/|::|\.))?([A-Z][A-Za-z0-9_]*)"
+    r"([a-z][a-z0-9_]*)(?:/|::|\.)(?:(?:msg|srv|action)(?:/|::|\.))?([A-Za-z][A-Za-z0-9_]*)"
 )
 _QOS_PROFILES = {
     "sensor_data": "{reliability: best_effort, depth: 5}",
@@ -143,4 +143,8 @@ def _scalar_hint(node: ScalarNode, kinds: list[str], schema: dict[str, Any]) -> 
 
 def _full_type(text: str, kind: str | None) -> str | None:
     match = _LOOSE_TYPE.fullmatch(text) if kind else None
-    return f"{match.group(1)}/{kind}/{match.group(2)}" if match else None
+    if match is None:
+        return None
+    name = match.group(2)
+    words = name if name[:1].isupper() else "".join(word[:1].upper() + word[1:] for word in name.split("_"))
+    return f"{match.group(1)}/{kind}/{words}"

@@ -219,10 +219,13 @@ def _text_of(path: Path, data: bytes, diagnostics: Diagnostics) -> Source | None
     try:
         return Source(str(path), data.decode("utf-8"))
     except UnicodeDecodeError as fault:
-        line = data.count(b"\n", 0, fault.start) + 1
+        before = data[: fault.start].decode("utf-8")
+        source = Source(str(path), data.decode("utf-8", errors="replace"))
+        place = Span(source, before.count("\n") + 1, len(before) - before.rfind("\n"))
         diagnostics.error(
-            f"'{path}' is not UTF-8: byte 0x{data[fault.start]:02x} in line {line}",
-            hint="Save the file as UTF-8, which is what ROS 2 reads",
+            f"the file is not UTF-8: byte 0x{data[fault.start]:02x}",
+            place,
+            "Save the file as UTF-8, which is what ROS 2 reads",
             id="MG-2012",
         )
         return None

@@ -18,7 +18,7 @@ from microros_gen.compiler import Planned
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, UserError
 from microros_gen.documents.schema_files import complete_schema, modeline, schema_text
 from microros_gen.documents.templates import shared_environment
-from microros_gen.migrate.code import c_sources
+from microros_gen.migrate.code import c_sources, include_folders
 from microros_gen.migrate.draft import Draft
 from microros_gen.migrate.draft_text import draft_text
 from microros_gen.migrate.limits import LOWER_LIMITS
@@ -211,7 +211,9 @@ def _view(options: InitOptions, planned: Planned | None, toolchain: bool, undeci
         has_image=project is None or project.target.has_image,
         package=project.target.package if project and not project.target.hosted else "",
         sources=shown,
-        include_folders=tuple(sorted({_relative(path.parent, options.folder) for path in sources})),
+        include_folders=tuple(_relative(path, options.folder) for path in include_folders(options.sources))
+        if options.sources is not None
+        else (),
         own_sources=bool(sources),
         code=f"`{_relative(options.sources, options.folder)}`" if options.sources is not None else "`main.c`",
         interface_paths="".join(f' "{path}"' for path in paths),

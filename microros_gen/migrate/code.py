@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, UserError
@@ -14,15 +15,11 @@ COMPILED = (".c", ".cc", ".cpp", ".cxx", ".ino")
 READ = (*COMPILED, ".h", ".hh", ".hpp")
 """What says something about the application."""
 
+_INCLUDE = re.compile(r"(?m)^[ \t]*#[ \t]*include[ \t]*[\"<]([\w./+-]+)[\">]")
 _LARGEST = 1 << 20
 _MANIFEST = "manifest.json"  # in every folder that this tool wrote
 _LEFT_OUT = ("build", "install", "log", "managed_components", "node_modules")
-_BESIDES = (
-    "example",
-    "examples",
-    "test",
-    "tests",
-)  # of an application or a library in it, with programs of their own
+_SEPARATE = ("example", "examples", "test", "tests")  # programs of an application or of a library in it
 
 
 def code_files(folder: Path) -> tuple[Path, ...]:
@@ -50,6 +47,29 @@ def _unreadable(path: Path, error: OSError) -> Diagnostic:
 def c_sources(folder: Path) -> tuple[Path, ...]:
     """Return the files below `folder`, or the file that it names, that a compiler is given, sorted."""
     return tuple(path for path in _paths(folder) if path.suffix in COMPILED)
+
+
+def include_folders(folder: Path) -> tuple[Path, ...]:
+    """Return the folders in which a compiler finds what the sources below `folder` include, sorted.
+
+    Those of the sources, and those at which the path of a header of theirs begins: `include` for
+    `#include "arm/gains.h"` and the file include/arm/gains.h.
+    """
+    files = _paths(folder)
+    found = {path.parent for path in files if path.suffix in COMPILED}
+    headers = [path for path in files if path.suffix not in COMPILED]
+    included = {name for path in files for name in _INCLUDE.findall(_text_of(path))}
+    for path in headers:
+        endings = {name for name in included if path.as_posix().endswith(f"/{name}")}
+        found.update(path.parents[name.count("/")] for name in endings)
+    return tuple(sorted(found))
+
+
+def _text_of(path: Path) -> str:
+    try:
+        return read_text(path, errors="replace") if path.stat().st_size <= _LARGEST else ""
+    except OSError:
+        return ""
 
 
 def read_code(folder: Path, diagnostics: Diagnostics) -> tuple[Source, ...]:
@@ -85,11 +105,11 @@ def _paths(folder: Path) -> list[Path]:
         for path in found
         if not _is_left_out(path.relative_to(folder)) and not generated.intersection(path.parents)
     )
-    return [path for path in kept if not _is_besides(path.relative_to(folder))] or kept
+    return [path for path in kept if not _is_separate(path.relative_to(folder))] or kept
 
 
-def _is_besides(path: Path) -> bool:
-    return any(part.lower() in _BESIDES for part in path.parts[:-1])
+def _is_separate(path: Path) -> bool:
+    return any(part.lower() in _SEPARATE for part in path.parts[:-1])
 
 
 def _is_left_out(path: Path) -> bool:

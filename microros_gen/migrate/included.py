@@ -36,7 +36,9 @@ def included_types(
 
 
 def _unknown(include: Include, package: str, finder: InterfaceFinder) -> Remark:
-    if finder.package(package) is None:
+    if include.name.endswith("visibility_control.h"):
+        text, hint = "the library has no such header, nor a use for it", "Remove the line"
+    elif finder.package(package) is None:
         text, hint = (
             f"unknown interface package '{package}'",
             "Add --interface-path and the folder of the package",

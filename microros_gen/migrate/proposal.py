@@ -154,8 +154,8 @@ def _with_included(options: InitOptions, adopted: Adopted) -> tuple[Draft, tuple
     draft = adopted.draft
     if not draft.nodes:
         return draft, remarks
-    brought = _closure((*_types(draft), *adopted.implied), finder)
-    types = brought.messages.keys() | set(brought.roots) if brought is not None else ()
+    needed = _closure((*_types(draft), *draft.interfaces, *adopted.implied), finder)
+    types = needed.messages.keys() | set(needed.roots) if needed is not None else ()
     more = set(included) - {str(name) for name in types}
     # That the package of an entity is unknown is reported when the proposal is planned
     reported = {package for package in map(package_of, _types(draft)) if finder.package(package) is None}

@@ -147,9 +147,9 @@ def _selected(
 
 
 def _types_without_entity(nodes: Iterable[DraftNode]) -> tuple[str, ...]:
-    """Return the types of endpoints whose name is not known: the sources include their headers all the same."""
-    owned = [(e.name, e.type) for node in nodes for e in node.endpoints]
-    owned += [(action.name, action.type) for node in nodes for action in node.actions]
+    """Return the types of endpoints whose name, or whose node's name, is unknown: the sources use them, too."""
+    owned = [(node.name and e.name, e.type) for node in nodes for e in node.endpoints]
+    owned += [(node.name and action.name, action.type) for node in nodes for action in node.actions]
     named = {kind for name, kind in owned if name}
     return tuple(sorted({kind for _, kind in owned if kind} - named))
 

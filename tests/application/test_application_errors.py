@@ -128,7 +128,12 @@ ERRORS: dict[str, tuple[str, str]] = {
     "topic: character": (
         topic("imu-data"),
         "f:3:29: error: the topic name 'imu-data' has the character '-'. "
-        "Letters a to z, digits, _ and / ~ { } are allowed",
+        "Write imu_data. Letters a to z, digits, _ and / ~ { } are allowed",
+    ),
+    "type: lower case": (
+        "nodes: [{name: n, publishers: [{topic: a, type: sensor_msgs/msg/laser_scan}]}]\n",
+        "f:1:49: error: 'nodes[0].publishers[0].type' must be a message type such as std_msgs/msg/Int32; it is the "
+        "text 'sensor_msgs/msg/laser_scan'. Write sensor_msgs/msg/LaserScan",
     ),
     "topic: quoted": (topic('"imu data"'), "f:3:30: error: the topic name 'imu data' has the character ' '."),
     "topic: empty": (topic("''"), "f:3:26: error: the topic name '' is empty. Write a name such as imu/data"),

@@ -30,7 +30,10 @@ def test_a_named_file_is_named_as_the_user_wrote_it(tmp_path: Path) -> None:
 
 def test_unreadable_files_are_reported(tmp_path: Path) -> None:
     (tmp_path / "bad.yaml").write_bytes(b"a: \xff\n")
-    for name, reason in (("none.yaml", "No such file"), ("bad.yaml", "it is not UTF-8 text")):
+    for name, reason in (
+        ("none.yaml", "No such file"),
+        ("bad.yaml", "it is not UTF-8 text. Save it as UTF-8"),
+    ):
         found_diagnostics = Diagnostics()
         assert read_application(tmp_path / name, tmp_path, found_diagnostics) is None
         (line,) = [without_id(d.headline()) for d in found_diagnostics]

@@ -121,7 +121,8 @@ def test_a_file_that_is_not_utf8_is_an_error(tmp_path: Path) -> None:
     (folder / "msg/A.msg").write_bytes(b"int32 a\n# caf\xe9\nint32 b\n")
     _, messages = resolve(InterfaceFinder((tmp_path,)), "a")
     assert len(messages) == 1
-    assert f"'{folder / 'msg/A.msg'}' is not UTF-8: byte 0xe9 in line 2" in messages[0]
+    assert f"{folder / 'msg/A.msg'}:2:" in messages[0]
+    assert "error: the file is not UTF-8: byte 0xe9" in messages[0]
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root reads everything")

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from microros_gen.migrate.code import c_sources
+from microros_gen.migrate.code import c_sources, include_folders
 
 
 def made(folder: Path, *names: str) -> list[str]:
@@ -17,10 +17,19 @@ def made(folder: Path, *names: str) -> list[str]:
 
 
 def test_tests_and_examples_of_libraries_are_no_part_of_the_application(tmp_path: Path) -> None:
-    beside = ("lib/imu/examples/Basic/Basic.ino", "test/native/test_pid.c", "lib/imu/Tests/all.cpp")
-    assert made(tmp_path, "src/main.cpp", "lib/imu/imu.cpp", *beside) == ["lib/imu/imu.cpp", "src/main.cpp"]
+    separate = ("lib/imu/examples/Basic/Basic.ino", "test/native/test_pid.c", "lib/imu/Tests/all.cpp")
+    assert made(tmp_path, "src/main.cpp", "lib/imu/imu.cpp", *separate) == ["lib/imu/imu.cpp", "src/main.cpp"]
 
 
 def test_a_folder_that_has_only_examples_is_read(tmp_path: Path) -> None:
     assert made(tmp_path, "examples/talker/talker.c") == ["examples/talker/talker.c"]
     assert made(tmp_path / "examples/talker") == ["talker.c"]
+
+
+def test_a_compiler_finds_headers_in_other_folders(tmp_path: Path) -> None:
+    made(tmp_path, "src/main.c", "include/arm/gains.h", "lib/imu/imu.h", "lib/imu/imu.c", "lib/unused/more.h")
+    (tmp_path / "src/main.c").write_text(
+        '#include <arm/gains.h>\n# include "imu.h"\n#include "../include/arm/gains.h"\n'
+    )
+    found = include_folders(tmp_path)
+    assert [path.relative_to(tmp_path).as_posix() for path in found] == ["include", "lib/imu", "src"]

@@ -61,6 +61,32 @@ def test_what_may_not_be_compiled_is_left_to_the_user(init: Init, tmp_path: Path
     assert len(undecided_in(tmp_path / "app/microros.yaml")) == 1
 
 
+def test_a_header_that_nothing_needs_is_refused_with_its_line(init: Init, tmp_path: Path) -> None:
+    status, error = proposed(
+        init, tmp_path, "#include <std_msgs/msg/rosidl_generator_c__visibility_control.h>"
+    )
+    assert status == 2
+    assert (
+        "main.c:7:1: error: std_msgs/msg/rosidl_generator_c__visibility_control.h: the library has no"
+        in error
+    )
+    assert "such header, nor a use for it. Remove the line [MG-9099]" in error
+
+
+def test_a_node_without_a_known_name_leaves_all_types(init: Init, tmp_path: Path) -> None:
+    (tmp_path / "main.c").write_text(MAIN.replace("MORE", "").replace('"n"', "name()"))
+    status, _, error = init("app", "--from", "main.c")
+    assert (status, "the name of the node: `name()` is worked out" in error) == (0, True)
+    named = [interface.name for interface in application_in(tmp_path / "app/microros.yaml").interfaces]
+    types = [
+        "geometry_msgs/msg/Twist",
+        "sensor_msgs/msg/LaserScan",
+        "std_msgs/msg/Int32",
+        "std_msgs/msg/String",
+    ]
+    assert named == types
+
+
 def test_a_header_of_the_program_is_no_interface(init: Init, tmp_path: Path) -> None:
     header = tmp_path / "src/arm_msgs/msg/gains.h"
     header.parent.mkdir(parents=True)
