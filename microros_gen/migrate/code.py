@@ -18,6 +18,7 @@ READ = (*COMPILED, ".h", ".hh", ".hpp")
 _INCLUDE = re.compile(r"(?m)^[ \t]*#[ \t]*include[ \t]*[\"<]([\w./+-]+)[\">]")
 _LARGEST = 1 << 20
 _MANIFEST = "manifest.json"  # in every folder that this tool wrote
+_LIBRARY = "rclc/rclc.h"  # a copy of micro-ROS, with the headers of its packages around it
 _LEFT_OUT = ("build", "install", "log", "managed_components", "node_modules")
 _SEPARATE = ("example", "examples", "test", "tests")  # programs of an application or of a library in it
 
@@ -100,6 +101,7 @@ def _paths(folder: Path) -> list[Path]:
         return [folder]
     found = (path for path in folder.rglob("*") if path.suffix in READ and path.is_file())
     generated = {path.parent for path in folder.rglob(_MANIFEST)}
+    generated |= {path.parents[1] for path in folder.rglob(_LIBRARY)} - {folder}
     kept = sorted(
         path
         for path in found

@@ -68,7 +68,7 @@ def pooled(images: Images, pool_image: Image, port: int) -> Iterator[Live]:
         ),
         (
             "node 1 camera /arm",
-            "node not declared: add to nodes: in microros.yaml: {name: camera, namespace: /arm}",
+            "node not declared: add to nodes: in microros.yaml: {name: camera, namespace: '/arm'}",
         ),
         ("node 1 imu_node /arm", "node imu_node is open already"),
     ],

@@ -21,6 +21,11 @@ def test_tests_and_examples_of_libraries_are_no_part_of_the_application(tmp_path
     assert made(tmp_path, "src/main.cpp", "lib/imu/imu.cpp", *separate) == ["lib/imu/imu.cpp", "src/main.cpp"]
 
 
+def test_a_copy_of_micro_ros_is_no_part_of_the_application(tmp_path: Path) -> None:
+    copy = [f"libmicroros/include/{name}" for name in ("rclc/rclc.h", "rcl/rcl.h", "rcutils/x.c")]
+    assert made(tmp_path, "main.c", "my.c", *copy) == ["main.c", "my.c"]
+
+
 def test_a_folder_that_has_only_examples_is_read(tmp_path: Path) -> None:
     assert made(tmp_path, "examples/talker/talker.c") == ["examples/talker/talker.c"]
     assert made(tmp_path / "examples/talker") == ["talker.c"]

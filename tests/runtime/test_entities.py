@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import pytest
 
+from microros_gen.application.parser import parse_application
+from microros_gen.diagnostics import Diagnostics, Source
 from tests.support.plans import DECLARED, POOL, changed
 from tests.support.runtime.bench import Bench
 
@@ -226,7 +228,15 @@ def test_an_undeclared_node_gets_the_line_to_add(bench: Bench) -> None:
     client = bench.start(DECLARED)
     client.ok("init")
     result = client.call("node 0 imu /leg")
-    assert result.error == "node not declared: add to nodes: in microros.yaml: {name: imu, namespace: /leg}"
+    assert result.error == "node not declared: add to nodes: in microros.yaml: {name: imu, namespace: '/leg'}"
+    line = result.error.split("microros.yaml: ")[1]
+    for namespace, full in (("/leg", "/leg"), ("", "/")):  # rclc_node_init_default is often called with ""
+        diagnostics = Diagnostics()
+        text = f"nodes:\n  - {line.replace('/leg', namespace)}\n"
+        application = parse_application(Source("f", text), diagnostics)
+        assert application is not None
+        assert list(diagnostics) == []
+        assert application.nodes[0].namespace == full
     client.ok("node 0 imu arm")
     assert client.call("node 1 imu /arm").error == "node imu is open already"
 
