@@ -304,6 +304,10 @@ def _path_fault(path: Path) -> tuple[str, str] | None:
         return f"cannot be read: {fault.strerror}", "Check the folder's permissions"
     if _packages_below(path, Origin.PATH):
         return None
+    for child in _children(path):
+        ignored = next((name for name in _IGNORED if (child / name).exists()), None)
+        if ignored is not None and _is_package(child):
+            return "contains no interface package", f"'{child}' has a file {ignored}: name this folder itself"
     return (
         "contains no interface package",
         "A package has a folder msg/, srv/ or action/; itself, a folder of packages or a workspace can be named",

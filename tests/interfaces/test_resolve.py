@@ -116,6 +116,16 @@ def test_paths_that_hold_nothing_are_errors(tmp_path: Path) -> None:
     )
 
 
+def test_a_package_that_colcon_ignores_can_be_named_itself(tmp_path: Path) -> None:
+    folder = package(tmp_path, "arm", A="int32 x")
+    (folder / "COLCON_IGNORE").write_text("")
+    diagnostics = Diagnostics()
+    InterfaceFinder((tmp_path,)).check_paths(diagnostics)
+    (found,) = diagnostics
+    assert f"contains no interface package. '{folder}' has a file COLCON_IGNORE: name" in found.headline()
+    assert resolve(InterfaceFinder((folder,)), "arm")[1] == []
+
+
 def test_a_file_that_is_not_utf8_is_an_error(tmp_path: Path) -> None:
     folder = package(tmp_path, "a")
     (folder / "msg/A.msg").write_bytes(b"int32 a\n# caf\xe9\nint32 b\n")
