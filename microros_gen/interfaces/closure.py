@@ -160,7 +160,13 @@ class _Resolver:
         return False
 
     def _unknown_package(self, package: str, span: Span | None, need: str) -> None:
-        suggestion = nearest_package(package, (place.name for place in self._finder.packages()))
+        places = self._finder.packages()
+        suggestion = nearest_package(package, (place.name for place in places))
+        for place in places:
+            if place.folder.name == package:
+                suggestion = (
+                    f"The folder '{place.folder}' is the package '{place.name}': its package.xml says so."
+                )
         looked = f"Add --interface-path and the folder of the package; looked in {self._finder.searched()}"
         self._diagnostics.error(
             f"unknown interface package '{package}'{need}",

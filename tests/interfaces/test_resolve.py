@@ -126,6 +126,15 @@ def test_a_package_that_colcon_ignores_can_be_named_itself(tmp_path: Path) -> No
     assert resolve(InterfaceFinder((folder,)), "arm")[1] == []
 
 
+def test_a_folder_with_another_name_in_its_manifest_is_named(tmp_path: Path) -> None:
+    folder = package(tmp_path, "arm", A="int32 x")
+    (folder / "package.xml").write_text("<package><name>arm_msgs</name></package>")
+    _, messages = resolve(InterfaceFinder((tmp_path,), shipped=shipped_folder()), "arm/msg/A")
+    assert (
+        f"package 'arm'. The folder '{folder}' is the package 'arm_msgs': its package.xml says" in messages[0]
+    )
+
+
 def test_a_file_that_is_not_utf8_is_an_error(tmp_path: Path) -> None:
     folder = package(tmp_path, "a")
     (folder / "msg/A.msg").write_bytes(b"int32 a\n# caf\xe9\nint32 b\n")
