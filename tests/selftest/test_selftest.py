@@ -504,7 +504,7 @@ def test_a_controller_that_is_looped(outputs: Path) -> None:
     assert (word, why.startswith("seen no controller expected the controller 'unix:")) == ("FAIL", True)
 
 
-def test_a_bus_that_is_taken_and_comes_back(outputs: Path) -> None:
+def test_a_bus_that_is_removed_and_returns(outputs: Path) -> None:
     with CanBus(outputs / "bus2") as bus:
         text = f"{HEAD}transport: {{type: canfd, id: 0x7f, device: '{bus.device}'}}\n{SMALL}"
         out = generated(outputs / "can_link", text)

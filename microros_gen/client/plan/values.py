@@ -55,7 +55,7 @@ class Values:
         names = tuple(getattr(e, "name", None) for e in found) if isinstance(found, tuple) else (None,)
         if None in names:
             what = f"a component.yaml names '{path}', which is not a list of the plan with names"
-            raise UserError([Diagnostic(what, hint="Write a path such as `tasks.tasks`", id="MG-7031")])
+            raise UserError([Diagnostic(what, hint="Write a path such as `tasks.tasks`", id="MG-7035")])
         return tuple(map(str, names))
 
     def holds(self, when: Conditions) -> bool:
