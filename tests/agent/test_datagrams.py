@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 import pytest
 
 from microros_gen.agent.fairness import Account
-from microros_gen.agent.transport.datagrams import UDP_SEGMENT, send_datagrams
+from microros_gen.agent.transport.datagrams import UDP_SEGMENT, send_datagrams, takes_several
 from microros_gen.agent.transport.sockets import UDP4, UDP6, Protocol
 from microros_gen.agent.transport.udp import AT_ONCE, Udp
 from tests.support.patience import seconds
@@ -67,7 +67,7 @@ def test_they_arrive_in_order_and_separately(
     ends: tuple[Counting, socket.socket], sizes: Sequence[int]
 ) -> None:
     sender, receiver = ends
-    send_datagrams(sender, datagrams(sizes))
+    send_datagrams(sender, datagrams(sizes), several=True)
     assert [receiver.recv(65_535) for _ in sizes] == datagrams(sizes)
 
 
@@ -80,25 +80,40 @@ def test_those_of_one_size_take_one_call(
     ends: tuple[Counting, socket.socket], sizes: Sequence[int], calls: int
 ) -> None:
     sender, receiver = ends
-    send_datagrams(sender, datagrams(sizes))
+    send_datagrams(sender, datagrams(sizes), several=True)
     assert sender.calls == calls
     assert [receiver.recv(65_535) for _ in sizes] == datagrams(sizes)
 
 
-@pytest.mark.parametrize("fault", [errno.EINVAL, errno.EIO, errno.ENOPROTOOPT, errno.EMSGSIZE])
+@pytest.mark.parametrize("fault", [errno.EINVAL, errno.EIO, errno.EMSGSIZE])
 def test_a_system_that_refuses_gets_them_one_by_one(ends: tuple[Counting, socket.socket], fault: int) -> None:
-    """As for datagrams larger than the packets of the network, and before Linux 4.18."""
+    """As for datagrams larger than the packets of the network."""
     sender, receiver = ends
     sender.fault = fault
-    send_datagrams(sender, datagrams((300, 300, 5)))
+    send_datagrams(sender, datagrams((300, 300, 5)), several=True)
     assert [receiver.recv(65_535) for _ in range(3)] == datagrams((300, 300, 5))
+
+
+def test_a_system_without_the_option_gets_them_one_by_one(ends: tuple[Counting, socket.socket]) -> None:
+    """Before Linux 4.18: it would send all of a call as one datagram, and report nothing."""
+    sender, receiver = ends
+    send_datagrams(sender, datagrams((300, 300, 5)), several=False)
+    assert sender.calls == 3
+    assert [receiver.recv(65_535) for _ in range(3)] == datagrams((300, 300, 5))
+
+
+def test_the_option_is_asked_for() -> None:
+    """A TCP socket refuses it, as a system does that does not know it."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as datagram, socket.socket() as stream:
+        assert takes_several(datagram)
+        assert not takes_several(stream)
 
 
 def test_a_peer_that_is_gone_takes_nothing_and_breaks_nothing(ends: tuple[Counting, socket.socket]) -> None:
     sender, receiver = ends
     receiver.close()
     for _ in range(3):
-        send_datagrams(sender, datagrams((64, 64, 64)))
+        send_datagrams(sender, datagrams((64, 64, 64)), several=True)
 
 
 def test_the_option_of_the_system_is_the_one_that_is_used() -> None:

@@ -16,11 +16,23 @@ UDP_SEGMENT = 103
 """Option of Linux 4.18 and later (udp(7)): the bytes of a call are datagrams of this size; the last may be shorter."""
 
 
-def send_datagrams(connected: socket.socket, datagrams: list[bytes]) -> None:
-    """Send datagrams in their order; one that cannot be sent is lost."""
+def takes_several(opened: socket.socket) -> bool:
+    """Return whether the system knows UDP_SEGMENT; one that does not ignores it, and sends a call as one datagram."""
+    try:
+        opened.getsockopt(socket.IPPROTO_UDP, UDP_SEGMENT)
+    except OSError:
+        return False
+    return True
+
+
+def send_datagrams(connected: socket.socket, datagrams: list[bytes], several: bool) -> None:
+    """Send datagrams in their order; one that cannot be sent is lost.
+
+    `several`: a call may take more than one (see `takes_several`).
+    """
     at = 0
     while at < len(datagrams):
-        end = _run(datagrams, at)
+        end = _run(datagrams, at) if several else at + 1
         if end - at == 1 or not _send_run(connected, datagrams[at:end]):
             for datagram in datagrams[at:end]:
                 _send(connected, datagram)
@@ -40,7 +52,7 @@ def _run(datagrams: list[bytes], at: int) -> int:
 def _send_run(connected: socket.socket, datagrams: list[bytes]) -> bool:
     """Send datagrams in one call; return False if the system sent none of them.
 
-    It refuses datagrams larger than the packets of the network, and does not know the option before Linux 4.18.
+    It refuses datagrams larger than the packets of the network.
     """
     option = (socket.IPPROTO_UDP, UDP_SEGMENT, struct.pack("=H", len(datagrams[0])))
     try:

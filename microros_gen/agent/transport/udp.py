@@ -19,7 +19,7 @@ from typing import Any
 from microros_gen.agent.fairness import TURN_S, Account, Fairness
 from microros_gen.agent.transport.addresses import parse_address
 from microros_gen.agent.transport.base import Origin, Receive
-from microros_gen.agent.transport.datagrams import send_datagrams
+from microros_gen.agent.transport.datagrams import send_datagrams, takes_several
 from microros_gen.agent.transport.sockets import Protocol, open_connected, open_socket, place_name
 
 BATCH = 64
@@ -77,6 +77,7 @@ class Udp:
         """Datagrams that were read when a socket was opened or closed."""
         self._unsent: list[Queue] = []
         """The queues with collected datagrams."""
+        self._several = takes_several(self._socket)
         self._epoll = select.epoll()
         self._epoll.register(self._socket, select.EPOLLIN)
 
@@ -168,7 +169,7 @@ class Udp:
     def flush(self) -> None:
         """See Transport."""
         for queue in self._unsent:
-            send_datagrams(queue.socket, queue.unsent)
+            send_datagrams(queue.socket, queue.unsent, self._several)
             queue.unsent = []
         self._unsent.clear()
 
