@@ -78,24 +78,28 @@ class Server:
 
     def _serve(self, epoll: select.epoll, ready: Ready, clock: Callable[[], float]) -> None:
         handlers = self._register(epoll)
-        poll, flush, due = epoll.poll, self._agent.flush, self._agent.due
-        flush_all = [transport.flush for transport in self._transports]
+        poll, due = epoll.poll, self._agent.due
+        flush_all = [self._agent.flush, *(transport.flush for transport in self._transports)]
         care_at = clock()
         while not self._stop:
             now = clock()
-            if now >= care_at:
+            cares = now >= care_at
+            if cares:
                 care_at = now + TICK_S
                 self._care(now, ready)
             wanted = due()
             if wanted is not None and wanted <= now:
                 self._agent.tick()
+                cares = True
+            if cares:  # what this sends does not wait for input
+                for flush in flush_all:
+                    flush()
                 wanted = due()
             wait = (care_at if wanted is None or wanted > care_at else wanted) - now
             for descriptor, _ in poll(wait if wait > 0 else 0):
                 handlers[descriptor]()
-            flush()
-            for flush_transport in flush_all:
-                flush_transport()
+            for flush in flush_all:
+                flush()
 
     def _register(self, epoll: select.epoll) -> dict[int, Callable[[], object]]:
         """Watch every descriptor; return the function to call when one is readable."""
