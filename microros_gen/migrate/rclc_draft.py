@@ -52,6 +52,7 @@ _TASKS = frozenset(
 )
 _THREADS = frozenset(("std", "thread"))
 _AXES = ("transport_", "entities_", "port_", "liveliness_", "clock_ros", "ping", "stream_")
+_MOST_PLACES = 3
 _HELD = ("rclc_parameter_check_held", "rclc_parameter_count_overruled")
 
 
@@ -156,14 +157,17 @@ def _types_without_entity(nodes: Iterable[DraftNode]) -> tuple[str, ...]:
 
 def _check_one(files: Iterable[CFile], diagnostics: Diagnostics) -> None:
     starts = [f for file in files for f in file.functions if f.name in _STARTS and f.is_free]
-    for start in starts[1:]:
-        if start.name == starts[0].name:
-            diagnostics.error(
-                f"several applications in these sources: {start.name}() is also in {place(starts[0].span)}",
-                start.span,
-                "Give the folder or file of one of them",
-                id="MG-9012",
-            )
+    alike = [start for start in starts if start.name == starts[0].name]
+    if len(alike) > 1:
+        places = [place(start.span) for start in (alike[0], *alike[2:])]
+        more = f" and {len(places) - _MOST_PLACES} more" if len(places) > _MOST_PLACES else ""
+        diagnostics.error(
+            f"several applications in these sources: {alike[0].name}() is also in "
+            f"{', '.join(places[:_MOST_PLACES])}{more}",
+            alike[1].span,
+            "Give the folder or file of one of them",
+            id="MG-9012",
+        )
 
 
 def _nodes(

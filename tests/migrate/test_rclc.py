@@ -267,6 +267,15 @@ def test_a_member_named_setup_is_no_second_application(other: str) -> None:
         adopted(sketch, "void setup() {}")
 
 
+def test_several_applications_are_one_error_with_all_places() -> None:
+    with pytest.raises(UserError) as error:
+        adopted(*[f"int main(void) {{ {NODE} }}"] * 6)
+    [found] = error.value.diagnostics
+    assert found.message.endswith("main() is also in 0.c:1, 2.c:1, 3.c:1 and 2 more")
+    assert found.span is not None
+    assert found.span.source.name == "1.c"
+
+
 def test_several_files_are_one_program() -> None:
     header = '#ifndef TOPICS_H\n#define TOPICS_H\n#define TOPIC "a"\n#endif'
     text = program(f"rclc_publisher_init_default(&p, &node, {INT32}, TOPIC);")
