@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("paths", type=click.Path(path_type=Path), metavar="DIR", nargs=-1, required=True)
+@click.argument("paths", type=click.Path(path_type=Path), metavar="DIR", nargs=-1)
 @click.option(
     "--profile",
     "profiles",
@@ -101,10 +101,14 @@ def command(
         others = [name for name in context.params if name not in ("paths", "migrate", "dry_run")]
         if any(context.params[name] for name in others):
             raise click.UsageError("--migrate takes no other option than --dry-run.")
+        if not paths:
+            raise click.UsageError("--migrate needs the files to rewrite, such as microros.yaml.")
         return _migrate(paths, dry_run)
     if dry_run:
         raise click.UsageError("--dry-run needs --migrate.")
-    if len(paths) != 1:
+    if not paths:
+        raise click.UsageError("Missing argument 'DIR'.")
+    if len(paths) > 1:
         raise click.UsageError(f"Got unexpected extra argument ({paths[1]})")
     [folder] = paths
     from microros_gen.migrate.application_folder import write_folder

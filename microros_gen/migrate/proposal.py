@@ -32,6 +32,7 @@ from microros_gen.package.description import PackageDescription
 from microros_gen.platform.capabilities import capabilities
 from microros_gen.records import dataclass
 from microros_gen.selection.find_components import declared_functions, load_catalogue
+from microros_gen.selection.find_profiles import load_builtin_profiles
 from microros_gen.selection.outside import with_installed
 from microros_gen.selection.resolve import check_ready
 
@@ -246,6 +247,7 @@ def _with_defaults(options: InitOptions, draft: Draft) -> Draft:
     limits = draft.limits if draft.nodes else {"*": DEFAULT_LIMITS}
     return replace(
         draft,
+        components=_needed_components(options, draft),
         profiles=tuple(options.seen_from_folder(profile) for profile in profiles),
         interfaces=interfaces,
         settings=settings if options.package is not None else {"target": target, **settings},
@@ -253,6 +255,17 @@ def _with_defaults(options: InitOptions, draft: Draft) -> Draft:
         limits=limits,
         remarks=tuple(remarks),
     )
+
+
+def _needed_components(options: InitOptions, draft: Draft) -> tuple[str, ...]:
+    """Return the components of the proposal, with those of its profiles that the user's profiles do not have."""
+    if not options.profiles or not draft.profiles:
+        return draft.components
+    compiled = compiler.Options(profiles=options.profiles, interface_paths=options.interface_paths)
+    selection = compiler.resolve(compiler.read_source(None, Path(), compiled)).selection
+    builtin = load_builtin_profiles()
+    wanted = {change.name for name in draft.profiles for change in builtin[name].components}
+    return tuple(sorted({*draft.components, *(f"+{name}" for name in wanted if not selection.has(name))}))
 
 
 def _of_profiles(options: InitOptions) -> Draft:

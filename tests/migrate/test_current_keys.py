@@ -176,6 +176,8 @@ def test_no_file_is_changed_if_one_is_wrong(init: Init, tmp_path: Path) -> None:
         (("--migrate", "--target", "host", "a.yaml"), "--migrate takes no other option than --dry-run."),
         (("--dry-run", "robot"), "--dry-run needs --migrate."),
         (("one", "two"), "Got unexpected extra argument (two)"),
+        ((), "Missing argument 'DIR'."),
+        (("--migrate",), "--migrate needs the files to rewrite, such as microros.yaml."),
     ],
 )
 def test_options_that_do_not_fit_are_refused(init: Init, arguments: tuple[str, ...], message: str) -> None:

@@ -83,6 +83,14 @@ def test_a_project_of_nothing_has_the_package_of_its_plan(run: Runner, folder: P
     assert "MG-9002" in again.err
 
 
+def test_a_profile_that_lacks_what_the_example_does(run: Runner, folder: Path) -> None:
+    done = run("init", "robot", "--platform", "pico", "--profile", "pure_reader")
+    assert (done.status, done.err) == (0, ""), done.err
+    text = (folder / "robot" / "microros.yaml").read_text()
+    assert "profiles: [pure_reader]" in text
+    assert "components: [+publish, +timers]" in text
+
+
 @pytest.mark.parametrize("name", PACKAGES)
 def test_sources_are_copied_and_what_is_missing_is_named(run: Runner, sources: Path, name: str) -> None:
     project = project_of(name)
