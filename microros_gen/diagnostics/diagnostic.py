@@ -139,7 +139,8 @@ class Diagnostics:
             self._found.append(diagnostic)
 
 
-_ENDING = re.compile(r"_(msgs?|srvs?|actions?|interfaces?|messages?)$")
+_ENDING = re.compile(r"_?(msgs?|srvs?|actions?|interfaces?|messages?)$")
+_ENDINGS = ("msgs", "srvs", "actions", "interfaces", "messages")
 
 
 def nearest_package(name: str, known: Iterable[str]) -> str | None:
@@ -148,9 +149,18 @@ def nearest_package(name: str, known: Iterable[str]) -> str | None:
     What such names end in, as _msgs, makes no two of them alike.
     """
     packages = sorted(known)
-    stems = {package: _ENDING.sub("", package) for package in packages}
-    close = difflib.get_close_matches(_ENDING.sub("", name), stems.values(), n=1, cutoff=0.7)
+    stems = {package: _stem(package) for package in packages}
+    close = difflib.get_close_matches(_stem(name), stems.values(), n=1, cutoff=0.7)
     return nearest(name, [package for package in packages if stems[package] == close[0]]) if close else None
+
+
+def _stem(package: str) -> str:
+    """Return the name of a package without what such names end in, also if that is misspelled."""
+    name = package.lower()
+    head, _, last = name.rpartition("_")
+    if head and difflib.get_close_matches(last, _ENDINGS, n=1, cutoff=0.75):
+        return head
+    return _ENDING.sub("", name) or name
 
 
 def nearest(name: str, known: Iterable[str]) -> str | None:

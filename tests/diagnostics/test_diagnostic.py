@@ -13,6 +13,7 @@ from microros_gen.diagnostics import (
     Span,
     UserError,
     nearest,
+    nearest_package,
     reads,
 )
 from microros_gen.diagnostics.diagnostic import LONGEST_LINE, LONGEST_WORD
@@ -79,6 +80,17 @@ def test_a_collector_keeps_each_diagnostic_once_and_raises_at_the_end() -> None:
 )
 def test_the_nearest_name(name: str, hint: str | None) -> None:
     assert nearest(name, ["limits", "nodes", "pools"]) == hint
+
+
+@pytest.mark.parametrize("name", ["std_mgs", "stdmsgs", "Std_msgs", "std_msg", "std_mesages"])
+def test_the_nearest_package(name: str) -> None:
+    known = ["action_msgs", "example_interfaces", "sensor_msgs", "std_msgs", "std_srvs"]
+    assert nearest_package(name, known) == "Did you mean 'std_msgs'?"
+
+
+@pytest.mark.parametrize("name", ["pico_msgs", "motor_interfaces", "msgs", "mesgs", "my_actions"])
+def test_packages_are_not_alike_by_their_endings(name: str) -> None:
+    assert nearest_package(name, ["action_msgs", "example_interfaces", "std_msgs", "std_srvs"]) is None
 
 
 def test_what_a_reader_raises_by_mistake_names_its_text() -> None:
