@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable
+from shlex import quote
 
 from microros_gen.interfaces.find import InterfaceFinder
 from microros_gen.migrate.c_tokens import Include
@@ -45,6 +46,7 @@ def _unknown(include: Include, package: str, finder: InterfaceFinder) -> Remark:
         )
     else:
         text = f"the interface package '{package}' has no such type"
-        hint = f"`microros-gen interfaces {package}` lists its types"
+        places = "".join(f" --interface-path {quote(str(path))}" for path in finder.paths)
+        hint = f"`microros-gen interfaces {package}{places}` lists its types"
     # Whether what is in an #if is compiled is not known
     return Remark(f"{include.name}: {text}", include.span, refused="" if include.condition else hint)

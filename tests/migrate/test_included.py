@@ -53,6 +53,16 @@ def test_an_unknown_type_names_the_command_that_lists_them(init: Init, tmp_path:
     )
 
 
+def test_that_command_has_the_places_of_the_packages(init: Init, tmp_path: Path) -> None:
+    messages = tmp_path / "my ws/arm_msgs/msg"
+    messages.mkdir(parents=True)
+    (messages / "Gains.msg").write_text("float64 p\n")
+    (tmp_path / "main.c").write_text(MAIN.replace("MORE", "#include <arm_msgs/msg/gain.h>"))
+    status, _, error = init("app", "--from", "main.c", "--interface-path", "my ws")
+    assert status == 2
+    assert "`microros-gen interfaces arm_msgs --interface-path 'my ws'` lists its types" in error
+
+
 def test_what_may_not_be_compiled_is_left_to_the_user(init: Init, tmp_path: Path) -> None:
     more = "#ifdef WITH_ARM\n#include <arm_msgs/srv/set_gains.h>\n#endif"
     status, error = proposed(init, tmp_path, more)
