@@ -246,6 +246,33 @@ def test_nothing_is_lost_or_mixed_up_while_clients_connect_and_leave(udp: Udp) -
     }
 
 
+def test_datagrams_of_others_in_a_new_socket_are_theirs(udp: Udp, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Between bind and connect the system hands a part of all datagrams to it: here more than are kept at once."""
+    client, others = peer(udp), [peer(udp) for _ in range(20)]
+
+    def open_slowly(listener: socket.socket, place: Any) -> socket.socket:
+        opened = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        opened.setblocking(False)
+        for shared in (listener, opened):
+            shared.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
+        opened.bind(listener.getsockname())
+        for other in others:
+            for _ in range(BATCH + 10):
+                other.send(other.getsockname()[1].to_bytes(2, "big"))
+        opened.connect(place)
+        return opened
+
+    monkeypatch.setattr("microros_gen.agent.transport.udp.open_connected", open_slowly)
+    udp.claim((udp, client.getsockname()), Account())
+    client.send(client.getsockname()[1].to_bytes(2, "big"))
+    received: list[tuple[int, int]] = []
+    for _ in range(100):
+        udp.pump(lambda data, address, _: received.append((int.from_bytes(data, "big"), address[1][1])))  # type: ignore[index]
+    assert len(received) > 2 * BATCH
+    assert all(sent == place for sent, place in received)
+    assert client.getsockname()[1] in {place for _, place in received}
+
+
 def test_what_was_refused_before_does_not_take_the_next_datagram_along(udp: Udp) -> None:
     """A connected socket tells of an earlier datagram that nobody took when it is to send the next one."""
     closed = peer(udp)

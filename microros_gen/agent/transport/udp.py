@@ -42,7 +42,7 @@ class Queue:
     """A socket that is read: the shared one, or that of one client."""
 
     def __init__(self, opened: socket.socket, account: Account, address: Hashable = None) -> None:
-        """Read for the client at `address`; None: for every sender without a separate socket."""
+        """Read for the client at `address`; None: the socket may have datagrams of others."""
         self.socket = opened
         self.account = account
         self.address = address
@@ -135,8 +135,8 @@ class Udp:
         except OSError:
             return  # no descriptor is left: the client shares the common socket
         self._keep(self._socket)  # its earlier datagrams precede new ones
-        self._keep(connected)
-        queue = self._by_peer[peer] = self._queues[connected.fileno()] = Queue(connected, account, address)
+        only = address if self._keep(connected) else None
+        queue = self._by_peer[peer] = self._queues[connected.fileno()] = Queue(connected, account, only)
         self._epoll.register(queue.socket, select.EPOLLIN)
 
     def release(self, address: Hashable, moved: bool = False) -> None:
@@ -200,7 +200,7 @@ class Udp:
         end = clock() + SHARE_S
         for _ in range(BATCH):
             try:
-                if address is not None:  # a connected socket has only datagrams of its client
+                if address is not None:
                     data = receive_only(MAXIMUM_DATAGRAM)
                 else:
                     data, peer = take(MAXIMUM_DATAGRAM)
@@ -214,10 +214,14 @@ class Udp:
             if account.busy or clock() > end:
                 return
 
-    def _keep(self, ends: socket.socket) -> None:
-        """Keep the datagrams in a socket; in a new one, those that arrived before it was connected."""
+    def _keep(self, ends: socket.socket) -> bool:
+        """Keep the datagrams in a socket; in a new one, those that arrived before it was connected.
+
+        Return whether they are all: a connected socket has only datagrams of its client from then on.
+        """
         for _ in range(BATCH):
             try:
                 self._strays.append(ends.recvfrom(MAXIMUM_DATAGRAM))
-            except OSError:
-                return
+            except OSError as error:
+                return isinstance(error, BlockingIOError)
+        return False
