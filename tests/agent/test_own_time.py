@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import time
+from pathlib import Path
 
 import pytest
 
@@ -105,3 +106,19 @@ def test_the_system_counts_while_another_thread_has_the_processor() -> None:
         os.sched_setaffinity(0, own)
         os.kill(child, 9)
         os.waitpid(child, 0)
+
+
+@pytest.mark.parametrize("content", [None, b"", b"12", b"no numbers"], ids=str)
+def test_a_system_that_does_not_count_charges_as_before(
+    monkeypatch: pytest.MonkeyPatch, content: bytes | None
+) -> None:
+    def read(path: Path) -> bytes:
+        if content is None:
+            raise FileNotFoundError(path)
+        return content
+
+    monkeypatch.setattr(Path, "read_bytes", read)
+    own = OwnTime(Waited())
+    for second in range(5):
+        own.begin(float(second))
+        assert own.of(0.5) == 0.5
