@@ -62,7 +62,7 @@ class Transport(Protocol):
         """Send one message without waiting, in `flush` at the latest; it may be lost. Never raises."""
 
     def flush(self) -> None:
-        """Send what `send` has collected; called at the end of each round of the server. Never raises."""
+        """Send what `send` has collected; called after a tick and at the end of each round. Never raises."""
 
     def name_of(self, address: Hashable) -> str:
         """Return an address as in the log."""
