@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 from pathlib import Path
 
@@ -35,6 +36,7 @@ nodes:
   - name: leg
 components: [+parameters]
 """
+REASONS = Path("components/parameters/src/rclc_parameter_reason.c")
 SERVICES = [
     *("describe_parameters", "get_parameter_types", "get_parameters"),
     *("list_parameters", "set_parameters", "set_parameters_atomically"),
@@ -98,6 +100,27 @@ def test_an_event_has_room_for_every_parameter(tmp_path: Path) -> None:
         largest(found, "msg/ParameterEvent")
         >= 4 * (text_size(49) + value) + 8 + text_size(len("/left/arm")) + 12
     )
+
+
+@pytest.mark.parametrize(
+    ("type_", "own"),
+    [("type: integer", "integer"), ('type: "integer[]", size: 2', "integer_array"), ("type: bool", "bool")],
+)
+@pytest.mark.parametrize("characters", range(1, 5))
+def test_a_reason_has_room_for_the_names_of_two_types(
+    tmp_path: Path, type_: str, own: str, characters: int
+) -> None:
+    """A reply with the longest reason for each parameter would have no results if one byte was missing."""
+    source = (Path(compiler.__file__).parents[1] / REASONS).read_text()
+    (words,) = re.findall(r'"(Wrong parameter type[^"]*)"', source)
+    names = re.findall(r'"([\w ]+)"', source.split("names[] =")[1].split("};")[0])
+    assert own in names
+    assert len(names) == 10  # rcl_interfaces/msg/ParameterType
+    others = [name for name in names if name != own]
+    name = "n" * characters
+    text = f"{BARE[:-2]}, parameters: [{{name: {name}, {type_}}}]}}\n"
+    longest = max(len(re.sub("%n", name, words).replace("%o", own).replace("%t", other)) for other in others)
+    assert largest(planned(tmp_path, text), "msg/SetParametersResult") >= 4 + 4 + longest + 1
 
 
 def test_limits_of_the_application_win(tmp_path: Path) -> None:

@@ -27,6 +27,8 @@ DEFAULT_PARAMETERS = 4
 """What rclc_parameter_server_init_default of rclc has."""
 _REASON = 104
 """Bytes of the longest words of rclc_parameter_reason.c, the types of two values included."""
+_REASON_OF_ARRAY = 107
+"""The same where a parameter can be an array: the names of those types are longer."""
 _SHOWN_NUMBER = 20
 """Bytes of the longest number in a reason: an int64_t with its sign."""
 _SHORTEST_PARAMETER = 48
@@ -274,7 +276,8 @@ def _reason(application: Application) -> int:
         for p in _parameters(application)
         for rule in p.rules
     )
-    return max([_REASON, *(size + shown for size in words)])
+    longest = _REASON_OF_ARRAY if _array_size(application) else _REASON
+    return max([longest, *(size + shown for size in words)])
 
 
 def _is_held(application: Application) -> bool:

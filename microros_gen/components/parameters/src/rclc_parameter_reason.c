@@ -76,8 +76,8 @@ static parameter_text_t reason_insertion(
   char letter, const rclc_parameter_server_t * server, const parameter_requested_t * requested)
 {
   /*
-   * A name that no parameter has may be longer by this many bytes: the longest reason with such a name has 48 bytes less
-   * than the one for which a reply has room. */
+   * A name that no parameter has may be longer by this many bytes: the longest reason with such a name is shorter than the
+   * one for which a reply has room, by at least 48 bytes. */
   static const uint32_t longer_name = 40;
   const rclc_parameter_place_t * place;
 
