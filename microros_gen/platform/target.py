@@ -267,15 +267,23 @@ class Target:
 
         `transport` is a capability (udp, tcp, serial, canfd), or one that no part has.
         """
+        provision = self._provision(transport)
+        return provision is not None and provision.waits_for_room
+
+    def wakes(self, transport: str) -> bool:
+        """Return whether what arrives over a transport calls port_wake: then its handle is not one of the system.
+
+        `transport` as in waits_for_room.
+        """
+        provision = self._provision(transport)
+        return provision is not None and any(ask.capability == "wake" for ask in provision.asks)
+
+    def _provision(self, transport: str) -> Provision | None:
+        """Return what provides a transport; None: the application, or nothing."""
         if transport in self.own_capabilities:
-            return False
-        for part in self.parts:
-            for provision in part.component.provides:
-                if provision.capability == transport and (
-                    _has_file(provision) or not provision.waits_for_room
-                ):
-                    return provision.waits_for_room
-        return False
+            return None
+        provisions = (p for part in self.parts for p in part.component.provides if p.capability == transport)
+        return next((p for p in provisions if _has_file(p) or not p.waits_for_room), None)
 
     def _always_provides(self, capability: str) -> bool:
         named = {p.capability for part in self.parts for p in part.component.provides if _has_file(p)}

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -19,6 +20,8 @@ from tests.support.components.boards import (
     refused,
     written,
 )
+from tests.support.components.rendered import UNITS
+from tests.support.patience import seconds
 
 
 def test_both_boards_have_the_same_table(tmp_path: Path) -> None:
@@ -43,6 +46,23 @@ def test_both_boards_have_the_same_table(tmp_path: Path) -> None:
     assert (of_sensor.remote, of_sensor.remote_port, of_sensor.local_port) == ("10.0.0.2", 7500, 7500)
     assert not peers(tmp_path, "sensor").alone
     assert peers(tmp_path, "motor").shown == "sensor (/a, /b, /c); no agent is needed"
+
+
+@pytest.mark.builds
+def test_a_handle_of_a_board_may_be_an_address_in_the_upper_half(tmp_path: Path) -> None:
+    """lwIP's and FreeRTOS+TCP's are pointers: below 0 as a number where RAM begins at 0x80000000."""
+    (tmp_path / "own.yaml").write_text("target: own\nsummary: x\nextends: cortex-m4\ndata_model: any\n")
+    sensor = SENSOR.replace("system:", "target: ../own.yaml\ntransport: {type: udp}\nsystem:")
+    found = planned(written(tmp_path, sensor=sensor))
+    compiler.write(compiler.render(found), tmp_path / "out")
+    call: list[str | Path] = [
+        "gcc",
+        "-std=c99",
+        f"-I{tmp_path / 'out' / 'include'}",
+        UNITS / "peer_address.c",
+    ]
+    subprocess.run([*call, "-o", tmp_path / "unit"], check=True)
+    subprocess.run([tmp_path / "unit"], check=True, timeout=seconds(60))
 
 
 def test_another_table_has_another_key(tmp_path: Path) -> None:

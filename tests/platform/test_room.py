@@ -89,6 +89,23 @@ def test_a_serial_line_of_the_application_links_on_posix(folder: Path) -> None:
     subprocess.run([program], check=True, timeout=seconds(30))
 
 
+@pytest.mark.builds
+@pytest.mark.parametrize(("network", "expected"), [("posix_sockets", "looks"), ("lwip", "ignores")])
+@pytest.mark.parametrize("transport", [UDP, TCP])
+def test_a_wait_of_posix_looks_at_handles_of_its_own_sockets_only(
+    network: str, expected: str, transport: str, folder: Path
+) -> None:
+    """A handle of lwIP is an address or 0, which is standard input: a poll of it might return at once, each time."""
+    target = f"{{name: host, network: {network}}}"
+    out = rendered(folder, APPLICATION.format(target=target, transport=transport, tasks=TASKS))
+    names = ("port_posix_wait.c", "port_posix_room.c", "port_posix_time.c", "port_posix_lock.c", "lock.c")
+    files = [path for path in (out / "src").rglob("*.c") if path.name in names]
+    program = folder / "unit"
+    call: list[str | Path] = ["gcc", "-std=gnu99", f"-I{out / 'include'}", "-pthread"]
+    subprocess.run([*call, UNITS / "posix_wait.c", *files, "-o", program], check=True)
+    subprocess.run([program, expected], check=True, timeout=seconds(60))
+
+
 def test_a_part_of_the_user_says_it(folder: Path) -> None:
     (folder / "line" / "src").mkdir(parents=True)
     (folder / "line" / "src" / "line.c").write_text("/* see own.yaml */\n")

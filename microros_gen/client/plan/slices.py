@@ -56,6 +56,7 @@ class TransportPlan:
     `device` and `baud` are those of a serial line. `send_buffer`: bytes that wait for it; `keeps_output`: it takes
     messages of the reliable stream from where they are; `line_input`: the largest message that it must not lose while
     nobody reads; `line_chunk`: bytes that are read of it at a time; `own_line`: the application has its functions.
+    `wakes_for_room`: room in it ends a wait; `wakes`: what arrives calls port_wake, so nobody waits for its handle.
     """
 
     agent_host: str
@@ -73,6 +74,7 @@ class TransportPlan:
     line_chunk: int = LINE_CHUNK
     own_line: bool = False
     wakes_for_room: bool = False
+    wakes: bool = False
 
     @property
     def has_handle(self) -> bool:

@@ -35,6 +35,7 @@ def plan_transport(
         line_chunk=RING_CHUNK if own_driver else LINE_CHUNK,
         read_polls=requested.read_polls,
         wakes_for_room=_wakes_for_room(application, selection, target),
+        wakes=target.wakes(selection.transport),
     )
 
 

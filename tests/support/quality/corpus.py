@@ -165,6 +165,7 @@ SYSTEMS: Mapping[str, str] = MappingProxyType(
         "peer_also": SYSTEM + '  - {type: udp, ends: {other: "10.0.0.1:7500", own: "10.0.0.2:7500"}}\n',
         "peer_serial": SYSTEM + "  - {type: serial, ends: {own: /dev/ttyS1, other: uart}}\n",
         "peer_canfd": SYSTEM + "  - {type: canfd, ends: {own: can0, other: can0}}\n",
+        "peer_network": SYSTEM + '  - {type: udp, ends: {own: "10.0.0.1:7500", other: "10.0.0.2:7500"}}\n',
         "peer_board": SYSTEM + "  - {type: serial, ends: {own: uart, other: uart}}\n",
         "peer_services": SYSTEM + '  - {type: udp, ends: {own: "10.0.0.1:7500", other: "10.0.0.2:7500"}}\n',
         "peer_serving": SYSTEM + "  - {type: serial, ends: {own: uart, other: uart}}\n",
@@ -419,6 +420,7 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         + "components: [+multithread]\nerrors: code\n",
         "peer_serial": _PEER + _SERIAL,
         "peer_canfd": _PEER + "transport: {type: canfd}\n",
+        "peer_network": _PEER + "transport: {type: udp}\ntarget: cortex-m4\n",
         "peer_board": _PEER + "transport: {type: serial}\ntarget: qemu-mps2-an386\n",
         "peer_services": _PEER_SERVICES,
         "peer_serving": _PEER_SERVICES.replace("peer: also", "peer: only").replace(

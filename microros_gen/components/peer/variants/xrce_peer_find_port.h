@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Links whose device the port itself looks for, or cannot disappear. Internal. */
+/* Serial links: the port itself looks for a device that has disappeared. Internal. */
 #ifndef MICROROS_XRCE_PEER_FIND_H
 #define MICROROS_XRCE_PEER_FIND_H
 
@@ -9,7 +9,7 @@
 #include "microros/xrce_forward.h"
 #include "microros/xrce_peer.h"
 
-/* Returns whether the device of a link is gone. A port without such lines never has this handle. */
+/* Returns whether the device of a link is gone. The only line of a board never has this handle. */
 static inline bool xrce_peer_find(const xrce_client_t * client, uint8_t index, uint32_t now)
 {
   (void)client;
