@@ -26,11 +26,11 @@ _WIDTHS: Mapping[str, int] = {"1": 1, "2": 2, "4": 4, "8": 8, "bool": 1, "double
 
 @dataclass(frozen=True)
 class Written:
-    """What one call of a function of microros/cdr.h writes at most: `count` elements of `width` bytes."""
+    """What one call of a function of microros/cdr.h writes at most: `count` elements, which have `bytes` in all."""
 
     function: str
     count: int
-    width: int
+    bytes: int
 
 
 class Guards:
@@ -57,7 +57,8 @@ class Guards:
     def largest(self, function: str) -> Written | None:
         """Return what a call of `function` writes at most, whichever of this file; None: one of them is not known.
 
-        Functions that others of microros/cdr.h call, too, write what any call of this file does.
+        Functions that others of microros/cdr.h call, too, write what any call of this file does. The most elements and
+        the most bytes may be those of two calls.
         """
         calls = list(self._calls(0, len(self._text)))
         own = [call for call in calls if call is not None and call.function == function]
@@ -67,7 +68,8 @@ class Guards:
         chosen = [call for call in calls if call is None or not is_outer or call.function == function]
         if (not own and is_outer) or not chosen or any(call is None for call in chosen):
             return None
-        return max((call for call in chosen if call), key=lambda call: call.count * call.width)
+        known = [call for call in chosen if call is not None]
+        return Written(function, max(call.count for call in known), max(call.bytes for call in known))
 
     def _calls(self, begin: int, end: int) -> Iterator[Written | None]:
         for match in _CALL.finditer(self._text, begin, end):
@@ -92,7 +94,7 @@ class Guards:
 
     def _counted(self, name: str, count: str, width: int, at: int) -> Written | None:
         limit = self._limit(count, at)
-        return Written(name, limit, width) if isinstance(limit, int) else None
+        return Written(name, limit, limit * width) if isinstance(limit, int) else None
 
     def _limit(self, size: str, at: int) -> int | str | None:
         number = _NUMBER.match(size)

@@ -154,7 +154,7 @@ class _Image:
             return None
         place, written = self._lines.place(step.address), self._written(flow, step.address)
         if written is not None:
-            return written.count * written.width
+            return written.bytes
         return self._sources.size(place) if place is not None else None
 
     def _written(self, flow: Flow, address: int) -> Written | None:

@@ -42,19 +42,25 @@ def line_of(text: str, source: str = ENCODER) -> int:
 def test_what_is_written_follows_from_the_checks_before_it() -> None:
     guards = Guards(ENCODER)
     for text, written in (
-        ("cdr_put_string(body, 8U", Written("cdr_put_string", 40, 1)),
-        ("cdr_put_string(body, position", Written("cdr_put_string", 20, 1)),
-        ("cdr_put_sequence_8", Written("cdr_put_sequence_8", 8, 8)),
-        ("body, position, message->numbers", Written("cdr_put_sequence_8", 8, 8)),
-        ("cdr_put_packed_4", Written("cdr_put_packed_4", 8, 12)),
-        ("cdr_put_array_2", Written("cdr_put_array_2", 9, 2)),
+        ("cdr_put_string(body, 8U", Written("cdr_put_string", 40, 40)),
+        ("cdr_put_string(body, position", Written("cdr_put_string", 20, 20)),
+        ("cdr_put_sequence_8", Written("cdr_put_sequence_8", 8, 64)),
+        ("body, position, message->numbers", Written("cdr_put_sequence_8", 8, 64)),
+        ("cdr_put_packed_4", Written("cdr_put_packed_4", 8, 96)),
+        ("cdr_put_array_2", Written("cdr_put_array_2", 9, 18)),
         ("return position", None),
     ):
         assert guards.written(line_of(text)) == written, text
     assert guards.limit("message->names.size", line_of("for (size_t")) == 8
-    assert guards.largest("cdr_put_string") == Written("cdr_put_string", 40, 1)
-    assert guards.largest("cdr_copy") == Written("cdr_put_packed_4", 8, 12), "others call it, too"
+    assert guards.largest("cdr_put_string") == Written("cdr_put_string", 40, 40)
+    assert guards.largest("cdr_copy") == Written("cdr_copy", 40, 96), "others call it, too"
     assert guards.largest("cdr_put_wstring") is None
+
+
+def test_the_most_elements_need_not_have_the_most_bytes() -> None:
+    """A function that others call, as cdr_put_array_bool, has a round for each element, of whatever width."""
+    source = "{\n  cdr_put_array_8(body, message->doubles, 10U);\n  cdr_put_array_bool(body, message->flags, 70U);\n}\n"
+    assert Guards(source).largest("cdr_put_array_bool") == Written("cdr_put_array_bool", 70, 80)
 
 
 @pytest.mark.parametrize(
@@ -116,6 +122,6 @@ def test_an_inlined_call_is_that_of_the_source_which_calls_it() -> None:
     sources = Sources(lambda _: ENCODER, [])
     header = "include/microros/cdr.h"
     calls = [(header, 293), ("src/a/a__type_support.c", line_of("cdr_put_sequence_8")), ("src/b.c", 1)]
-    assert sources.written(calls, "encode", "src/a/a__type_support.c") == Written("cdr_put_sequence_8", 8, 8)
+    assert sources.written(calls, "encode", "src/a/a__type_support.c") == Written("cdr_put_sequence_8", 8, 64)
     own = sources.written(calls[:1], "cdr_put_packed_4.part.0", "src/a/a__type_support.c")
-    assert own == Written("cdr_put_packed_4", 8, 12)
+    assert own == Written("cdr_put_packed_4", 8, 96)
