@@ -101,17 +101,21 @@ const rcl_diagnosis_row_t * rcl_diagnosis_changed(const xrce_client_t * client, 
   return NULL;
 }
 
-/* Notes what a message reports. Returns whether a counter whose change is a warning differs from the message before. */
+/* Notes what a message reports of counters whose change is a warning. Returns whether one differs from the message before.
+ * The others are not read a second time: that of a stack reads the stack, with the lock held. */
 static bool diagnosis_note(const xrce_client_t * client, const rcl_diagnosis_status_t * about)
 {
   bool has_changed = false;
 
   for (uint8_t i = 0; i < about->row_count; ++i) {
     const uint8_t row = (uint8_t)(about->first_row + i);
-    const uint32_t count = rcl_diagnosis_count(client, row);
 
-    has_changed = has_changed || (rcl_diagnosis_rows[row].warns && count != diagnosis_sent[row]);
-    diagnosis_sent[row] = count;
+    if (rcl_diagnosis_rows[row].warns) {
+      const uint32_t count = rcl_diagnosis_count(client, row);
+
+      has_changed = has_changed || count != diagnosis_sent[row];
+      diagnosis_sent[row] = count;
+    }
   }
   return has_changed;
 }

@@ -30,13 +30,13 @@
 extern USBD_HandleTypeDef USB_DEVICE;
 
 static uint8_t rx[MICROROS_RX_SIZE];
-static uint8_t tx[2]
-                 [MICROROS_TX_SIZE]; /* one belongs to the last accepted transfer, which may be in flight */
-static uint8_t tx_free;              /* the other one */
-static bool is_stuck;                /* the last write timed out */
-static volatile size_t rx_first;     /* position of the next byte to read; only the reader changes it */
-static volatile size_t rx_end;       /* position after the last one; only the interrupt changes it */
-static volatile bool is_held;        /* the next packet was not asked for, because the buffer is full */
+/* One belongs to the last accepted transfer, which may be in flight; `tx_free` is the index of the other one. */
+static uint8_t tx[2][MICROROS_TX_SIZE];
+static uint8_t tx_free;
+static bool is_stuck;            /* the last write timed out */
+static volatile size_t rx_first; /* position of the next byte to read; only the reader changes it */
+static volatile size_t rx_end;   /* position after the last one; only the interrupt changes it */
+static volatile bool is_held;    /* the next packet was not asked for, because the buffer is full */
 static bool is_open;
 
 static size_t rx_room(void)
