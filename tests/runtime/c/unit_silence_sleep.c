@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 static const int64_t ms = 1000000;
+static const int64_t days = 1500000000; /* milliseconds: 17 days, awake */
 
 static rclc_support_t support;
 static rcl_allocator_t allocator;
@@ -86,8 +87,9 @@ static void spin(int64_t milliseconds)
   }
 }
 
-/* Is awake for 200 ms, and sleeps; its clock begins at 0 each time. Returns how often the function was called. */
-static int live(rmw_uros_retained_t * retained, bool wakes)
+/* Is awake for 200 ms and `longer` milliseconds, and sleeps; its clock begins at 0 each time. Returns how often the function
+ * was called. */
+static int live(rmw_uros_retained_t * retained, bool wakes, int64_t longer)
 {
   const pid_t child = fork();
   int status = 0;
@@ -97,6 +99,7 @@ static int live(rmw_uros_retained_t * retained, bool wakes)
     CHECK(rmw_uros_wake(retained) == wakes);
     open_all();
     spin(200);
+    agent_now_ns += longer * ms;
     CHECK(rmw_uros_sleep(rcl_context_get_rmw_context(&support.context), retained, 300) == RMW_RET_OK);
     _exit((int)stops);
   }
@@ -110,9 +113,11 @@ int main(void)
     mmap(NULL, sizeof(*retained), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
 
   CHECK(retained != MAP_FAILED);
-  CHECK(live(retained, false) == 0);
-  CHECK(live(retained, true) == 0);
-  CHECK(live(retained, true) == 1); /* 500 ms awake */
-  CHECK(live(retained, true) == 1); /* still silent: this program has not heard of it */
+  CHECK(live(retained, false, 0) == 0);
+  CHECK(live(retained, true, 0) == 0);
+  CHECK(live(retained, true, 0) == 1);    /* 500 ms awake */
+  CHECK(live(retained, true, days) == 1); /* still silent: this program has not heard of it */
+  CHECK(live(retained, true, days) == 1);
+  CHECK(live(retained, true, 0) == 1); /* and when the milliseconds have wrapped since it became silent */
   return 0;
 }

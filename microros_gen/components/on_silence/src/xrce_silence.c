@@ -14,7 +14,16 @@ static void silence_end(xrce_silence_t * silence, size_t i)
   silence->is_silent = false;
 }
 
-/* After a sleep the rest of the time continues. What was silent before it is so again: the program has begun again. */
+/* After a sleep the rest of the time continues. What was silent before it is so again, at once: the program has begun again,
+ * and the end of the time may be so long ago that it would seem to come. */
+static void silence_continue(xrce_silence_t * silence)
+{
+  if (silence->is_silent) {
+    silence->due_ms = port_time_ms();
+    silence->is_silent = false;
+  }
+}
+
 void xrce_silence_opened(const xrce_endpoint_t * endpoint)
 {
   xrce_client_t * client = endpoint->client;
@@ -23,7 +32,7 @@ void xrce_silence_opened(const xrce_endpoint_t * endpoint)
     if (endpoint->index == MICROROS_PUBLISHERS_MAX + xrce_silence_calls[i].receiver) {
       /* cppcheck-suppress knownConditionTrueFalse ; without sleep_cycles nothing is kept */
       if (xrce_place_is_kept(client, (uint16_t)(MICROROS_NODES_MAX + endpoint->index))) {
-        client->silences[i].is_silent = false;
+        silence_continue(&client->silences[i]);
       } else {
         silence_end(&client->silences[i], i);
       }
