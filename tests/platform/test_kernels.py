@@ -18,6 +18,7 @@ from microros_gen.selection.find_components import parts_folder
 from tests.support.command_line import Runner
 from tests.support.components.rendered import UNITS
 from tests.support.paths import TESTS
+from tests.support.patience import seconds
 
 KERNELS = TESTS / "platform" / "kernels"
 CPU = "cortex-m4"
@@ -159,6 +160,22 @@ def test_a_port_calls_what_its_kernel_declares(names: tuple[str, str], folder: P
         assert compiled >= of_os
     else:
         assert compiled == of_os | of_network
+
+
+@pytest.mark.builds
+def test_two_cores_of_an_esp32_make_each_semaphore_once(folder: Path, run: Runner) -> None:
+    names = ("esp_idf", "lwip")
+    (folder / "microros.yaml").write_text(application(names, VARIANTS[0]))
+    assert run("generate", "-o", "out").status == 0
+    parts = (folder / "out" / "src").rglob("port_freertos_*.c")
+    files = [path for path in parts if path.name in ("port_freertos_lock.c", "port_freertos_wait.c")]
+    assert len(files) == 2
+    folders = [
+        f"-I{path}" for path in (folder / "out" / "include", KERNELS / "freertos", KERNELS / "esp_idf")
+    ]
+    call = ["gcc", "-std=gnu99", "-DESP_PLATFORM", "-pthread", *folders, str(UNITS / "freertos_cores.c")]
+    subprocess.run([*call, *map(str, files), "-o", str(folder / "unit")], check=True)
+    subprocess.run([folder / "unit"], check=True, timeout=seconds(60))
 
 
 def settings_that_stop(

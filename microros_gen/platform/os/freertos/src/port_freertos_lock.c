@@ -18,20 +18,14 @@
 static SemaphoreHandle_t lock; /* the kernel's mutexes inherit priority */
 
 #ifdef ESP_PLATFORM
-/* vTaskSuspendAll of ESP-IDF stops the tasks of the caller's core only: if tasks of two cores call the library first at
- * once, one of them makes the lock, and the other waits for it. */
+/* If tasks of two cores call the library first at once, one of them makes the lock, and the other waits for it. */
 static void lock_make(void)
 {
   static portMUX_TYPE guard = portMUX_INITIALIZER_UNLOCKED;
   static StaticSemaphore_t storage;
   static bool is_begun;
-  bool makes;
 
-  portENTER_CRITICAL(&guard);
-  makes = !is_begun;
-  is_begun = true;
-  portEXIT_CRITICAL(&guard);
-  if (makes) {
+  if (port_freertos_is_first(&guard, &is_begun)) {
     lock = xSemaphoreCreateRecursiveMutexStatic(&storage); /* with storage, it cannot fail */
   }
   while (lock == NULL) {

@@ -6,10 +6,27 @@
 #include "semphr.h"
 #include "task.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 static SemaphoreHandle_t event; /* NULL until the first wait, which looks for what has arrived before */
 
+#ifdef ESP_PLATFORM
+/* If tasks of two cores wait first at once, one of them makes the semaphore, and the other waits for it. */
+static void event_make(void)
+{
+  static portMUX_TYPE guard = portMUX_INITIALIZER_UNLOCKED;
+  static StaticSemaphore_t storage;
+  static bool is_begun;
+
+  if (port_freertos_is_first(&guard, &is_begun)) {
+    event = xSemaphoreCreateBinaryStatic(&storage); /* with storage, it cannot fail */
+  }
+  while (event == NULL) {
+    vTaskDelay(1);
+  }
+}
+#else
 static void event_make(void)
 {
   static StaticSemaphore_t storage;
@@ -20,6 +37,7 @@ static void event_make(void)
   }
   (void)xTaskResumeAll();
 }
+#endif
 
 /* What arrives on any handle wakes. */
 void port_wait(intptr_t handle, uint32_t timeout_ms)

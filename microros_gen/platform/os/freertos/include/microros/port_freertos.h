@@ -9,6 +9,7 @@
 
 #include "FreeRTOS.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -28,6 +29,21 @@ extern "C" {
 #define PORT_FREERTOS_IS_INTERRUPT() (xPortInIsrContext() != pdFALSE)
 #elif !defined(PORT_FREERTOS_IS_INTERRUPT)
 #define PORT_FREERTOS_IS_INTERRUPT() (xPortIsInsideInterrupt() == pdTRUE)
+#endif
+
+#ifdef ESP_PLATFORM
+/* Returns true once: for one of the tasks that call it with the same objects, of any core. vTaskSuspendAll of ESP-IDF stops
+ * the tasks of the caller's core only. Internal. */
+static inline bool port_freertos_is_first(portMUX_TYPE * guard, bool * is_begun)
+{
+  bool is_first;
+
+  portENTER_CRITICAL(guard);
+  is_first = !*is_begun;
+  *is_begun = true;
+  portEXIT_CRITICAL(guard);
+  return is_first;
+}
 #endif
 
 /* FreeRTOSConfig.h may define PORT_FREERTOS_TIME_US as the name of a function that returns microseconds as a uint32_t, from
