@@ -142,13 +142,13 @@ def test_the_plan_of_a_project_has_no_examples(tmp_path: Path) -> None:
 @pytest.mark.builds
 @pytest.mark.parametrize(("processor", "is_warned"), [("atmega328p", True), ("atmega2560", False)])
 def test_too_little_ram_is_explained(tmp_path: Path, processor: str, is_warned: bool) -> None:
-    """The linker only says that a section is not within a region."""
+    """The linker only says that a section is not within a region. Arduino compiles without warnings by default."""
     if shutil.which("avr-g++") is None:
         pytest.skip("no avr-g++: apt-get install gcc-avr avr-libc")
     source = library(tmp_path) / "src" / "board_memory.cpp"
-    call = ["avr-g++", f"-mmcu={processor}", "-std=gnu++11", "-Wall", "-fsyntax-only", str(source)]
+    call = ["avr-g++", f"-mmcu={processor}", "-std=gnu++11", "-w", "-fsyntax-only", str(source)]
     done = subprocess.run(call, capture_output=True, text=True, check=True)
-    assert ("#warning" in done.stderr) == is_warned
+    assert ("too little RAM" in done.stderr) == is_warned
     assert ("microros-gen package arduino -c microros.yaml -o micro_ros_arduino" in done.stderr) == is_warned
 
 
