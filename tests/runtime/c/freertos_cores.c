@@ -25,7 +25,7 @@ static void * second_core(void * nothing)
   return nothing;
 }
 
-/* Returns only when the other task has come to the point where it waits for the semaphore. */
+/* Returns only when the other task waits for the semaphore. */
 static SemaphoreHandle_t make(void * storage)
 {
   ++made;
