@@ -86,7 +86,8 @@ class Component:
     `contributes` is what it adds to files that all share; `presence`, where the tool shows it.
     `asks` are capabilities of the platform; a component of layer `port` `provides` some. `folder` has its files.
     `implies`: what it opens by itself; the components that this takes are among its `needs`.
-    `pools` are the keys of the application file's `pools` that have an effect with it.
+    `pools` are the keys of the application file's `pools` that have an effect with it. `fills_messages`: it sends
+    messages as large as the transport takes, also where those of streams are smaller.
     `origin` says where a component is from that does not ship with the tool; `digest` changes with its files.
     """
 
@@ -105,6 +106,7 @@ class Component:
     provides: tuple[Provision, ...] = ()
     implies: tuple[Implied, ...] = ()
     pools: tuple[str, ...] = ()
+    fills_messages: bool = False
     contributes: Contributions = NOTHING
     presence: Presence = ABSENT
     folder: Path = field(default_factory=Path, compare=False)

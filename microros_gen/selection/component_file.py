@@ -20,6 +20,7 @@ from microros_gen.selection.xrce import OBJECT_KINDS, SUBMESSAGES, XRCE_PROFILES
 LAYERS = ("micro-ROS", "middleware", "port")
 _REQUIRED = ("component", "summary", "layer", "status")
 _LISTS = ("needs", "asks", "xrce", "sends", "receives", "objects", "headers", "sources", "implies", "pools")
+_FILLS = "fills_messages"
 _IMPLIED = ("type", "every_node", "queue", "qos", "limits", "executed", "storage", "unless", "outside_ros")
 _PROVISION = ("sources", "asks", "always", "waits_for_room")
 _STATUS = ("ready", "planned")
@@ -34,7 +35,7 @@ def parse_component(source: Source, diagnostics: Diagnostics) -> Component | Non
         if not diagnostics.has_errors():
             diagnostics.error(f"the component file '{source.name}' is empty", id="MG-4004")
         return None
-    check_keys(node, (*_REQUIRED, *_LISTS, "provides", *KEYS, *PRESENCE_KEYS), _REQUIRED, diagnostics)
+    check_keys(node, (*_REQUIRED, *_LISTS, _FILLS, "provides", *KEYS, *PRESENCE_KEYS), _REQUIRED, diagnostics)
     layer = read_choice(node, "layer", LAYERS, diagnostics)
     status = read_choice(node, "status", _STATUS, diagnostics)
     component = Component(
@@ -53,6 +54,7 @@ def parse_component(source: Source, diagnostics: Diagnostics) -> Component | Non
         provides=_provides(node, diagnostics),
         implies=_implies(node, diagnostics),
         pools=_names(node, "pools", diagnostics),
+        fills_messages=bool_of(node.get(_FILLS)) or False,
         contributes=read_contributions(node, diagnostics),
         presence=read_presence(node),
     )

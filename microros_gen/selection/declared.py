@@ -14,7 +14,6 @@ from microros_gen.application.task_decl import KEY as TASKS
 from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.records import dataclass
 
-CONTINUOUS = "continuous_serialization"
 STREAM_BEST_EFFORT = "stream_best_effort"
 STREAM_BEST_EFFORT_INPUT = "stream_best_effort_input"
 STREAM_RELIABLE = "stream_reliable"

@@ -119,7 +119,7 @@ def _text(plan: RuntimePlan, folder: Path) -> int:
 @pytest.mark.parametrize(
     ("transport", "framing", "most"),
     [
-        ("serial", "either", 536),
+        ("serial", "either", 540),
         ("custom", "on", 860),
         ("custom", "off", 280),
     ],

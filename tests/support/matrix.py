@@ -87,6 +87,8 @@ busy:
   gains: {type: double_array_fixed_2, default_value: [0.5], validation: {element_bounds<>: [0.0, 1.0]}}
 """
 """A parameter file with validations, for the variant that reads it."""
+_WIDE = "wstring[<=2] lines\n"
+"""A message of wide strings, which no included interface has in a sequence."""
 
 
 def _of_numbers(application: str) -> str:
@@ -121,7 +123,7 @@ VARIANTS: Mapping[str, str] = MappingProxyType(
         "reader-code-none-preconfigured": _READER
         + "entities: preconfigured\nliveliness: none\nerrors: code\n",
         "simulation-pool": "version: 1\nprofiles: [simulation_node, pure_sender]\nlimits: {'*': {string: 8}}\n"
-        + "interfaces: [std_msgs/msg/Header]\n",
+        + "interfaces: [std_msgs/msg/Header, wide_msgs/msg/Wide]\ninterface_paths: [interfaces]\n",
         "reader-pool-xml": "version: 1\nprofiles: [pure_reader]\ninterfaces: [std_msgs/msg/String]\n"
         + "entities: xml\nlimits: {'*': {string: 2000}}\ntransport: {mtu: 2400}\npools: {queue_bytes: 2100}\n",
         "server-binary-timers-sleep": _BUSY
@@ -324,6 +326,9 @@ def make_tree(name: str, text: str, folder: Path) -> Tree:
     config = folder / "microros.yaml"
     config.write_text(text, encoding="utf-8")
     (folder / "rules.yaml").write_text(_RULES, encoding="utf-8")
+    messages = folder / "interfaces" / "wide_msgs" / "msg"
+    messages.mkdir(parents=True)
+    (messages / "Wide.msg").write_text(_WIDE, encoding="utf-8")
     if name in SYSTEMS:
         (folder / "system.yaml").write_text(SYSTEMS[name], encoding="utf-8")
         (folder / "other.yaml").write_text(_of_numbers(OTHERS[name]), encoding="utf-8")

@@ -98,6 +98,7 @@ def _transport(plan: TransportPlan) -> _Record:
         "line_output": [plan.send_buffer, plan.keeps_output],
         "line_input": [plan.line_input, plan.line_chunk],
         **({"room": True} if plan.wakes_for_room else {}),
+        **({"wakes": True} if plan.wakes else {}),
     }
 
 

@@ -39,12 +39,7 @@ from microros_gen.interfaces.types import Message, TypeName
 from microros_gen.platform.provide import Provisions
 from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
-from microros_gen.selection.declared import (
-    CONTINUOUS,
-    STREAM_BEST_EFFORT,
-    STREAM_RELIABLE,
-    STREAM_RELIABLE_INPUT,
-)
+from microros_gen.selection.declared import STREAM_BEST_EFFORT, STREAM_RELIABLE, STREAM_RELIABLE_INPUT
 from microros_gen.selection.model import Selection
 from microros_gen.typesupport.plan.layout import models_of
 from microros_gen.typesupport.plan.own_limits import LimitSet
@@ -177,7 +172,7 @@ def plan_project(
         reliable_output=selection.has(STREAM_RELIABLE),
         best_effort_output=selection.has(STREAM_BEST_EFFORT),
     )
-    if selection.has(CONTINUOUS):  # its fragments are larger than the messages that are stored
+    if any(c.component.fills_messages for c in selection.components):
         part = part_size(selection.transport, streams.mtu, streams.send_buffer, application)
         streams = replace(streams, mtu=max(streams.mtu, part))
     receivers = receiving.subscriptions_max + serving.services_max + serving.clients_max
