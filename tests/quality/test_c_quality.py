@@ -158,7 +158,7 @@ def test_clang_tidy(all_units: list[Unit]) -> None:
         done = run(["clang-tidy", *options, unit.source, "--", *flags], unit.tree.out)
         return done.stdout + done.stderr if done.returncode else ""
 
-    name = f"clang-tidy, ports 32 bit, long type support {version} {TIDY.read_text(encoding='utf-8')}"
+    name = f"clang-tidy, ports 32 bit, long generated functions {version} {TIDY.read_text(encoding='utf-8')}"
     assert complaints(analyze(name, all_units, check)) == ""
 
 
