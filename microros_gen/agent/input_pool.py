@@ -40,8 +40,8 @@ class Holder:
         held = self.held + size
         if self._pool is None or (held <= self._pool.share and held <= self._most):  # asked for each fragment
             return True
-        more = self._beyond(self.held + size) - self._beyond(self.held)
-        return self.held + size <= self._most and more <= max(0, self._pool.free)
+        more = self._beyond(held) - self._beyond(self.held)
+        return held <= self._most and more <= max(0, self._pool.free)
 
     def add(self, size: int) -> None:
         """Reserve `size` bytes that cannot be refused; release them if `size` is negative."""

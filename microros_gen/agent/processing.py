@@ -96,11 +96,9 @@ class Processor:
         """Process one message of a client that has no other ready input."""
         try:
             at = start + SUBMESSAGE_HEADER
-            if (
-                data[start:at] == ACKNACK_HEAD and len(data) == at + 5
-            ):  # one for each message that a client receives
-                first, missing = data[at] | data[at + 1] << 8, data[at + 2] << 8 | data[at + 3]
-                self._operations.acknowledged(client, data[at + 4], first, missing, self._clock())
+            # A client sends one for each message that it receives.
+            if data[start:at] == ACKNACK_HEAD and len(data) == at + 5:
+                self._acknowledged(client, data, at)
                 return
             self._process(client, data, start, stream, False, 0)
         except Exception as error:
@@ -111,6 +109,11 @@ class Processor:
                 self._turns.put_off(client)
             else:
                 self.process(client)
+
+    def _acknowledged(self, client: Client, data: bytes, at: int) -> None:
+        """Process the body at `at` of an ACKNACK in little-endian order."""
+        first, missing = data[at] | data[at + 1] << 8, data[at + 2] << 8 | data[at + 3]
+        self._operations.acknowledged(client, data[at + 4], first, missing, self._clock())
 
     def process(self, client: Client) -> None:
         """Process ready input of a client until its turn ends."""
@@ -156,8 +159,7 @@ class Processor:
                     client.ready.appendleft((data, at - SUBMESSAGE_HEADER, stream, whole, error.done))
                     return
             elif identifier == ACKNACK and end - at == 5 and flags & FLAG_LITTLE:
-                first, missing = data[at] | data[at + 1] << 8, data[at + 2] << 8 | data[at + 3]
-                self._operations.acknowledged(client, data[at + 4], first, missing, self._clock())
+                self._acknowledged(client, data, at)
             elif identifier == FRAGMENT and not whole:
                 joined = client.session.fragment(stream, data[at:end], bool(flags & FLAG_LAST_FRAGMENT))
                 if joined is not None:

@@ -111,8 +111,9 @@ class ReliableOut:
         """Bytes in the window and the backlog, samples included; `_told` of them are reserved at the holder."""
         self._reported = 0
         self._link = link
-        self._head = len(link.header(0, 0))
-        self._before, self._after = bytes((link.session, stream)), link.header(0, 0)[4:]
+        header = link.header(0, 0)
+        self._head = len(header)
+        self._before, self._after = bytes((link.session, stream)), header[4:]
         """The parts of a message header before and after the sequence number."""
         self._part = (link.room() - SUBMESSAGE_HEADER) & ~3
         """Number of bytes in each FRAGMENT but the last, and its header."""
