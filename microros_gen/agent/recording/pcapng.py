@@ -45,7 +45,10 @@ class Interface:
 
 @dataclass(frozen=True)
 class Packet:
-    """A packet of a file: its interface, time since 1970 in nanoseconds, bytes, and what its options say."""
+    """A packet of a file: its interface, time since 1970 in nanoseconds, bytes, and what its options say.
+
+    `at` is the place of its bytes in the file, in bytes from its beginning.
+    """
 
     interface: Interface
     time_ns: int
@@ -53,6 +56,7 @@ class Packet:
     direction: int = 0
     comment: str = ""
     dropped: int = 0
+    at: int = 0
 
 
 def section(application: str) -> bytes:
@@ -154,6 +158,7 @@ def _packet(order: str, body: bytes, interfaces: Sequence[Interface], at: int) -
         flags & 3,
         _text(found.get(_COMMENT, b"")),
         int.from_bytes(found.get(_DROPPED, b""), _byteorder(order)),
+        at + _HEAD + _PACKET_HEAD,
     )
 
 

@@ -8,46 +8,31 @@ those that it has now; the identity in a reply is that of the request of this ru
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, OrderedDict, deque
 from collections.abc import Callable, Collection
 from typing import Any
 
-from microros_gen.agent.recording.recorded import Conversation, Message, opens_session
+from microros_gen.agent.recording.recorded import Conversation, opens_session
 from microros_gen.agent.replay.parts import IDENTITY, Part, Receiver, difference
+from microros_gen.agent.replay.plan import AHEAD, Plan, Step, Where, content
 from microros_gen.agent.replay.sender import Sender
 from microros_gen.agent.wire.constants import (
     SESSION_NONE_WITHOUT_KEY,
     STREAM_NONE,
     ObjectKind,
-    SubmessageId,
     is_reliable,
 )
 from microros_gen.agent.wire.data_messages import Data, WriteData
 from microros_gen.agent.wire.entity_messages import Acknack
-from microros_gen.agent.wire.errors import MalformedError
-from microros_gen.agent.wire.message import Header, header_size, join, split
+from microros_gen.agent.wire.message import Header, header_size, join
 from microros_gen.agent.wire.session_messages import CreateClient
 from microros_gen.agent.wire.submessages import encode
-from microros_gen.records import dataclass
 
-_FLOW = (SubmessageId.ACKNACK, SubmessageId.HEARTBEAT)
 _SHORTEST = 8
 """Bytes of the shortest message: a header and that of a submessage."""
 HEARTBEAT_S = 0.1
 """Seconds between two questions whether messages have arrived."""
 Send = Callable[[bytes], None]
-Where = tuple[int, int]
-"""Session of the conversation, from 1, and stream."""
-
-
-@dataclass(frozen=True)
-class _Step:
-    """A message to send: after how many answers of each stream, and whether all before it was acknowledged."""
-
-    message: Message
-    after: dict[Where, int]
-    acknowledged: bool
-    opens: bool
 
 
 class Player:
@@ -61,14 +46,14 @@ class Player:
         self._as_agent = as_agent
         self._wait_s = wait_s
         self._receiver, self._sender = Receiver(skipped), Sender()
-        self._expected: dict[Where, list[Part]] = {}
+        self._plan = Plan(conversation, as_agent, skipped)
         self._received: Counter[Where] = Counter()
-        self._steps = self._plan(Receiver(skipped))
-        self._at = 0
+        self._early: dict[Where, deque[Part]] = {}
+        self._early_count = 0
         self._waiting_since: float | None = None
         self._beat_at = 0.0
         self._session, self._key = self._recorded_session()
-        self._identities: dict[bytes, bytes] = {}
+        self._identities: OrderedDict[bytes, bytes] = OrderedDict()
         self._impatient = False
         self.difference = ""
         """The first difference, in words."""
@@ -78,9 +63,10 @@ class Player:
     @property
     def done(self) -> bool:
         """Whether all messages were sent and all answers came, or are not waited for any more."""
-        late = self._all_acknowledged and self._sender.pending
-        complete = self._impatient or not (late or self._missing(self._totals()))
-        return self._at == len(self._steps) and complete
+        if not self._plan.complete or self._plan.steps:
+            return False
+        late = self._plan.acknowledged and self._sender.pending
+        return self._impatient or not (late or self._plan.outstanding())
 
     def receive(self, data: bytes, send: Send) -> None:
         """Take a message of the other side."""
@@ -99,65 +85,47 @@ class Player:
 
     def tick(self, now: float, reached_ns: float, send: Send) -> None:
         """Send what is due: `now` in seconds, the recording has reached `reached_ns`."""
-        while self._at < len(self._steps) and self._steps[self._at].message.time_ns <= reached_ns:
-            step = self._steps[self._at]
-            if not self._may_send(step, now):
-                break
-            self._at += 1
+        self._read(reached_ns)
+        while self._plan.steps and self._may_send(self._plan.steps[0], now):
+            step = self._plan.steps.popleft()
             self._waiting_since = None
             self._play(step, send)
-        if self._at == len(self._steps) and not self.done:
-            self._may_go_on(self._totals(), now, "the last message was not acknowledged")
+            self._read(reached_ns)
+        if not self._plan.steps and not self.done and (self._plan.complete or self._plan.full):
+            self._may_go_on(self._plan.outstanding(), now, "the last message was not acknowledged")
         if self._sender.pending and now >= self._beat_at:
             self._beat_at = now + HEARTBEAT_S
             for heartbeat in self._sender.heartbeats():
                 send(self._flow(encode(heartbeat)))
 
-    def _plan(self, receiver: Receiver) -> list[_Step]:
-        """Divide the recording into messages to send and answers to expect."""
-        steps: list[_Step] = []
-        sender = Sender()
-        before: tuple[bytes, int] | None = None
-        for message in self.conversation.messages:
-            answers = sum(map(len, self._expected.values()))
-            if message.of_client is self._as_agent:
-                taken = receiver.take(message.data, message.number)
-                for part in taken.parts:
-                    self._expected.setdefault((part.session, part.stream), []).append(part)
-                    if isinstance(part.content, CreateClient):
-                        sender.reset()
-                for acknack in taken.acknacks:
-                    sender.take(acknack)
-            elif (message.data, answers) != before:
-                before = message.data, answers
-                opens = opens_session(message.data) and not self._as_agent
-                after = {where: len(parts) for where, parts in self._expected.items()}
-                if opens:
-                    receiver.reset()
-                    sender.reset()
-                if _content(message.data):
-                    steps.append(_Step(message, after, not sender.pending, opens))
-                    sender.keep(Header.decode(message.data), message.data)
-        self._all_acknowledged = not sender.pending
-        return steps
+    def _read(self, reached_ns: float) -> None:
+        """Read on, and compare what came before its place in the recording was read."""
+        while True:
+            self._plan.read(reached_ns)
+            for where in list(self._early):
+                self._match(where)
+            if not (self._impatient and self._plan.full and not self._plan.steps):
+                break
+            for where in self._plan.outstanding():
+                self._drop(where)
+        if self._plan.complete:
+            for where in list(self._early):
+                self._unexpected(where, self._early[where][0])
 
     def _recorded_session(self) -> tuple[int, bytes]:
         first = next(m.data for m in self.conversation.messages if opens_session(m.data))
         at = header_size(first)
         return first[at + 16], first[at + 12 : at + 16]
 
-    def _totals(self) -> dict[Where, int]:
-        return {where: len(parts) for where, parts in self._expected.items()}
-
     def _missing(self, wanted: dict[Where, int]) -> Part | None:
         late = [
-            self._expected[where][self._received[where]]
+            part
             for where, count in wanted.items()
-            if self._received[where] < count
+            if self._received[where] < count and (part := self._plan.next_expected(where))
         ]
         return min(late, key=lambda part: part.number, default=None)
 
-    def _may_send(self, step: _Step, now: float) -> bool:
+    def _may_send(self, step: Step, now: float) -> bool:
         head = Header.decode(step.message.data)
         late = step.acknowledged and self._sender.pending
         if not late and self._sender.has_room(head.stream) and not self._missing(step.after):
@@ -183,7 +151,7 @@ class Player:
         self._impatient = True
         return True
 
-    def _play(self, step: _Step, send: Send) -> None:
+    def _play(self, step: Step, send: Send) -> None:
         data = self._rewritten(step.message.data)
         if step.opens:
             self._receiver.reset()
@@ -199,7 +167,7 @@ class Player:
             outside = head.session in (STREAM_NONE, SESSION_NONE_WITHOUT_KEY)
             session = self._session & SESSION_NONE_WITHOUT_KEY if outside else self._session
             head = Header(session, head.stream, head.sequence, self._key if session < 0x80 else b"")
-        return join(head, [self._identified(each) for each in _content(data)])
+        return join(head, [self._identified(each) for each in content(data)])
 
     def _identified(self, submessage: bytes) -> bytes:
         if self._as_agent or submessage[0] != WriteData.ID or len(submessage) < _SHORTEST:
@@ -214,20 +182,44 @@ class Player:
             self._session, self._key = part.content.session, part.content.key
             self._sender.reset()
         where = part.session, part.stream
-        count = self._received[where]
+        self._early.setdefault(where, deque()).append(part)
+        self._early_count += 1
+        self._match(where)
+        if self._early_count > AHEAD or (self._plan.complete and where in self._early):
+            self._unexpected(where, part)
+
+    def _match(self, where: Where) -> None:
+        """Compare what came on a stream with the answers that were read."""
+        early = self._early[where]
+        while early and (recorded := self._plan.next_expected(where)):
+            part = early.popleft()
+            self._early_count -= 1
+            self._drop(where)
+            self.compared += 1
+            if not (self._plan.steps or self._plan.complete):
+                self._waiting_since = None
+            found = difference(recorded, part)
+            if found:
+                self._differ(f"packet {recorded.number}: {found}")
+            elif _is_request(recorded.content):
+                self._remember(recorded.content.data[:IDENTITY], part.content.data[:IDENTITY])
+        if not early:
+            del self._early[where]
+
+    def _drop(self, where: Where) -> None:
+        self._plan.drop(where)
         self._received[where] += 1
-        expected = self._expected.get(where, [])
-        if count >= len(expected):
-            last = f"after packet {expected[-1].number}: " if expected else ""
-            self._differ(f"{last}{part.name} was received, which the recording does not have")
-            return
-        self.compared += 1
-        recorded = expected[count]
-        found = difference(recorded, part)
-        if found:
-            self._differ(f"packet {recorded.number}: {found}")
-        elif _is_request(recorded.content):
-            self._identities[recorded.content.data[:IDENTITY]] = part.content.data[:IDENTITY]
+
+    def _unexpected(self, where: Where, part: Part) -> None:
+        """Forget what came on a stream and is not in the recording."""
+        last = f"after packet {self._plan.last[where]}: " if where in self._plan.last else ""
+        self._differ(f"{last}{part.name} was received, which the recording does not have")
+        self._early_count -= len(self._early.pop(where))
+
+    def _remember(self, recorded: bytes, now: bytes) -> None:
+        self._identities[recorded] = now
+        if len(self._identities) > AHEAD:
+            self._identities.popitem(last=False)
 
     def _differ(self, text: str) -> None:
         self.difference = self.difference or text
@@ -242,12 +234,3 @@ class Player:
 
 def _is_request(content: Any) -> bool:
     return isinstance(content, Data) and content.object & 0x0F == ObjectKind.REPLIER
-
-
-def _content(data: bytes) -> list[bytes]:
-    """Return the submessages of a message other than acknowledgements and heartbeats; a malformed one has none."""
-    try:
-        spans = split(data, header_size(data))
-    except MalformedError:
-        return []
-    return [data[start - 4 : end] for identifier, _, start, end in spans if identifier not in _FLOW]

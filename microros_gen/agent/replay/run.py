@@ -139,7 +139,7 @@ class Replay:
         """Play `speed` times as fast as recorded; 0: each message as soon as what preceded it arrived."""
         self._players = players
         self._side = side
-        begin_ns = min(player.conversation.messages[0].time_ns for player in players)
+        begin_ns = min(next(iter(player.conversation.messages)).time_ns for player in players)
         self._clock = Clock(begin_ns, speed)
         self._stopped = False
 

@@ -26,7 +26,7 @@ from microros_gen.agent.input_pool import InputPool
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.recording.packets import PREFIX, line_number
-from microros_gen.agent.recording.recorded import Conversation, read_recording
+from microros_gen.agent.recording.recorded import Conversation, open_recording
 from microros_gen.agent.replay.links import Link, Place, open_link
 from microros_gen.agent.replay.player import Player
 from microros_gen.agent.replay.run import AgentSide, ClientSide, Replay
@@ -51,19 +51,22 @@ def play(
     skip: tuple[str, ...],
     baud: int,
 ) -> None:
-    """Play a file, print what came of it, and exit with its status; `speed` 0: at once. Raises UserError."""
+    """Play a file, print what came of it, and exit with its status; `speed` 0: at once. Raises UserError, OSError."""
     wanted = None if client is None else _key(client)
-    conversations, outside = read_recording(file, wanted)
-    if outside:
-        click.echo(f"{outside} packets are outside of sessions that the file has from their start", err=True)
-    chosen = [each for each in conversations if wanted in (None, each.key)]
-    if not chosen:
-        known = ", ".join(dict.fromkeys(each.key for each in conversations))
-        reason = f"{file} has no client {client}"
-        raise UserError([Diagnostic(reason, hint=f"It has {known}", id="MG-9798")])
-    players = [Player(each, as_agent, wait, skip) for each in chosen]
     log = EventLog(sys.stderr)
     with ExitStack() as stack:
+        recording = stack.enter_context(open_recording(file, wanted))
+        if recording.outside:
+            count = recording.outside
+            click.echo(
+                f"{count} packets are outside of sessions that the file has from their start", err=True
+            )
+        chosen = [each for each in recording.conversations if wanted in (None, each.key)]
+        if not chosen:
+            known = ", ".join(dict.fromkeys(each.key for each in recording.conversations))
+            reason = f"{file} has no client {client}"
+            raise UserError([Diagnostic(reason, hint=f"It has {known}", id="MG-9798")])
+        players = [Player(each, as_agent, wait, skip) for each in chosen]
         opened = _as_agent if as_agent else _as_clients
         _allow_descriptors(len(players))
         side = opened(stack, players, at, baud, log)
@@ -71,7 +74,7 @@ def play(
         run = Replay(players, side, speed)
         with stopped_by_signals(run):
             _run(run)
-    differs = [_report(player) for player in players]
+        differs = [_report(player) for player in players]
     sys.exit(DIFFERS if any(differs) else 0)
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from random import Random
@@ -12,7 +13,8 @@ import pytest
 
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.recording.packets import endpoint
-from microros_gen.agent.recording.recorded import Conversation, Message, read_recording
+from microros_gen.agent.recording.recorded import Conversation, Message, open_recording
+from microros_gen.agent.replay.plan import AHEAD
 from microros_gen.agent.replay.player import Player
 from microros_gen.agent.wire.data_messages import Data, WriteData
 from microros_gen.agent.wire.message import Header, join
@@ -29,9 +31,10 @@ FIRST, SECOND = bytes(range(24)), bytes(range(100, 124))
 
 def recorded(path: Path, **client: int) -> Conversation:
     record_publisher(path, **client)
-    (conversation,), outside = read_recording(path)
-    assert outside == 0
-    return conversation
+    with open_recording(path) as recording:
+        (conversation,) = recording.conversations
+        assert recording.outside == 0
+        return replace(conversation, messages=tuple(conversation.messages))
 
 
 def play(player: Player, bench: Bench, seconds: float = 8.0) -> None:
@@ -77,7 +80,7 @@ def test_an_agent_that_is_silent(tmp_path: Path) -> None:
 def test_messages_are_sent_at_their_time(tmp_path: Path) -> None:
     """The first sample was recorded 0.5 s after the session began."""
     conversation = recorded(tmp_path / "a")
-    begin = conversation.messages[0].time_ns
+    begin = next(iter(conversation.messages)).time_ns
     player, bench = Player(conversation, as_agent=False, wait_s=2), Bench()
     waiting: deque[bytes] = deque()
     counts = []
@@ -118,8 +121,7 @@ def test_both_sides_over_a_link_that_loses_and_reorders(tmp_path: Path, seed: in
 def test_firmware_with_another_key_and_session(tmp_path: Path) -> None:
     """The agent's messages have the session's id and the key that the firmware has now."""
     player = Player(recorded(tmp_path / "a", session=0x01), as_agent=True, wait_s=2)
-    record_publisher(tmp_path / "b", key=0x00000007, session=0x02)
-    (other,), _ = read_recording(tmp_path / "b")
+    other = recorded(tmp_path / "b", key=0x00000007, session=0x02)
     client, waiting = Player(other, as_agent=False, wait_s=2), deque[bytes]()
     seen = []
     for step in range(200):
@@ -148,6 +150,7 @@ def test_firmware_that_sends_something_else(tmp_path: Path) -> None:
     for message in changed:
         if message.of_client:
             player.receive(message.data, lambda _: None)
+    player.tick(0.0, LATER, lambda _: None)
     assert player.difference.startswith(f"packet {first}: WRITE_DATA: data 00")
     assert player.difference.endswith("00 00 00 01 was received")
 
@@ -165,7 +168,7 @@ def served(identity: bytes) -> list[bytes]:
 
 def test_a_reply_has_the_identity_of_the_request_of_this_run() -> None:
     messages = [Message(n, n, n in (1, 4), data) for n, data in enumerate(served(FIRST), 1)]
-    player = Player(Conversation("udp4 127.0.0.1:1", endpoint("127.0.0.1:2"), tuple(messages)), False, 2)
+    player = Player(Conversation("udp4 127.0.0.1:1", endpoint("127.0.0.1:2"), messages), False, 2)
     now = served(SECOND)
     sent: list[bytes] = []
     for answer in (now[1], now[2]):
@@ -178,7 +181,7 @@ def test_a_reply_has_the_identity_of_the_request_of_this_run() -> None:
 
 def test_kinds_that_are_skipped_are_not_waited_for() -> None:
     messages = [Message(n, n, n in (1, 4), data) for n, data in enumerate(served(FIRST), 1)]
-    conversation = Conversation("udp4 127.0.0.1:1", endpoint("127.0.0.1:2"), tuple(messages))
+    conversation = Conversation("udp4 127.0.0.1:1", endpoint("127.0.0.1:2"), messages)
     player, sent = Player(conversation, False, 2, ["DATA"]), list[bytes]()
     player.tick(1.0, LATER, sent.append)
     player.receive(messages[1].data, sent.append)
@@ -202,5 +205,85 @@ def test_a_recording_from_the_middle_of_a_session(tmp_path: Path) -> None:
     begin = content.index(b"\x06\0\0\0")
     size = int.from_bytes(content[begin + 4 : begin + 8], "little")
     path.write_bytes(content[:begin] + content[begin + size :])
-    with pytest.raises(UserError, match="has no session of a client"):
-        read_recording(path)
+    with pytest.raises(UserError, match="has no session of a client"), open_recording(path):
+        pass
+
+
+def session_of(samples: int, *streams: int) -> list[Message]:
+    """Return a session in which the client writes samples, which an agent does not answer, 1 ms after each other."""
+    opened = served(FIRST)[:2]
+    written = [
+        join(Header(0x81, stream, n & 0xFFFF), [encode(WriteData(n & 0xFFFF, 0x0015, b"1234"))])
+        for n in range(samples)
+        for stream in streams
+    ]
+    return [
+        Message(n, n * 1_000_000, data is not opened[1], data) for n, data in enumerate(opened + written, 1)
+    ]
+
+
+def test_only_a_part_of_a_long_conversation_is_in_memory() -> None:
+    """A client that waits for an answer does not read on without limit, and then sends all in its order."""
+    messages = session_of(3 * AHEAD, 1)
+    taken: list[int] = []
+
+    def read() -> Iterator[Message]:
+        for message in messages:
+            taken.append(message.number)
+            yield message
+
+    player = Player(Conversation("udp4 127.0.0.1:1", endpoint("127.0.0.1:2"), Again(read)), False, 2)
+    taken.clear()
+    sent: list[bytes] = []
+    player.tick(0.0, LATER, sent.append)
+    assert sent == [messages[0].data]
+    assert len(taken) <= AHEAD + 3
+    player.receive(messages[1].data, sent.append)
+    player.tick(0.1, LATER, sent.append)
+    assert sent == [message.data for message in messages if message.of_client]
+    assert (player.difference, player.done) == ("", True)
+
+
+class Again:
+    """Messages that are read again each time."""
+
+    def __init__(self, read: Callable[[], Iterator[Message]]) -> None:
+        self._read = read
+
+    def __iter__(self) -> Iterator[Message]:
+        return self._read()
+
+
+def test_an_answer_that_arrives_before_its_time() -> None:
+    """An agent that is faster than the recorded one is not taken for one that sends more."""
+    messages = [Message(n, n * 10**9, n in (1, 4), data) for n, data in enumerate(served(FIRST), 1)]
+    player = Player(Conversation("udp4 127.0.0.1:1", endpoint("127.0.0.1:2"), messages), False, 2)
+    sent: list[bytes] = []
+    player.tick(0.0, 1e9, sent.append)
+    for answer in messages[1:3]:
+        player.receive(answer.data, sent.append)
+    player.tick(0.1, 1.1e9, sent.append)
+    assert (player.compared, player.difference, player.done) == (0, "", False)
+    player.tick(3.0, 4e9, sent.append)
+    assert (player.compared, player.difference, player.done) == (2, "", True)
+    assert sent == [messages[0].data, messages[3].data]
+
+
+def test_many_answers_that_do_not_come() -> None:
+    """The other side is silent where more answers were recorded than are read ahead: the replay goes on to its end."""
+    opened = [Message(m.number, m.number, m.of_client, m.data) for m in session_of(0)]
+    many = [
+        Message(n, n, False, join(Header(0x81, 1, n & 0xFFFF), [encode(Data(10, 0x0016, b"data"))]))
+        for n in range(3, 3 * AHEAD)
+    ]
+    last = Message(3 * AHEAD, 3 * AHEAD, True, served(FIRST)[3])
+    player = Player(
+        Conversation("udp4 127.0.0.1:1", endpoint("127.0.0.1:2"), [*opened, *many, last]), False, 2
+    )
+    sent: list[bytes] = []
+    player.tick(0.0, LATER, sent.append)
+    player.receive(opened[1].data, sent.append)
+    for now in (0.1, 1.0, 2.2, 2.3):
+        player.tick(now, LATER, sent.append)
+    assert player.difference == "packet 3: DATA did not come within 2 s"
+    assert (sent, player.done) == ([opened[0].data, last.data], True)
