@@ -269,7 +269,7 @@ def test_an_answer_that_arrives_before_its_time() -> None:
     assert sent == [messages[0].data, messages[3].data]
 
 
-def test_many_answers_that_do_not_come() -> None:
+def test_many_answers_that_never_arrive() -> None:
     """The other side is silent where more answers were recorded than are read ahead: the replay goes on to its end."""
     opened = [Message(m.number, m.number, m.of_client, m.data) for m in session_of(0)]
     many = [
