@@ -7,7 +7,11 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_routes.h"
 #include "microros/xrce_session_spin.h"
+#include "microros/xrce_wait_left.h"
+#include "rmw_microros/init_options.h"
+#include "rmw_microros/timing.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 static bool session_is_open(const rmw_context_t * context)
@@ -65,4 +69,55 @@ rmw_ret_t rmw_uros_flush(rmw_context_t * context, uint32_t timeout_ms)
     return RMW_RET_INVALID_ARGUMENT;
   }
   return rmw_client_flush(context->impl, timeout_ms) ? RMW_RET_OK : RMW_RET_TIMEOUT;
+}
+
+rmw_ret_t rmw_uros_time_until_due(const rmw_context_t * context, int64_t * duration_ns)
+{
+  const int64_t ns_per_ms = 1000000;
+  uint32_t left_ms;
+
+  if (context == NULL || context->impl == NULL || duration_ns == NULL) {
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "context or duration_ns");
+  }
+  microros_lock();
+  left_ms = xrce_wait_left(context->impl, UINT32_MAX);
+  microros_unlock();
+  *duration_ns = (left_ms != UINT32_MAX) ? ((int64_t)left_ms * ns_per_ms) : INT64_MAX;
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_uros_options_set_client_key(uint32_t client_key, rmw_init_options_t * rmw_options)
+{
+  if (rmw_options == NULL || client_key == 0u) {
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "client_key or rmw_options");
+  }
+  rmw_options->transport_params.client_key = client_key;
+  return RMW_RET_OK;
+}
+
+static bool timing_is_valid(const rmw_context_t * context, int session_timeout)
+{
+  if (context == NULL || context->impl == NULL || session_timeout < 0) {
+    microros_error_set(microros_error_argument, "context or session_timeout", NULL, 0, 0);
+    return false;
+  }
+  return true;
+}
+
+rmw_ret_t rmw_uros_set_context_entity_creation_session_timeout(rmw_context_t * context, int session_timeout)
+{
+  if (!timing_is_valid(context, session_timeout)) {
+    return RMW_RET_INVALID_ARGUMENT;
+  }
+  context->impl->create_timeout_ms = (uint32_t)session_timeout;
+  return RMW_RET_OK;
+}
+
+rmw_ret_t rmw_uros_set_context_entity_destroy_session_timeout(rmw_context_t * context, int session_timeout)
+{
+  if (!timing_is_valid(context, session_timeout)) {
+    return RMW_RET_INVALID_ARGUMENT;
+  }
+  context->impl->close_timeout_ms = (uint32_t)session_timeout;
+  return RMW_RET_OK;
 }

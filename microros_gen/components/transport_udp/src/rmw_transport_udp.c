@@ -2,6 +2,7 @@
 #include "microros/rmw_address.h"
 #include "microros/rmw_transport.h"
 #include "microros_config.h"
+#include "rmw_microros/init_options.h"
 
 #include <string.h>
 
@@ -11,4 +12,10 @@ bool rmw_transport_prepare(xrce_transport_t * transport, const rmw_uxrce_transpo
   transport->host = params->agent_address[0] != '\0' ? params->agent_address : MICROROS_AGENT_HOST;
   transport->port = rmw_address_port(params->agent_port);
   return true;
+}
+
+rmw_ret_t rmw_uros_options_set_udp_address(
+  const char * ip, const char * port, rmw_init_options_t * rmw_options)
+{
+  return rmw_address_set(rmw_options, ip, port);
 }

@@ -6,8 +6,10 @@
 #include "microros/rcl_node_open.h"
 #include "microros/rmw_node.h"
 #include "microros/xrce_client.h"
+#include "rcl/node_options.h"
 
 #include <stddef.h>
+#include <string.h>
 
 rcl_node_t rcl_get_zero_initialized_node(void)
 {
@@ -117,4 +119,31 @@ rcl_ret_t rcl_node_get_domain_id(const rcl_node_t * node, size_t * domain_id)
 rmw_node_t * rcl_node_get_rmw_handle(const rcl_node_t * node)
 {
   return rcl_node_is_valid_except_context(node) ? node->impl : NULL;
+}
+
+rcl_node_options_t rcl_node_get_default_options(void)
+{
+  rcl_node_options_t options;
+
+  (void)memset(&options, 0, sizeof(options));
+  options.allocator = rcl_get_default_allocator();
+  options.use_global_arguments = true;
+  return options;
+}
+
+rcl_ret_t rcl_node_options_copy(const rcl_node_options_t * options, rcl_node_options_t * options_out)
+{
+  if (options == NULL || options_out == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "options");
+  }
+  *options_out = *options;
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_node_options_fini(rcl_node_options_t * options)
+{
+  if (options == NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "options");
+  }
+  return RCL_RET_OK;
 }

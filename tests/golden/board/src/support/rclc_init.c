@@ -2,8 +2,10 @@
 #include "rclc/init.h"
 
 #include "microros/error.h"
+#include "microros/port.h"
 #include "microros/rcl_open.h"
 #include "rcl/init.h"
+#include "rclc/sleep.h"
 
 #include <string.h>
 
@@ -55,4 +57,9 @@ rcl_ret_t rclc_support_fini(rclc_support_t * support)
   result = rcl_shutdown(&support->context);
   fini = rcl_context_fini(&support->context);
   return result == RCL_RET_OK && fini == RCL_RET_OK ? RCL_RET_OK : RCL_RET_ERROR;
+}
+
+void rclc_sleep_ms(unsigned int ms)
+{
+  port_sleep_ms(ms);
 }

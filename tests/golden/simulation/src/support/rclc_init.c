@@ -2,9 +2,11 @@
 #include "rclc/init.h"
 
 #include "microros/error.h"
+#include "microros/port.h"
 #include "microros/rcl_open.h"
 #include "microros/rcl_clock_source.h"
 #include "rcl/init.h"
+#include "rclc/sleep.h"
 
 #include <string.h>
 
@@ -61,4 +63,9 @@ rcl_ret_t rclc_support_fini(rclc_support_t * support)
   fini = rcl_context_fini(&support->context);
   (void)rcl_ros_clock_fini(&support->clock); /* never initialized: nothing to finalize */
   return result == RCL_RET_OK && fini == RCL_RET_OK ? RCL_RET_OK : RCL_RET_ERROR;
+}
+
+void rclc_sleep_ms(unsigned int ms)
+{
+  port_sleep_ms(ms);
 }

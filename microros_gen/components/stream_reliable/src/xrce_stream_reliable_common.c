@@ -1,4 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* What the stream does alike with each kind of storage. */
+#include "microros/xrce_mark.h"
+#include "microros/xrce_stream_reliable.h"
+#include "microros/xrce_wire.h"
+
+enum { HEARTBEAT_SIZE = 13 };
+
 /*
  * Waits for a part of the stream. Messages keep their order, and one that is dropped only moves those after it forward: so
  * what is waited for are always the first `left` numbers, and never more than those of the stored messages. A new session
@@ -6,9 +13,6 @@
  * between the last look and the loss is not known; then the wait is for as many of the stored messages, which is too long by
  * at most the slots of the stream.
  */
-#include "microros/xrce_mark.h"
-#include "microros/xrce_stream_reliable.h"
-
 static uint32_t mark_left(
   const xrce_stream_reliable_t * stream, const xrce_session_t * session, const xrce_mark_t * mark)
 {
@@ -43,4 +47,20 @@ bool xrce_stream_reliable_has_passed(
     mark->is_counted = is_ready && !stream->held;
   }
   return mark->left == 0u;
+}
+
+bool xrce_stream_reliable_heartbeat(
+  xrce_stream_reliable_t * stream, xrce_session_t * session, uint16_t count, uint32_t now)
+{
+  const uint32_t pause_ms = xrce_session_short_pause(now - stream->since_ms);
+  uint8_t message[HEARTBEAT_SIZE];
+
+  xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_NONE, 0);
+  xrce_put_submessage(&message[4], XRCE_HEARTBEAT, XRCE_FLAG_LITTLE_ENDIAN, HEARTBEAT_SIZE - 8);
+  xrce_put_le16(&message[8], stream->first);
+  xrce_put_le16(&message[10], (uint16_t)(stream->first + count - 1u));
+  message[12] = XRCE_STREAM_RELIABLE;
+  stream->due_ms =
+    now + (pause_ms > MICROROS_HEARTBEAT_PERIOD_MS ? pause_ms : (uint32_t)MICROROS_HEARTBEAT_PERIOD_MS);
+  return xrce_session_send(session, message, sizeof(message));
 }
