@@ -450,3 +450,26 @@ def test_times_of_callbacks(tmp_path: Path, lock: str) -> None:
     program = tmp_path / "unit"
     run("gcc", *flags, *checks, f"-I{out / 'include'}", *sources, "-o", program)
     assert run(program) == "ok\n"
+
+
+def test_no_stack_is_read_when_a_node_is_opened(tmp_path: Path) -> None:
+    """The lock is held, and the stacks of all tasks at once would be a long time: only what can be a warning counts."""
+    out = rendered(tmp_path, BARE + TASKS)
+    rows = slice_of(planned(tmp_path, BARE + TASKS)).rows
+    text = (out / "src" / "diagnosis" / "rcl_diagnosis_declared.c").read_text()
+    begin = text.index("const rcl_diagnosis_row_t")
+    (tmp_path / "tables.c").write_text(
+        f'#include "microros/rcl_diagnosis.h"\n{text[begin : text.index("};", begin) + 2]}\n'
+    )
+    sources = [
+        UNITS / "unit_diagnosis_open.c",
+        out / "src" / "diagnosis" / "rcl_diagnosis.c",
+        tmp_path / "tables.c",
+    ]
+    unused = ("-ffunction-sections", "-Wl,--gc-sections")  # what only a report calls
+    program = tmp_path / "unit"
+    run("gcc", "-std=c99", "-Wall", *unused, f"-I{out / 'include'}", *sources, "-o", program)
+    assert [line.split() for line in run(program).splitlines()] == [
+        [row.key, "2" if row.warns else "0"] for row in rows
+    ]
+    assert sum(row.key == "stack_peak" for row in rows) == 3

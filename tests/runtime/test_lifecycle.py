@@ -18,7 +18,7 @@ from microros_gen.interfaces.closure import resolve_interfaces
 from microros_gen.interfaces.find import InterfaceFinder, shipped_folder
 from microros_gen.ros.codec import ENCAPSULATION_BYTES, Codec
 from tests.support.runtime.driver import Client
-from tests.support.runtime.harness import Tree, build, compile_objects, link
+from tests.support.runtime.harness import FIXTURES, Tree, build, compile_objects, link
 from tests.support.runtime.parts_agent import PARTS, PartsAgent
 from tests.support.runtime.serving_agent import identity
 from tests.support.runtime.surface import write_application
@@ -304,6 +304,39 @@ def test_the_state_survives_a_sleep(device: Device, program: Path, codec: Codec,
         cold.agent = client.agent  # type: ignore[assignment]
         cold.start()
         assert cold.state() == "unconfigured"
+
+
+def test_a_reply_survives_a_sleep_between_its_parts(
+    device: Device, program: Path, codec: Codec, tmp_path: Path
+) -> None:
+    """It goes on when the node has its life cycle again: only then its bytes are known."""
+    device.start()
+    number = device.request("get_transition_graph")
+    device.spin(20)
+    device.client.ok(f"sleep {tmp_path / 'memory'}")
+    before = len(device.agent.parts)
+    assert before > 1
+    assert not device.agent.answered
+    with Client(program, device.agent) as client:
+        client.wait(77_000)
+        client.ok(f"wake {tmp_path / 'memory'}")
+        woken = Device(client, device.agent, codec)
+        client.ok("init")
+        woken.spin()
+        assert len(device.agent.parts) == before
+        client.ok("make")
+        woken.spin(200)
+        assert len(woken.answer("get_transition_graph", number)["available_transitions"]) == 25
+    assert device.agent.spoiled == 0
+
+
+def test_a_reply_without_a_body_neither_begins_nor_is_waited_for(tree: Tree, tmp_path: Path) -> None:
+    """After a sleep a device that waits for its node would otherwise poll."""
+    sources = (FIXTURES / "unit_parts.c", next(s for s in tree.sources if s.name == "xrce_parts.c"))
+    flags = ("-std=c99", "-Wall", "-Werror", "-ffunction-sections", "-Wl,--gc-sections")
+    program = tmp_path / "parts"
+    subprocess.run(["gcc", *flags, f"-I{tree.include}", *sources, "-o", program], check=True)
+    assert subprocess.run([program], capture_output=True, text=True, check=True).stdout == "ok\n"
 
 
 def test_labels_of_any_length(device: Device) -> None:

@@ -38,6 +38,18 @@ static uint32_t diagnosis_seen[MICROROS_DIAGNOSIS_ROWS]; /* as reported often en
 static uint32_t diagnosis_until_ms[MICROROS_DIAGNOSIS_STATUSES];
 static uint8_t diagnosis_reported[MICROROS_DIAGNOSIS_STATUSES];
 
+/* Takes the present counters whose change is a warning as reported. Others are not read: the lock is held, and that of a
+ * stack reads the stack. */
+static void diagnosis_begin(const xrce_client_t * client)
+{
+  for (uint8_t row = 0; row < (uint8_t)MICROROS_DIAGNOSIS_ROWS; ++row) {
+    if (rcl_diagnosis_rows[row].warns) {
+      diagnosis_seen[row] = rcl_diagnosis_count(client, row);
+      diagnosis_sent[row] = diagnosis_seen[row];
+    }
+  }
+}
+
 rcl_ret_t rcl_diagnosis_open(const rcl_node_t * node)
 {
   xrce_client_t * client = rmw_client_instance();
@@ -52,10 +64,7 @@ rcl_ret_t rcl_diagnosis_open(const rcl_node_t * node)
   result = rmw_publisher_open(node->impl, &diagnosis_type, "/diagnostics", &qos, &diagnosis_publisher);
   if (result == RCL_RET_OK) {
     microros_lock();
-    for (uint8_t row = 0; row < (uint8_t)MICROROS_DIAGNOSIS_ROWS; ++row) {
-      diagnosis_seen[row] = rcl_diagnosis_count(client, row);
-      diagnosis_sent[row] = diagnosis_seen[row];
-    }
+    diagnosis_begin(client);
     (void)memset(diagnosis_reported, 0, sizeof(diagnosis_reported));
     rcl_diagnosis_times_begin();
     if (!client->diagnosis.running) { /* after a sleep the next report stays due */

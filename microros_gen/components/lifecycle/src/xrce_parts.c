@@ -72,7 +72,7 @@ void xrce_parts_begin(xrce_client_t * client, uint16_t endpoint, const uint8_t *
 {
   xrce_parts_t * parts = &client->parts;
 
-  if (parts->busy) {
+  if (parts->busy || parts->body == NULL) {
     return;
   }
   parts->endpoint = endpoint;

@@ -42,7 +42,7 @@ typedef struct xrce_parts_t {
   uint8_t head[XRCE_PARTS_HEAD_SIZE]; /* bytes of the submessage before its body */
 } xrce_parts_t;
 
-/* Begins a reply of the endpoint, unless another one is under way; `parts.body` is set. */
+/* Begins a reply of the endpoint, unless another one is under way or `parts.body` is not known. */
 void xrce_parts_begin(xrce_client_t * client, uint16_t endpoint, const uint8_t * identity);
 
 /* --- called by xrce_routes.c --- */
