@@ -74,6 +74,23 @@ tasks:
 """Messages with texts and sequences (c/measured_texts.h)."""
 
 
+REPORTED = """\
+version: 1
+profiles: [pure_sender]
+components: [+executor, +diagnosis]
+errors: code
+pools: {guard_conditions: 2}
+session: {connect_timeout: 20 s, create_timeout: 20 s, liveliness_timeout: 20 s}
+diagnosis: {period: 500 ms, hardware_id: board-7}
+nodes: [{name: device, namespace: /arm, executors: [{name: fast}, {name: slow}]}]
+tasks:
+  - {name: control, executor: fast, period: 20 ms, deadline: 19 ms, stack: 3 KiB}
+  - {name: worker, executor: slow, stack: 2 KiB}
+  - {name: session, session: true, stack: 4 KiB}
+"""
+"""Tasks whose statuses are on /diagnostics (c/task_statuses.c)."""
+
+
 def built_tasks(home: Path, transport: str = "udp", application: str = "") -> Built:
     """Build the library of the tasks in `home`, for `application` if that is not empty; skip without the tools."""
     need(BOARD, emulator=True)
