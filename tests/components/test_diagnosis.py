@@ -167,11 +167,65 @@ def test_a_message_that_does_not_fit_is_refused(tmp_path: Path) -> None:
         planned(tmp_path, text)
 
 
-def test_too_many_checks(tmp_path: Path) -> None:
-    checks = "".join(f"    - {{name: c{i}, above: {{warn: 1}}}}\n" for i in range(40))
-    text = f"{BARE}components: [+diagnosis]\nnodes: [{{name: device}}]\ndiagnosis:\n  checks:\n{checks}"
-    with pytest.raises(UserError, match="a device has 42 statuses, 32 at most"):
+MANY_TASKS = 30
+"""As many as an application can have."""
+
+
+def many_tasks() -> str:
+    executors = ", ".join(f"{{name: e{i}}}" for i in range(MANY_TASKS))
+    tasks = "".join(f"  - {{name: t{i}, executor: e{i}, period: 20 ms}}\n" for i in range(MANY_TASKS))
+    nodes = f"nodes: [{{name: device, executors: [{executors}]}}]\n"
+    return f"{BARE}components: [+executor, +diagnosis]\n{nodes}tasks:\n{tasks}"
+
+
+def test_all_tasks_that_an_application_can_have_are_reported(tmp_path: Path) -> None:
+    found = names(planned(tmp_path, many_tasks()))
+    assert {f"device: task t{i}" for i in range(MANY_TASKS)} < set(found)
+    assert 32 < len(found) <= 64
+
+
+@pytest.mark.parametrize(
+    ("application", "message", "line", "hint"),
+    [
+        (
+            f"{BARE}components: [+diagnosis]\nnodes: [{{name: device}}]\ndiagnosis:\n  checks:\n"
+            + "".join(f"    - {{name: c{i}, above: {{warn: 1}}}}\n" for i in range(70)),
+            "a device has 72 statuses, 64 at most",
+            6,
+            "Remove 8 of its checks, callbacks or tasks",
+        ),
+        (
+            f"{BARE}components: [+timers, +diagnosis]\ntransport: {{type: udp, mtu: 16000}}\n"
+            "diagnosis: {timers: true}\n"
+            f"nodes: [{{name: device, timers: ["
+            + ", ".join(f"{{name: t{i}, period: {i + 1} ms}}" for i in range(250))
+            + "]}]\n",
+            "a device has 263 counters, 255 at most",
+            5,
+            "Remove `timers: true`",
+        ),
+    ],
+    ids=["checks", "timers"],
+)
+def test_more_than_there_are_numbers_for(
+    tmp_path: Path, application: str, message: str, line: int, hint: str
+) -> None:
+    with pytest.raises(UserError) as error:
+        planned(tmp_path, application)
+    (found,) = error.value.diagnostics
+    assert (found.id, found.message, found.hint) == ("MG-7095", message, hint)
+    assert found.span is not None
+    assert found.span.line == line
+
+
+def test_a_mistake_without_settings_is_shown_where_the_component_is_selected(tmp_path: Path) -> None:
+    text = f"{BARE}components: [+diagnosis]\ntransport: {{type: serial, mtu: 160}}\nnodes: [{{name: n}}]\n"
+    with pytest.raises(UserError) as error:
         planned(tmp_path, text)
+    (found,) = error.value.diagnostics
+    assert found.id == "MG-7098"
+    assert found.span is not None
+    assert found.span.line == 3
 
 
 @pytest.mark.system
@@ -452,15 +506,16 @@ def test_times_of_callbacks(tmp_path: Path, lock: str) -> None:
     assert run(program) == "ok\n"
 
 
-def test_no_stack_is_read_when_a_node_is_opened(tmp_path: Path) -> None:
-    """The lock is held, and the stacks of all tasks at once would be a long time: only what can be a warning counts."""
-    out = rendered(tmp_path, BARE + TASKS)
-    rows = slice_of(planned(tmp_path, BARE + TASKS)).rows
+@pytest.mark.parametrize("application", [BARE + TASKS, many_tasks()], ids=["some", "many"])
+def test_what_is_read_and_sent_of_many_tasks(tmp_path: Path, application: str) -> None:
+    """When the node opens, what can be a warning, but no stack: the lock is held. A report has each status once."""
+    out = rendered(tmp_path, application)
+    part = slice_of(planned(tmp_path, application))
+    rows = part.rows
     text = (out / "src" / "diagnosis" / "rcl_diagnosis_declared.c").read_text()
-    begin = text.index("const rcl_diagnosis_row_t")
-    (tmp_path / "tables.c").write_text(
-        f'#include "microros/rcl_diagnosis.h"\n{text[begin : text.index("};", begin) + 2]}\n'
-    )
+    tables = (text.index(f"const rcl_diagnosis_{kind}_t") for kind in ("status", "row"))
+    parts = "\n".join(text[begin : text.index("};", begin) + 2] for begin in tables)
+    (tmp_path / "tables.c").write_text(f'#include "microros/rcl_diagnosis.h"\n{parts}\n')
     sources = [
         UNITS / "unit_diagnosis_open.c",
         out / "src" / "diagnosis" / "rcl_diagnosis.c",
@@ -469,7 +524,7 @@ def test_no_stack_is_read_when_a_node_is_opened(tmp_path: Path) -> None:
     unused = ("-ffunction-sections", "-Wl,--gc-sections")  # what only a report calls
     program = tmp_path / "unit"
     run("gcc", "-std=c99", "-Wall", *unused, f"-I{out / 'include'}", *sources, "-o", program)
-    assert [line.split() for line in run(program).splitlines()] == [
-        [row.key, "2" if row.warns else "0"] for row in rows
-    ]
-    assert sum(row.key == "stack_peak" for row in rows) == 3
+    lines = [line.split() for line in run(program).splitlines()]
+    assert lines[: len(rows)] == [[row.key, "2" if row.warns else "0"] for row in rows]
+    assert lines[len(rows) :] == [["sent", str(i)] for i in range(part.status_count)]
+    assert sum(row.key == "stack_peak" for row in rows) > 1

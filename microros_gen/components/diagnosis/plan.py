@@ -20,14 +20,16 @@ from microros_gen.components.diagnosis.tables import (
     node_prefix,
     statuses_of,
 )
-from microros_gen.diagnostics import Diagnostics
+from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
 from microros_gen.selection.contribution import Counter
 
 TYPE = TypeName("diagnostic_msgs", "msg", "DiagnosticArray")
-MOST_STATUSES = 32
-"""A bit of a word says of each whether it is to be sent."""
+MOST_STATUSES = 64
+"""A bit says of each whether it is to be sent; those of 30 tasks and of the library take 40 at most."""
+MOST_ROWS = 255
+"""Positions of counters are bytes."""
 READS_SLICES = True
 """Counters of components can be those of each element of their slices."""
 _PORT = "microros/port_diagnosis.h"
@@ -208,9 +210,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> DiagnosisPlan:
     ]
     checks = [*_own_checks(declared, cpu, has["stack_peak"], supply)]
     statuses, rows_in_order, checks_in_order = statuses_of(application, declared, rows, checks, diagnostics)
-    if len(statuses) > MOST_STATUSES:
-        message = f"a device has {len(statuses)} statuses, {MOST_STATUSES} at most"
-        diagnostics.error(message, declared.span, "Remove some checks, callbacks or tasks", id="MG-7095")
+    _check_count(context, declared, len(statuses), len(rows), diagnostics)
     size = largest(statuses, rows_in_order, checks_in_order, declared.hardware_id, _RESETS)
     _check_size(context, size, declared, diagnostics)
     missing = [
@@ -269,12 +269,31 @@ def _check_measured(
         diagnostics.error(message, declared.supply.span, hint, id="MG-7097")
 
 
+def _place(context: PlanContext, declared: DiagnosisDecl) -> Span | None:
+    """Return the place of the settings, or of what selects the component; None: a profile does."""
+    changes = (change.span for change in context.application.components if change.name == "diagnosis")
+    return declared.span or next(changes, None)
+
+
+def _check_count(
+    context: PlanContext, declared: DiagnosisDecl, statuses: int, rows: int, diagnostics: Diagnostics
+) -> None:
+    """Report more statuses or counters than there are numbers for; checks and callbacks have a status each."""
+    for count, what, most in ((statuses, "statuses", MOST_STATUSES), (rows, "counters", MOST_ROWS)):
+        if count > most:
+            message = f"a device has {count} {what}, {most} at most"
+            hint = f"Remove {count - most} of its checks, callbacks or tasks"
+            if what == "counters" and declared.timers:
+                hint = "Remove `timers: true`"
+            diagnostics.error(message, _place(context, declared), hint, id="MG-7095")
+
+
 def _check_size(context: PlanContext, size: int, declared: DiagnosisDecl, diagnostics: Diagnostics) -> None:
     room = min(context.types[TYPE].max_encoded_size, context.runtime.streams.mtu - WRITE_DATA_OVERHEAD)
     if size > room:
         message = f"a status of the diagnosis takes {size} bytes, and a message has room for {room}"
         hint = "Raise transport.mtu or the limits of diagnostic_msgs/msg/DiagnosticArray, or shorten texts"
-        diagnostics.error(message, declared.span, hint, id="MG-7098")
+        diagnostics.error(message, _place(context, declared), hint, id="MG-7098")
 
 
 def _timers(application: Application) -> tuple[tuple[str, int], ...]:

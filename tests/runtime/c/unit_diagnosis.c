@@ -11,7 +11,7 @@
 
 static uint32_t now_ms;
 static uint32_t now_us;
-static uint32_t added;
+static rcl_diagnosis_bits_t added;
 
 #define EXPECT(condition) \
   do { \
@@ -31,7 +31,7 @@ uint32_t port_time_us(void)
   return now_us;
 }
 
-void rcl_diagnosis_add(uint32_t statuses)
+void rcl_diagnosis_add(rcl_diagnosis_bits_t statuses)
 {
   added |= statuses;
 }

@@ -372,7 +372,8 @@ APPLICATIONS: Mapping[str, str] = MappingProxyType(
         "diagnosis_threads": _NODES + _SURE + "components: [+diagnosis, +multithread]\n",
         "diagnosis_board": _NODES
         + _SURE
-        + "components: [+executor, +diagnosis]\ntarget: {name: qemu-microbit}\n",
+        + "components: [+executor, +diagnosis]\ntarget: {name: qemu-microbit}\n"
+        + f"diagnosis: {{checks: [{', '.join(f'{{name: c{i}, above: {{warn: 1}}}}' for i in range(33))}]}}\n",
         "diagnosis_riscv": _NODES
         + _SURE
         + "components: [+executor, +diagnosis]\ntarget: {name: qemu-riscv32-virt}\n",

@@ -21,6 +21,8 @@ enum { DIAGNOSIS_BODY = XRCE_SUBMESSAGE_HEADER + XRCE_OBJECT_PREFIX, DIAGNOSIS_D
 /* How long a change is reported, and how often at least: what a new agent sends first reaches no data reader yet. */
 enum { DIAGNOSIS_REPORTS = 2, DIAGNOSIS_REPORTS_MS = 5000 };
 
+#define DIAGNOSIS_ALL ((rcl_diagnosis_bits_t)UINT64_MAX)
+
 /* Statuses are encoded when they are sent. */
 static const microros_message_type_t diagnosis_message = {
   .dds_type_name = MICROROS_FLASH_NAME("diagnostic_msgs::msg::dds_::DiagnosticArray_"),
@@ -31,7 +33,7 @@ static const rosidl_message_type_support_t diagnosis_type = {
 
 static rmw_publisher_t * diagnosis_publisher;
 static const rmw_node_t * diagnosis_node;                /* the owner */
-static uint32_t diagnosis_waiting;                       /* a bit for each status that is to be sent */
+static rcl_diagnosis_bits_t diagnosis_waiting;           /* those that are to be sent */
 static uint32_t diagnosis_sent[MICROROS_DIAGNOSIS_ROWS]; /* as last reported */
 static uint32_t diagnosis_seen[MICROROS_DIAGNOSIS_ROWS]; /* as reported often enough */
 /* Since the last change: when the warning about it ends, and how many messages have had it. */
@@ -91,7 +93,7 @@ bool rcl_diagnosis_is_running(const xrce_client_t * client)
   return client->diagnosis.running && rmw_publisher_is_open(diagnosis_publisher);
 }
 
-void rcl_diagnosis_add(uint32_t statuses)
+void rcl_diagnosis_add(rcl_diagnosis_bits_t statuses)
 {
   diagnosis_waiting |= statuses;
 }
@@ -183,7 +185,7 @@ static bool diagnosis_put(const xrce_client_t * client, uint8_t status)
 static void diagnosis_send(const xrce_client_t * client)
 {
   for (uint8_t status = 0; status < (uint8_t)MICROROS_DIAGNOSIS_STATUSES; ++status) {
-    const uint32_t bit = (uint32_t)1 << status;
+    const rcl_diagnosis_bits_t bit = (rcl_diagnosis_bits_t)1 << status;
 
     if ((diagnosis_waiting & bit) != 0u) {
       if (
@@ -205,7 +207,7 @@ void rcl_diagnosis_step(xrce_client_t * client, uint32_t now)
     client->diagnosis.due_ms = now + MICROROS_DIAGNOSIS_PERIOD_MS;
     rcl_diagnosis_measure();
     rcl_diagnosis_age(now);
-    rcl_diagnosis_add(UINT32_MAX >> (32u - MICROROS_DIAGNOSIS_STATUSES));
+    rcl_diagnosis_add(DIAGNOSIS_ALL >> ((8u * sizeof(rcl_diagnosis_bits_t)) - MICROROS_DIAGNOSIS_STATUSES));
   }
   diagnosis_send(client);
 }

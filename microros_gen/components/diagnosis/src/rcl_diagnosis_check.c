@@ -16,7 +16,7 @@ static void check_go(uint8_t check, uint8_t level)
   measure->level = level;
   measure->is_requested = declared->mode != NULL && level == (uint8_t)DIAGNOSIS_ERROR;
   measure->is_due = measure->is_requested;
-  rcl_diagnosis_add((uint32_t)1 << declared->status);
+  rcl_diagnosis_add((rcl_diagnosis_bits_t)1 << declared->status);
 }
 
 void rcl_diagnosis_set(uint8_t check, int32_t value)

@@ -23,6 +23,13 @@ enum { DIAGNOSIS_OK, DIAGNOSIS_WARN, DIAGNOSIS_ERROR, DIAGNOSIS_STALE };
 /* The position of no check. */
 enum { DIAGNOSIS_NONE = 255 };
 
+/* A bit for each status: a device with many tasks has more than 32. */
+#if MICROROS_DIAGNOSIS_STATUSES > 32
+typedef uint64_t rcl_diagnosis_bits_t;
+#else
+typedef uint32_t rcl_diagnosis_bits_t;
+#endif
+
 /* A value and from where on it is a warning or an error. */
 typedef struct rcl_diagnosis_check_t {
   const char * key;  /* of the value */
@@ -99,7 +106,7 @@ bool rcl_diagnosis_take_request(uint8_t check);
 void rcl_diagnosis_requested(uint8_t check);
 
 /* Lets statuses be sent, each by its bit. */
-void rcl_diagnosis_add(uint32_t statuses);
+void rcl_diagnosis_add(rcl_diagnosis_bits_t statuses);
 
 /* Returns the first row of a status that has changed since it was reported, and whose change is a warning; NULL: none. */
 const rcl_diagnosis_row_t * rcl_diagnosis_changed(const xrce_client_t * client, uint8_t status);
