@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
-from typing import TypeVar
+from dataclasses import fields, replace
+from typing import Any
 
 from microros_gen.application.model import Application, EndpointDecl, NodeDecl
 from microros_gen.selection.component import Component, ResolvedProfile
@@ -14,7 +14,8 @@ from microros_gen.selection.declared import without_components
 _OF_ENTITIES = frozenset({"nodes", "interfaces", "pools"})
 """Keys of an application file that say which entities there are."""
 _NODE = NodeDecl(name="device", endpoints=(EndpointDecl("publisher", "count", "std_msgs/msg/Int32"),))
-_Part = TypeVar("_Part")
+_NAMES = ("name", "topic", "node")
+"""Attributes, of which a part of a node has one: what it is called."""
 
 
 def with_profile_nodes(application: Application, profiles: Iterable[ResolvedProfile]) -> Application:
@@ -50,26 +51,24 @@ def joined_nodes(nodes: Iterable[NodeDecl]) -> tuple[NodeDecl, ...]:
 
 
 def _joined(first: NodeDecl, other: NodeDecl) -> NodeDecl:
+    """Return one node with the parts of both; of two parts with one name it has that of the first node."""
+    parts: dict[str, Any] = {
+        field.name: _once((*own, *getattr(other, field.name)))
+        for field in fields(NodeDecl)
+        if isinstance(own := getattr(first, field.name), tuple)
+    }
     return replace(
         first,
-        endpoints=_once((e.kind, e.topic, e) for e in (*first.endpoints, *other.endpoints)),
-        timers=_once(("", t.name, t) for t in (*first.timers, *other.timers)),
-        parameters=_once(("", p.name, p) for p in (*first.parameters, *other.parameters)),
         parameters_at=first.parameters_at or other.parameters_at,
-        parameter_clients=_once(
-            ("", c.node, c) for c in (*first.parameter_clients, *other.parameter_clients)
-        ),
-        modes=_once(("", m.name, m) for m in (*first.modes, *other.modes)),
-        actions=_once(("", a.name, a) for a in (*first.actions, *other.actions)),
-        action_clients=_once(("", a.name, a) for a in (*first.action_clients, *other.action_clients)),
-        executors=_once(("", e.name, e) for e in (*first.executors, *other.executors)),
         clock_topic=first.clock_topic or other.clock_topic,
         clock_span=first.clock_span or other.clock_span,
+        **parts,
     )
 
 
-def _once(named: Iterable[tuple[str, str, _Part]]) -> tuple[_Part, ...]:
-    found: dict[tuple[str, str], _Part] = {}
-    for kind, name, part in named:
-        found.setdefault((kind, name), part)
+def _once(parts: Iterable[object]) -> tuple[object, ...]:
+    found: dict[tuple[str, str], object] = {}
+    for part in parts:
+        name = next(getattr(part, key) for key in _NAMES if hasattr(part, key))
+        found.setdefault((getattr(part, "kind", ""), name), part)
     return tuple(found.values())

@@ -8,6 +8,8 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+import pytest
+
 import microros_gen
 from microros_gen.selection.find_components import load_catalogue
 
@@ -65,6 +67,41 @@ LIFECYCLE_SHARED = (
     "selection/xrce.py",
 )
 """The same for `lifecycle`: the key `managed` of publishers and timers, and the list of D1.4."""
+NODE_MODES_SHARED = (
+    "application/application.schema.json",
+    "application/model.py",
+    "application/nodes.py",
+    "application/parameter_find.py",
+    "selection/declared.py",
+    "selection/profile_file.py",
+)
+"""Those of `node_modes`: the key `modes` of a node, and its values once the parameters of the node are known."""
+DIAGNOSIS_SHARED = (
+    "application/application.schema.json",
+    "application/model.py",
+    "application/parser.py",
+    "migrate/rclc_draft.py",
+    "selection/declared.py",
+)
+"""Those of `diagnosis`: its key, and what `init` proposes for it."""
+_ABOUT_OTHERS = ("agent", "cli", "components", "diagnostics", "mode_manager", "modes", "platform")
+OWN_FILES = {
+    "node_modes": ("application/mode_decl.py", "application/modes.py"),
+    "diagnosis": (
+        "application/diagnosis.py",
+        "application/diagnosis_decl.py",
+        "migrate/diagnosis_checks.py",
+    ),
+}
+"""Python files of a component outside its folder, which nothing else is in."""
+ASKS_FOR = {"diagnosis": ("node_modes",)}
+"""Components whose declarations another one reads: a check requests a mode."""
+C_NAMES = {
+    "lifecycle": r"\b(?:rcl|rclc|rmw|xrce)_lifecycle\w*|\bxrce_parts\w*",
+    "node_modes": r"\b(?:rclc|rmw)_modes\w*",
+    "diagnosis": r"\b(?:rcl|rclc|xrce)_diagnosis\w*",
+}
+"""How functions, types and headers of a component are called. Hooks that it fills are named by those who call them."""
 _OTHER_FILES = {
     "application/modes.py",
     "application/parameter_clients.py",
@@ -186,6 +223,68 @@ def test_the_life_cycle_is_known_to_at_most_six_shared_files() -> None:
     shared = {file for file in found if not file.startswith("components/lifecycle/")}
     assert shared <= set(LIFECYCLE_SHARED)
     assert len(LIFECYCLE_SHARED) <= 6
+
+
+def knowing(name: str, words: str, package: Path) -> set[str]:
+    """Return the existing files that name a component, its key or its declarations, its own ones left out.
+
+    Commands and their modules are about systems with modes; platforms say what they provide for a component.
+    """
+    word = re.compile(words, re.MULTILINE)
+    others = (
+        *OWN_FILES.get(name, ()),
+        *(f for n, asks in ASKS_FOR.items() if name in asks for f in OWN_FILES[n]),
+    )
+    found = set()
+    for path in package.rglob("*"):
+        shown = path.relative_to(package)
+        if (
+            path.suffix in (".py", ".json", ".yaml", ".j2")
+            and shown.parts[0] not in _ABOUT_OTHERS
+            and shown.as_posix() not in others
+            and word.search(path.read_text(encoding="utf-8"))
+        ):
+            found.add(shown.as_posix())
+    return found
+
+
+def test_modes_of_nodes_are_known_to_at_most_six_shared_files() -> None:
+    words = (
+        r"""["'](?:node_)?modes["']|^\s*modes:|\bnode\.modes\b|\bmodes=|\bmode_decl\b|application\.modes\b"""
+    )
+    assert knowing("node_modes", words, PACKAGE) == set(NODE_MODES_SHARED)
+    assert len(NODE_MODES_SHARED) <= 6
+
+
+def test_the_diagnosis_is_known_to_at_most_six_shared_files() -> None:
+    words = r"""["']diagnosis["']|^\s*diagnosis:|\.diagnosis\b|\bdiagnosis=|\bdiagnosis(?:_decl|_checks)\b"""
+    assert knowing("diagnosis", words, PACKAGE) == set(DIAGNOSIS_SHARED)
+    assert len(DIAGNOSIS_SHARED) <= 6
+
+
+def naming_in_c(name: str, package: Path) -> set[str]:
+    """Return the C files and templates that use something of a component and need it not; its folder is left out."""
+    needing = {c.name for c in load_catalogue().values() if name in c.needs} | {name}
+    word = re.compile(C_NAMES[name])
+    found = set()
+    for path in package.rglob("*"):
+        shown = path.relative_to(package)
+        is_own = shown.parts[0] == "components" and not needing.isdisjoint(shown.parts[1:2])
+        is_c = path.name.removesuffix(".j2").endswith((".c", ".h"))
+        if is_c and not is_own and word.search(path.read_text(encoding="utf-8")):
+            found.add(shown.as_posix())
+    return found
+
+
+@pytest.mark.parametrize("name", C_NAMES)
+def test_no_c_file_of_others_uses_what_it_has(name: str, tmp_path: Path) -> None:
+    """Others call hooks, which stand for nothing where the component is not selected."""
+    assert naming_in_c(name, PACKAGE) == set()
+    (tmp_path / "components" / "other").mkdir(parents=True)
+    (tmp_path / "components" / "other" / "a.c").write_text(
+        "x = rclc_modes_y; rcl_lifecycle_y(); rcl_diagnosis_y();"
+    )
+    assert naming_in_c(name, tmp_path) == {"components/other/a.c"}
 
 
 def test_a_file_that_names_a_component_is_found(tmp_path: Path) -> None:
