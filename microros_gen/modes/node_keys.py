@@ -85,8 +85,15 @@ def check_published(
     owner: str, names: Sequence[Named], published: tuple[str, ...] | None, diagnostics: Diagnostics
 ) -> None:
     """Report names of statuses that a node does not publish; `published` None: it is not known what it publishes."""
-    for named in names if published is not None else ():
-        if not any(is_named(name, (named.name,)) for name in published or ()):
+    prefix = f"{owner}:"
+    for named in names:
+        if named.name.lstrip("/").startswith(prefix):
+            own = named.name.lstrip("/").removeprefix(prefix).strip() or "*"
+            message = (
+                f"nothing publishes the status '{named.name}' of '{owner}': its own name is left out here"
+            )
+            diagnostics.error(message, named.span, f"Write '{own}'", id="MG-9832")
+        elif published is not None and not any(is_named(name, (named.name,)) for name in published or ()):
             hint = nearest(named.name, published or ()) or f"Known: {', '.join(published or ())}"
             message = f"nothing publishes the status '{named.name}' of '{owner}'"
             diagnostics.error(message, named.span, hint, id="MG-9832")

@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator, Mapping
 
-from microros_gen.diagnostics import Diagnostics, Span
+from microros_gen.diagnostics import Diagnostics, Span, nearest
 from microros_gen.documents.tree_read import check_keys, expect_mapping, read_choice
 from microros_gen.documents.tree_values import child
 from microros_gen.documents.yaml_tree import Entry, MappingNode
@@ -90,9 +90,7 @@ def _outline(name: str, entry: Entry, diagnostics: Diagnostics, has_leaflet: boo
         return None
     body = child(entry.value, PARAMETERS)
     if body is None:
-        message = f"the part '{name}' has no '{PARAMETERS}'"
-        hint = f"Indent its keys below `{PARAMETERS}:`"
-        diagnostics.error(message, entry.key_span, hint, id="MG-8803")
+        _report_missing(name, entry, diagnostics)
         return None
     body = expect_mapping(body, f"'{PARAMETERS}' of '{name}'", diagnostics)
     if body is None or not isinstance(entry.value, MappingNode):
@@ -110,6 +108,16 @@ def _outline(name: str, entry: Entry, diagnostics: Diagnostics, has_leaflet: boo
     return Outline(name, is_system, entry.key_span, body, _modes(name, body, diagnostics))
 
 
+def _report_missing(name: str, entry: Entry, diagnostics: Diagnostics) -> None:
+    """Report a part without `ros__parameters`, at the key that may be it."""
+    below = tuple(entry.value) if isinstance(entry.value, MappingNode) else ()
+    span, hint = entry.key_span, f"Indent its keys below `{PARAMETERS}:`"
+    for inner in below if len(below) == 1 else ():
+        meant = nearest(inner.key, (PARAMETERS,))
+        span, hint = (inner.key_span, meant) if meant else (span, hint)
+    diagnostics.error(f"the part '{name}' has no '{PARAMETERS}'", span, hint, id="MG-8803")
+
+
 def _modes(part: str, body: MappingNode, diagnostics: Diagnostics) -> dict[str, Entry]:
     modes = expect_mapping(body.get("modes"), f"'modes' of '{part}'", diagnostics)
     found: dict[str, Entry] = {}
@@ -120,6 +128,9 @@ def _modes(part: str, body: MappingNode, diagnostics: Diagnostics) -> dict[str, 
             diagnostics.error(message, entry.key_span, "Use letters, digits and '_'", id="MG-8811")
     if modes is not None and DEFAULT not in modes.entries:
         message = f"the part '{part}' has no mode {DEFAULT}"
-        hint = f"Add `{DEFAULT}:` before its other modes"
-        diagnostics.error(message, body.entries["modes"].key_span, hint, id="MG-8810")
+        span, hint = body.entries["modes"].key_span, f"Add `{DEFAULT}:` before its other modes"
+        for entry in modes:
+            if entry.key.strip("_").upper() == DEFAULT.strip("_"):
+                span, hint = entry.key_span, f"Write {DEFAULT}"
+        diagnostics.error(message, span, hint, id="MG-8810")
     return found

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection
 
 from microros_gen.diagnostics import Diagnostics, Span, nearest
@@ -10,6 +11,9 @@ from microros_gen.documents.tree_values import text_of
 from microros_gen.documents.yaml_tree import YamlNode
 from microros_gen.modes.model import ACTIVE, DEFAULT, INACTIVE, STATES, UNCONFIGURED, Status
 from microros_gen.records import dataclass
+
+_BEFORE_MODE = re.compile(r"[^\w.]+")
+"""What is written in place of the dot between `active` and a mode."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +50,7 @@ def parse_status(node: YamlNode, part: Subject, diagnostics: Diagnostics) -> Sta
         return None
     state, dot, mode = text.partition(".")
     if state not in STATES:
-        hint = nearest(state, STATES) or f"Known: {', '.join(STATES)}"
+        hint = _meant(text, part) or nearest(state, STATES) or f"Known: {', '.join(STATES)}"
         diagnostics.error(f"unknown state '{state}'", node.span, hint, id="MG-8814")
         return None
     if dot and state != ACTIVE:
@@ -59,9 +63,15 @@ def parse_status(node: YamlNode, part: Subject, diagnostics: Diagnostics) -> Sta
     return Status(ACTIVE, mode) if _is_known(mode, node.span, part, diagnostics) else None
 
 
+def _meant(text: str, part: Subject) -> str | None:
+    """Return a hint for a mode without its state, or with another character than a dot before it."""
+    mode = _BEFORE_MODE.split(text)[-1]
+    return f"Write {ACTIVE}.{mode}" if mode in part.modes else None
+
+
 def _is_known(mode: str, span: Span, part: Subject, diagnostics: Diagnostics) -> bool:
-    if mode in part.modes or (mode == DEFAULT and DEFAULT not in part.modes):
-        return True  # a part without __DEFAULT__ is reported where it is declared
+    if mode in part.modes or not part.modes or (mode == DEFAULT and DEFAULT not in part.modes):
+        return True  # a part without modes, or without __DEFAULT__, is reported where it is declared
     hint = nearest(mode, part.modes) or f"Known: {', '.join(part.modes)}"
     diagnostics.error(f"unknown mode '{mode}' of '{part.name}'", span, hint, id="MG-8817")
     return False

@@ -11,6 +11,8 @@ from microros_gen.documents.yaml_tree import Entry, MappingNode, ScalarNode, Seq
 from microros_gen.modes.model import DEFAULT, Scalar, Value
 
 _TEMPLATE = re.compile(r"\$\(parent ([A-Za-z_][\w./]*)\)")
+_LIKE_TEMPLATE = re.compile(r"\$\(\s*(\w+)\s*([\w./]*)\s*\)")
+"""A template with a mistake, or what other files of ROS 2 have in this form: `$(var limit)`."""
 _INTEGERS = range(-(2**63), 2**63)
 
 
@@ -40,6 +42,8 @@ def _value(name: str, entry: Entry, diagnostics: Diagnostics) -> Value | None:
         template = _TEMPLATE.fullmatch(node.text)
         if template:
             return Value(None, "", node.span, entry.key_span, template[1])
+        if _is_misspelt(name, node, diagnostics):
+            return None
         kind = _type_of(node.value)
         if kind and node.value is not None:
             return Value(node.value, kind, node.span, entry.key_span)
@@ -53,6 +57,16 @@ def _value(name: str, entry: Entry, diagnostics: Diagnostics) -> Value | None:
     hint = "Write true, 1, 1.0, a text, or a list with values of one of these types"
     diagnostics.error(message, node.span, hint, id="MG-8822")
     return None
+
+
+def _is_misspelt(name: str, node: ScalarNode, diagnostics: Diagnostics) -> bool:
+    """Return whether a text is meant to be a template and is none, which is reported."""
+    like = _LIKE_TEMPLATE.fullmatch(node.text)
+    if like is None or nearest(like[1], ("parent",)) is None:
+        return False
+    message = f"the parameter '{name}' has no value of a type of ROS 2: '{node.text}' is no template"
+    diagnostics.error(message, node.span, f"Write $(parent {like[2] or 'NAME'})", id="MG-8822")
+    return True
 
 
 def type_of(value: Scalar | tuple[Scalar, ...] | None) -> str:
@@ -92,6 +106,8 @@ def inherit(
         elif first.type and value.type and first.type != value.type:
             message = f"the parameter '{name}' is of type {value.type}, and in {DEFAULT} {first.type}"
             hint = "Write it with a decimal point" if _needs_point(first, value) else "Use one type"
+            if isinstance(value.value, str) and _LIKE_TEMPLATE.fullmatch(value.value):
+                hint = "Write a value, or $(parent NAME)"
             diagnostics.error(message, value.span, hint, id="MG-8821")
         else:
             found[name] = value

@@ -24,6 +24,13 @@ DIAGNOSED = [
     ("{level: warn, name: heat}", "MG-1008", "name: heat}", "unknown key 'name'. Did you mean 'names'?"),
     ("{level: [warn, [stale]]}", "MG-8883", "[warn, [stale]]}", "'level' must be a text, or a list of texts"),
     ("{level: warn, names: ['m*r']}", "MG-9830", "'m*r']}", "'m*r' has a '*' that is not at its end"),
+    (
+        "{level: warn, names: ['joint: heat']}",
+        "MG-9832",
+        "'joint: heat']}",
+        "status 'joint: heat' of 'joint': its own name is left out here. Write 'heat'",
+    ),
+    ("{level: warn, names: ['/joint:*']}", "MG-9832", "'/joint:*']}", "Write '*'"),
     ("{level: [warn, warn]}", "MG-9831", "warn]}", "'warn' is listed twice. Remove it"),
     ("{level: warn, names: [heat, heat]}", "MG-9831", "heat]}", "'heat' is listed twice"),
     ("{level: warn, names: [heater, heat*]}", "MG-9831", "heater, heat*]}", "'heater' is among 'heat*'"),
@@ -90,8 +97,15 @@ CASES = [
         "base:\n  ros__parameters:\n    type: system",
         "base:\n  parameters:\n    type: system",
         "MG-8803",
+        "parameters:",
+        "the part 'base' has no 'ros__parameters'. Did you mean 'ros__parameters'?",
+    ),
+    (
+        "base:\n  ros__parameters:\n    type: system",
+        "base:\n  a:\n    type: system",
+        "MG-8803",
         "base:",
-        "the part 'base' has no 'ros__parameters'",
+        "the part 'base' has no 'ros__parameters'. Indent its keys",
     ),
     ("/camera:", "base2: {}\n/camera:", "MG-8803", "base2: {}", "the part 'base2'"),
     ("/camera:", "/base:", "MG-8804", "/base:", "duplicate part 'base'; first in line 25"),
@@ -110,8 +124,15 @@ CASES = [
         "      __DEFAULT__:\n        ros__parameters:\n          limit",
         "      DEFAULT:\n        ros__parameters:\n          limit",
         "MG-8810",
+        "DEFAULT:",
+        "the part 'robot' has no mode __DEFAULT__. Write __DEFAULT__",
+    ),
+    (
+        "      __DEFAULT__:\n        ros__parameters:\n          limit",
+        "      FIRST:\n        ros__parameters:\n          limit",
+        "MG-8810",
         "modes:",
-        "the part 'robot' has no mode __DEFAULT__",
+        "the part 'robot' has no mode __DEFAULT__. Add `__DEFAULT__:` before",
     ),
     ("      FAST:", "      FA.ST:", "MG-8811", "FA.ST:", "'FA.ST' is not the name of a mode"),
     (
@@ -129,6 +150,9 @@ CASES = [
         "Active",
         "unknown state 'Active'. Did you mean 'active'?",
     ),
+    ("base: active.DRIVE", "base: DRIVE", "MG-8814", "DRIVE", "unknown state 'DRIVE'. Write active.DRIVE"),
+    ("base: active.DRIVE", "base: active DRIVE", "MG-8814", "active DRIVE", "Write active.DRIVE"),
+    ("base: active.DRIVE", "base: active/DRIVE", "MG-8814", "active/DRIVE", "Write active.DRIVE"),
     (
         "base: active.DRIVE",
         "base: unconfigured",
@@ -165,6 +189,27 @@ CASES = [
         "MG-8821",
         "1",
         "is of type integer, and in __DEFAULT__ double. Write it with",
+    ),
+    (
+        "          limit: 1.2",
+        "          limit: $(var fast)",
+        "MG-8821",
+        "$(var fast)",
+        "is of type string, and in __DEFAULT__ double. Write a value, or $(parent NAME)",
+    ),
+    *(
+        (
+            "          limit: 1.2",
+            f"          limit: {text}",
+            "MG-8822",
+            text,
+            f"'{text}' is no template. Write {right}",
+        )
+        for text, right in (
+            ("$(parrent limit)", "$(parent limit)"),
+            ("$( parent limit )", "$(parent limit)"),
+            ("$(parent)", "$(parent NAME)"),
+        )
     ),
     (
         "          limit: 1.2",
@@ -352,3 +397,10 @@ def test_a_hierarchy_has_a_bound() -> None:
     assert [d.headline() for d in found] == [
         "m.yaml:33:47: error: the hierarchy has more than 32 levels of systems. Flatten it [MG-8832]"
     ]
+
+
+def test_a_system_without_modes_is_reported_once() -> None:
+    """Its rules name modes, and none is proposed where there is none."""
+    text = ARM[: ARM.index("    modes:")] + ARM[ARM.index("    rules:") :]
+    _, diagnostics = parsed(text)
+    assert [(d.id, d.hint) for d in diagnostics] == [("MG-1009", "Add `modes: …`")]
