@@ -155,6 +155,8 @@ def settle_system(
     `behaviors` are those of its parts. `outside` has the rules that see statuses of no part that they want, as bits,
     each with such statuses.
     """
+    if len(outside) > most:
+        return None
     try:
         combined = _combine(model, system, behaviors, most, outside)
     except _TooManyError:
@@ -189,7 +191,7 @@ def settle_all(
             found = (
                 settle(system, behaviors)
                 if settle is not None
-                else settle_system(model, system, behaviors, most, outside_reports(system.rules))
+                else settle_system(model, system, behaviors, most, outside_reports(system.rules, most))
             )
         if found is None:
             unproven.append(system.name)
@@ -220,7 +222,7 @@ def _combine(
     for name in system.part_names:
         seen = _distinct(
             reduced(_seen(model, system, name, behavior, held), origin)
-            for behavior, held, origin in _reporting(model.parts[name], system, behaviors[name])
+            for behavior, held, origin in _reporting(model.parts[name], system, behaviors[name], most)
         )
         if size_of(kept) * size_of(seen) > most * _WORK:
             raise _TooManyError
@@ -231,11 +233,14 @@ def _combine(
 
 
 def _reporting(
-    part: Part, system: Part, behaviors: Behaviors
+    part: Part, system: Part, behaviors: Behaviors, most: int
 ) -> Iterator[tuple[Machine[Status], int, Origin]]:
     """Yield each behavior of a part with each combination of its statuses: outcomes, rules whose diagnostics hold."""
     ends = next(iter(behaviors))[0][0]
-    for report, statuses in reports_of(part, system.rules).items():
+    reports = reports_of(part, system.rules, most)
+    if len(reports) > most:
+        raise _TooManyError
+    for report, statuses in reports.items():
         diagnosed = tuple((part.name, status) for status in statuses)
         if report.is_error:
             yield constant((Status(ERROR),) * len(ends)), report.held, Origin(diagnosed)

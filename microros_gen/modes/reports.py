@@ -8,7 +8,7 @@ names of the file say everything that there can be. The same holds for the hardw
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
 
 from microros_gen.modes.model import ERROR_LEVEL, STALE_LEVEL, WARN_LEVEL, Part, Rule, outside
@@ -40,8 +40,11 @@ class Report:
     is_error: bool = False
 
 
-def reports_of(node: Part, rules: Iterable[Rule]) -> Mapping[Report, tuple[Diagnosis, ...]]:
-    """Return what a node can report to the rules of its system, each with the fewest statuses that this takes."""
+def reports_of(node: Part, rules: Iterable[Rule], most: int) -> Mapping[Report, tuple[Diagnosis, ...]]:
+    """Return what a node can report to the rules of its system, each with the fewest statuses that this takes.
+
+    With more than `most` of them, not all are returned, but more than that.
+    """
     wanted = [
         (i, r.diagnostics)
         for i, r in enumerate(rules)
@@ -60,28 +63,37 @@ def reports_of(node: Part, rules: Iterable[Rule]) -> Mapping[Report, tuple[Diagn
                 known = found.get(after)
                 if known is None or len(statuses) + 1 < len(known):
                     found[after] = (*statuses, Diagnosis(name, level))
+        if len(found) > most:
+            break
     return found
 
 
+def outside_statuses(rules: Iterable[Rule]) -> tuple[tuple[str, str], ...]:
+    """Return the statuses of no part that some rules can tell apart: key, as of `outside`, and name of each."""
+    wanted = [r.diagnostics for r in rules if r.diagnostics and r.diagnostics.hardware]
+    hardware = dict.fromkeys(diagnostics.hardware for diagnostics in wanted)
+    names = dict.fromkeys(pattern for diagnostics in wanted for pattern in diagnostics.patterns)
+    return tuple(product(map(outside, hardware), names))
+
+
 def outside_reports(
-    rules: Iterable[Rule], most: int | None = None
+    rules: Sequence[Rule], most: int, statuses: Iterable[tuple[str, str]] | None = None
 ) -> Mapping[int, tuple[tuple[str, Diagnosis], ...]]:
     """Return what the statuses of no part can say to some rules: which rules have those that they want.
 
-    A bit for each rule by its index; each with the fewest statuses that this takes, by the keys of `outside`. With more
-    than `most` of them, not all are returned, but more than that.
+    A bit for each rule by its index; each with the fewest statuses that this takes, by the keys of `outside`.
+    `statuses` are those that have a level; None: all of `outside_statuses`. With more than `most` combinations, not all
+    are returned, but more than that.
     """
     wanted = [(i, r.diagnostics) for i, r in enumerate(rules) if r.diagnostics and r.diagnostics.hardware]
-    hardware = dict.fromkeys(diagnostics.hardware for _, diagnostics in wanted)
-    names = dict.fromkeys(pattern for _, diagnostics in wanted for pattern in diagnostics.patterns)
     found: dict[int, tuple[tuple[str, Diagnosis], ...]] = {0: ()}
-    for key, name in product(map(outside, hardware), names):
+    for key, name in outside_statuses(rules) if statuses is None else statuses:
         about = [(i, diagnostics) for i, diagnostics in wanted if diagnostics.is_about(key, name)]
-        for held, statuses in tuple(found.items()):
+        for held, levels in tuple(found.items()):
             for level in _LEVELS:
                 after = held | sum(1 << i for i, diagnostics in about if diagnostics.covers(name, level))
-                if len(statuses) + 1 < len(found.get(after, range(len(statuses) + 2))):
-                    found[after] = (*statuses, (key, Diagnosis(name, level)))
-        if most is not None and len(found) > most:
+                if len(levels) + 1 < len(found.get(after, range(len(levels) + 2))):
+                    found[after] = (*levels, (key, Diagnosis(name, level)))
+        if len(found) > most:
             break
     return found

@@ -29,11 +29,11 @@ def check_stability(model: Model, settled: Settled, most: int, diagnostics: Diag
     has_alike = any(map(alike_modes, model.nodes))
     inferred = settle_all(model, most, with_inferred) if has_alike else settled
     if not all(_is_possible(model, found) for found in settled.oscillations):
-        settled = settle_together(model, most, every_failure, settled) or settled
+        settled = settle_together(model, most, every_failure, settled)
     if not has_alike:
         inferred = settled
     elif inferred.oscillations and has_shared_statuses(model):
-        inferred = settle_together(model, most, with_inferred, inferred) or inferred
+        inferred = settle_together(model, most, with_inferred, inferred)
     certain = [found for found in settled.oscillations if _is_possible(model, found)]
     for oscillation in settled.oscillations:
         diagnostics.add((_oscillation if oscillation in certain else _possible)(model, oscillation))

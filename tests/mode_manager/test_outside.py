@@ -256,14 +256,48 @@ def test_a_cycle_that_needs_two_levels_of_one_status_is_not_found(tmp_path: Path
     assert "diagnosed hardware b * warn" in report.diagnostics[0].block[0]
 
 
-def test_too_many_levels_leave_such_a_cycle_open(tmp_path: Path) -> None:
-    """Eleven more rules, each with its own hardware, can be combined in 2048 ways."""
-    more = "".join(
-        f"      also_{i}: {{if_target: active.B, if_part: [motor, active.B], new_target: inactive,"
+def more_rules(name: str, target: str, part: str) -> str:
+    """Return eleven rules, each on its own hardware."""
+    return "".join(
+        f"      {name}_{i}: {{if_target: {target}, if_part: [{part}], new_target: inactive,"
         f" diagnostics: {{level: warn, hardware: c{i}}}}}\n"
         for i in range(11)
     )
-    report = checked(tmp_path, changed(TWO, "      weak:\n", more + "      weak:\n"))
+
+
+@pytest.mark.parametrize("kind", ["outside", "node"])
+def test_the_limit_bounds_the_levels_of_statuses(tmp_path: Path, kind: str) -> None:
+    """Forty statuses have more combinations than there is memory; what was not covered is not proven."""
+    rules = "".join(
+        f"      r{i}: {{if_target: active.A, if_part: [motor, active.A], new_target: active.B,"
+        f" diagnostics: {{level: warn, {f'hardware: c{i}' if kind == 'outside' else f'names: [c{i}]'}}}}}\n"
+        for i in range(40)
+    )
+    path = tmp_path / "many.yaml"
+    path.write_text(changed(TWO, "      weak:\n", rules + "      weak:\n"), encoding="utf-8")
+    report = check(path, most=1000)
+    assert [d.message.partition(":")[0] for d in report.diagnostics if d.id == "MG-8845"] == [
+        "not proven for 'low'",
+        "not proven for 'top'",
+    ]
+    assert report.exit_status == 1
+
+
+LOWER = changed(TWO, "      weak:\n", more_rules("also", "active.B", "motor, active.B") + "      weak:\n")
+"""The lower system has rules with 2048 combinations of levels."""
+
+
+def test_levels_of_what_one_system_sees_leave_nothing_open(tmp_path: Path) -> None:
+    report = checked(tmp_path, LOWER)
+    assert ([d.render() for d in report.diagnostics], report.result) == ([], "proven")
+    rule = "        new_target: active.B\n        diagnostics: {level: warn, hardware: b}"
+    report = checked(tmp_path, changed(LOWER, rule, rule.replace("hardware: b", "hardware: c3")))
+    assert [d.id for d in report.diagnostics] == ["MG-8844"]
+
+
+def test_too_many_levels_of_what_both_see_leave_such_a_cycle_open(tmp_path: Path) -> None:
+    upper = more_rules("too", "active.LIT", "lamp, inactive")
+    report = checked(tmp_path, changed(LOWER, "      on: {", upper + "      on: {"))
     assert [d.id for d in report.diagnostics] == ["MG-9838"], [d.render() for d in report.diagnostics]
     assert "not proven for 'top'" in report.diagnostics[0].message
     assert (report.exit_status, report.diagnostics[0].hint) == (
