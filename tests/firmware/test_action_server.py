@@ -17,6 +17,8 @@ from tests.support.patience import deadline, seconds
 
 NAME = "qemu-mps2-an386"
 SUCCEEDED, CANCELED = 4, 5
+WRAPPED_BELOW = 2**31
+"""Milliseconds of c/late_clock.h, which starts just below 2**32."""
 SIZE = (22_500, 3_032, 1_264)
 """Flash, RAM without the stack, worst stack, on the Cortex-M4."""
 
@@ -24,10 +26,13 @@ SIZE = (22_500, 3_032, 1_264)
 @pytest.mark.system
 @pytest.mark.ros
 def test_rclpy_sends_goals(builds: Builds, domain: int) -> None:
-    """Two goals at once with feedback, one of which is canceled, and a third one that has no place."""
+    """Two goals at once with feedback, one of which is canceled, and a third one that has no place.
+
+    The clock of the board wraps meanwhile.
+    """
     need(NAME, emulator=True)
     built = builds.build(NAME, SERVER)
-    image = builds.application(built, "actions.c")
+    image = builds.application(built, "actions.c", "-DLATE_CLOCK")
     with (
         action_peer(domain) as peer,
         board(built, image) as running,
@@ -48,6 +53,7 @@ def test_rclpy_sends_goals(builds: Builds, domain: int) -> None:
         assert feedback[-1] == [1, [0, 1, 1, 2, 3, 5]]
         assert peer.send(0)["accepted"]  # in the place of the goal that has ended
         assert peer.send(1)["accepted"] is False
+        running.wait_for(lambda: running.words("late_now_ms")[0] < WRAPPED_BELOW)
         peer.ask(do="ask", goal=0)
         assert peer.cancel(0) == [0, [0]]
         assert peer.result(0) == [CANCELED, []]

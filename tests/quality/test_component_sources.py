@@ -213,3 +213,28 @@ MOST_MENTIONS = 9
 def test_few_places_name_a_component() -> None:
     named = {name: len(mentions(name)) for name in CATALOGUE}
     assert {name: count for name, count in named.items() if count > MOST_MENTIONS} == {}
+
+
+_C_COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
+_C_FUNCTION = re.compile(r"^[\w *]*\b(\w+)\([^;{}]*\)\n\{\n(.*?)\n\}", re.MULTILINE | re.DOTALL)
+SHORT = 200
+"""Characters of a function, without spaces, that two components may both have."""
+
+
+def bodies(path: Path) -> list[tuple[str, str]]:
+    """Return the longer functions of a C file, each with its statements without spaces and comments."""
+    found = _C_FUNCTION.findall(_C_COMMENT.sub("", path.read_text(encoding="utf-8")))
+    texts = [(name, "".join(body.split())) for name, body in found]
+    return [(name, text) for name, text in texts if len(text) > SHORT]
+
+
+def test_no_function_is_in_two_components() -> None:
+    """What two components need is in one that both need."""
+    where: dict[str, set[str]] = {}
+    for component in CATALOGUE.values():
+        for path in sorted(component.folder.rglob("*")):
+            if path.suffix in {".c", ".h", ".j2"}:
+                for name, text in bodies(path):
+                    where.setdefault(text, set()).add(f"{component.name}: {name}")
+    assert len(where) > 100
+    assert [sorted(names) for names in where.values() if len(names) > 1] == []

@@ -186,6 +186,11 @@ class PeerPlan:
         return self.in_fragments.joined
 
     @property
+    def largest_received(self) -> int:
+        """Return the bytes of the largest message of another board, in one piece or joined of its fragments."""
+        return max(self.mtu, self.joined)
+
+    @property
     def largest_table(self) -> tuple[str, ...]:
         """The largest reliable message on each link as lines of C, where some are sent in fragments."""
         values = ", ".join(map(str, self.in_fragments.largest))

@@ -3,6 +3,10 @@
  * An action server on a board. A goal of order N gives N - 1 times feedback, and its result has N numbers; one of
  * order 0 goes on until it is canceled. `actions_report` has what was accepted, ended and canceled.
  */
+#ifdef LATE_CLOCK
+#include "late_clock.h"
+#endif
+
 #include <rcl/rcl.h>
 #include <rclc/executor.h>
 #include <rclc/rclc.h>

@@ -6,9 +6,11 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_peer_calling.h"
 #include "microros/xrce_peer_find.h"
+#include "microros/xrce_peer_find_note.h"
 #include "microros/xrce_peer_serving.h"
 #include "microros/xrce_peer_settle.h"
 #include "microros/xrce_turn_bytes.h"
+#include "microros/xrce_whole.h"
 #include "microros/xrce_wire.h"
 
 #include <string.h>
@@ -188,20 +190,9 @@ static void peer_take_client(xrce_client_t * client, uint8_t index, const uint8_
   peer_send_status(client, index, key, XRCE_STATUS_OK);
 }
 
-/* A length is compared before it is added: on a 16-bit processor the sum would wrap, and the loop would not end. */
 bool xrce_peer_is_whole(const uint8_t * message, size_t size)
 {
-  size_t at = XRCE_MESSAGE_HEADER;
-
-  while (at + XRCE_SUBMESSAGE_HEADER <= size) { /* at most MICROROS_PEER_MTU / 4 rounds */
-    const size_t length = xrce_get_le16(&message[at + 2u]);
-
-    if (length > size - at - XRCE_SUBMESSAGE_HEADER) {
-      return false;
-    }
-    at = (at + XRCE_SUBMESSAGE_HEADER + length + 3u) & ~(size_t)3u;
-  }
-  return at > XRCE_MESSAGE_HEADER && size <= at;
+  return xrce_is_whole(message, size);
 }
 
 static void peer_take(

@@ -6,7 +6,7 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_peer.h"
 #include "microros/xrce_peer_alert.h"
-#include "microros/xrce_peer_find.h"
+#include "microros/xrce_peer_find_note.h"
 #include "microros/xrce_peer_slots.h"
 #include "microros/xrce_wire.h"
 

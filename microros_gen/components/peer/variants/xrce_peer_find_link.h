@@ -22,12 +22,6 @@ extern "C" {
  * Returns whether the interface is gone: nothing could be sent for XRCE_PEER_FIND_MS. */
 bool xrce_peer_find(xrce_client_t * client, uint8_t index, uint32_t now);
 
-/* Notes whether the network took a message. */
-void xrce_peer_find_note(uint8_t index, bool is_sent);
-
-/* Returns the time until an interface is looked for, at most `left`. */
-uint32_t xrce_peer_find_left(uint8_t index, uint32_t left, uint32_t now);
-
 #ifdef __cplusplus
 }
 #endif

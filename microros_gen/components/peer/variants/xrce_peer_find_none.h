@@ -17,19 +17,4 @@ static inline bool xrce_peer_find(const xrce_client_t * client, uint8_t index, u
   return false;
 }
 
-/* Notes whether the network took a message. */
-static inline void xrce_peer_find_note(uint8_t index, bool is_sent)
-{
-  (void)index;
-  (void)is_sent;
-}
-
-/* Returns `left`: no device is looked for. */
-static inline uint32_t xrce_peer_find_left(uint8_t index, uint32_t left, uint32_t now)
-{
-  (void)index;
-  (void)now;
-  return left;
-}
-
 #endif /* MICROROS_XRCE_PEER_FIND_H */

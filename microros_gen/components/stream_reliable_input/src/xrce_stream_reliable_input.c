@@ -3,6 +3,7 @@
 
 #include "microros/xrce_client.h"
 #include "microros/xrce_routes.h"
+#include "microros/xrce_whole.h"
 #include "microros/xrce_wire.h"
 
 #include <string.h>
@@ -74,24 +75,6 @@ static void input_take_early(
   }
 }
 
-/*
- * Returns whether a message is complete: a partial one counts as lost, and the agent repeats it. A length is
- * compared before it is added: on a 16-bit processor the sum would wrap, and the loop would not end. */
-static bool input_is_whole(const uint8_t * message, size_t size)
-{
-  size_t at = XRCE_MESSAGE_HEADER;
-
-  while (at + XRCE_SUBMESSAGE_HEADER <= size) { /* at most MICROROS_INPUT_SIZE / 4 rounds */
-    const size_t length = xrce_get_le16(&message[at + 2u]);
-
-    if (length > size - at - XRCE_SUBMESSAGE_HEADER) {
-      return false;
-    }
-    at = (at + XRCE_SUBMESSAGE_HEADER + length + 3u) & ~(size_t)3u;
-  }
-  return at > XRCE_MESSAGE_HEADER && size <= at;
-}
-
 /* Delivers the next message. */
 static void input_deliver(xrce_client_t * client, const uint8_t * message, size_t size, uint32_t now)
 {
@@ -119,7 +102,7 @@ bool xrce_stream_reliable_input_take(
   const uint16_t sequence = xrce_get_le16(&message[2]);
   const uint16_t ahead = (uint16_t)(sequence - stream->next);
 
-  if (message[1] != XRCE_STREAM_RELIABLE || !input_is_whole(message, size)) {
+  if (message[1] != XRCE_STREAM_RELIABLE || !xrce_is_whole(message, size)) {
     return false;
   }
   if (client->session.state != XRCE_READY) {
