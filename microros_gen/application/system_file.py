@@ -95,9 +95,8 @@ def _link(item: YamlNode, boards: Mapping[str, Named], diagnostics: Diagnostics)
         named = named_of(end.value)
         if kind == "canfd" and named is not None:
             check_end(end.key, named, position, diagnostics)
-        if kind == "udp" and address_of(text_of(end.value) or "") is None:
-            message = f"'{text_of(end.value)}' is no IPv4 or IPv6 address with a port"
-            diagnostics.error(message, end.value.span, "Write it as 192.168.1.20:7500", id="MG-3193")
+        if kind == "udp":
+            _check_address(text_of(end.value) or "", end.value.span, diagnostics)
     _check_keys(item, kind, diagnostics)
     can_id = int_of(child(item, "id"))
     return LinkDecl(
@@ -108,6 +107,20 @@ def _link(item: YamlNode, boards: Mapping[str, Named], diagnostics: Diagnostics)
         span=item.span,
         can_id=DEFAULT_ID if can_id is None else can_id,
     )
+
+
+def _check_address(text: str, span: Span | None, diagnostics: Diagnostics) -> None:
+    """Report an end of a UDP link that is no address, or none of one board."""
+    address = address_of(text)
+    if address is None:
+        wrong, example = "no IPv4 or IPv6 address with a port", "192.168.1.20:7500"
+    else:
+        host = ipaddress.ip_address(address[0])
+        if not (host.is_unspecified or host.is_multicast or str(host) == "255.255.255.255"):
+            return
+        wrong, example = "not the address of one board", f"192.168.1.20:{address[1]}"
+    hint = f"Write the address of this board as {example}"
+    diagnostics.error(f"'{text}' is {wrong}", span, hint, id="MG-3193")
 
 
 def _check_keys(item: YamlNode, kind: str, diagnostics: Diagnostics) -> None:

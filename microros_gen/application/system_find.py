@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from pathlib import Path
+from pathlib import Path, PurePath
 
 from microros_gen.application.find import APPLICATION_FILE
 from microros_gen.application.kinds import KIND, NAMES, other_end
@@ -60,6 +60,7 @@ def with_system(
                 links.append(linked)
             else:
                 idle += linked.files
+    _check_pairs([link for link in links if _exchanges(application, link)], own_place.board, diagnostics)
     chip = _chip(own_place, interface_paths, files, diagnostics)
     return replace(application, links=tuple(links), bus_files=tuple(idle), chip=chip), files
 
@@ -282,6 +283,17 @@ def other_board(
     return other, source, file
 
 
+def _check_pairs(links: list[Link], board: str, diagnostics: Diagnostics) -> None:
+    """Report a second link with a board: each message would arrive over both."""
+    seen: dict[str, Link] = {}
+    for link in links:
+        first = seen.setdefault(link.board, link)
+        if first is not link:
+            where = f"; the first is in line {first.span.line}" if first.span else ""
+            message = f"two links join '{board}' and '{link.board}'{where}: messages would arrive twice"
+            diagnostics.error(message, link.span, "Remove one of them", id="MG-3253")
+
+
 def _chip(
     place: _Place, interface_paths: tuple[Path, ...], files: dict[str, Source], diagnostics: Diagnostics
 ) -> Chip | None:
@@ -307,15 +319,18 @@ def _check_names_system(
     other: Application, board: str, named: Named, file: Path, path: Path, diagnostics: Diagnostics
 ) -> None:
     """Report an application of the system that would be built without it, or as another board."""
-    reference = other.system
+    reference, span = other.system, named.span
     if reference is not None:
-        its = (file.parent / reference.file.name).resolve()
-        if its == path.resolve() and reference.board.name == board:
-            return
+        span = reference.file.span
+        if (file.parent / reference.file.name).resolve() == path.resolve():
+            if reference.board.name == board:
+                return
+            span = reference.board.span
+    own = PurePath(os.path.relpath(path.resolve(), file.parent.resolve())).as_posix()
     diagnostics.error(
         f"the application '{named.name}' does not name this system and its board '{board}'",
-        reference.file.span if reference else named.span,
-        f"Write `system: {{file: …, board: {board}}}` there",
+        span,
+        f"Write `system: {{file: {own}, board: {board}}}` there",
         id="MG-3196",
     )
 

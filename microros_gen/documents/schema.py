@@ -59,9 +59,9 @@ def _report(tree: YamlNode, difference: Difference, diagnostics: Diagnostics) ->
             meant = any(key_without_space(entry.key, schema) == key for entry in node)
             if key not in node.entries and not meant:
                 where = f"'{label}'" if label else "the file"
-                diagnostics.error(
-                    f"missing key '{key}' in {where}", node.span, f"Add `{key}: …`", id="MG-1003"
-                )
+                value = schema.get("properties", {}).get(key, {}).get("const", "…")
+                hint = f"Add `{key}: {value}`"
+                diagnostics.error(f"missing key '{key}' in {where}", node.span, hint, id="MG-1003")
     elif keyword == "not" and "x-reserved" in schema:
         message = (
             f"the key '{path[-1]}' is reserved for {schema['x-reserved']}, which this version does not have"

@@ -43,7 +43,11 @@ def describe_mismatch(node: YamlNode, label: str, schema: dict[str, Any]) -> tup
     what = f"'{label}'" if label else "the file"
     if isinstance(node, ScalarNode) and node.value == "" and schema.get("minLength"):
         return f"{what} must not be empty", "Write a text, or remove the key"
-    return f"{what} must be {expectation(schema)}; it is {found(node)}", _hint(node, schema)
+    is_short = isinstance(node, MappingNode) and 0 < len(node.entries) < schema.get("minProperties", 0)
+    instead = (
+        f"has {len(node.entries)}" if isinstance(node, MappingNode) and is_short else f"is {found(node)}"
+    )
+    return f"{what} must be {expectation(schema)}; it {instead}", _hint(node, schema)
 
 
 def describe_unknown_key(key: str, label: str, schema: dict[str, Any]) -> tuple[str, str | None]:

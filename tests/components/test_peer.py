@@ -166,6 +166,22 @@ def test_interface_files_that_differ(tmp_path: Path) -> None:
         ),
         (SYSTEM.replace("10.0.0.2:7500", "10.0.0.2"), "'10.0.0.2' is no IPv4 or IPv6 address with a port"),
         (
+            SYSTEM.replace("10.0.0.2", "0.0.0.0"),
+            "Write the address of this board as 192.168.1.20:7500",
+        ),
+        (SYSTEM.replace("10.0.0.2", "239.0.0.1"), "'239.0.0.1:7500' is not the address of one board"),
+        (SYSTEM.replace("10.0.0.2", "[ff02::1]"), "'[ff02::1]:7500' is not the address of one board"),
+        (SYSTEM.replace("10.0.0.2", "255.255.255.255"), "is not the address of one board"),
+        (
+            SYSTEM + SYSTEM[SYSTEM.index("  - {type") :].replace("7500", "7501"),
+            "system.yaml:7:5: error: two links join 'sensor' and 'motor'; the first is in line 6",
+        ),
+        (
+            SYSTEM.replace(', motor: "10.0.0.2:7500"', ""),
+            "two boards to their addresses or devices; it has 1",
+        ),
+        (SYSTEM.replace("version: 1\n", ""), "missing key 'version' in the file. Add `version: 1`"),
+        (
             SYSTEM.replace("10.0.0.2", "10.0.0.1"),
             "'10.0.0.1:7500' is the end of two links; the first is in line 6",
         ),
@@ -211,8 +227,15 @@ def test_faults_of_an_application(tmp_path: Path, old: str, new: str, words: str
 
 def test_an_application_that_does_not_name_the_system(tmp_path: Path) -> None:
     motor = MOTOR.replace("board: motor", "board: sensor")
-    words = "motor/microros.yaml:4:16: error: the application 'motor/microros.yaml' does not name this system and its"
-    assert words in refused(written(tmp_path, motor=motor))
+    words = "error: the application 'motor/microros.yaml' does not name this system and its"
+    hint = "Write `system: {file: ../system.yaml, board: motor}` there"
+    found = refused(written(tmp_path, motor=motor))
+    assert f"motor/microros.yaml:4:39: {words}" in found
+    assert hint in found
+    elsewhere = MOTOR.replace("../system.yaml", "../other.yaml")
+    found = refused(written(tmp_path, motor=elsewhere))
+    assert f"motor/microros.yaml:4:16: {words}" in found
+    assert hint in found
 
 
 def test_a_board_without_a_link(tmp_path: Path) -> None:

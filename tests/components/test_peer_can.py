@@ -145,8 +145,22 @@ def test_faults_of_a_system_file(tmp_path: Path, system: str, words: str) -> Non
 
 
 def test_identifiers_of_two_buses_may_be_alike(tmp_path: Path) -> None:
-    system = SYSTEM + '  - {type: canfd, ends: {motor: "can7:0x21", sensor: "can3:1"}}\n'
-    assert len(peers(bus(tmp_path, system), "sensor").links) == 2
+    arm = application("arm", ends("subscriptions", "topic: /a, peer: only"))
+    buses = (
+        '{sensor: can0, motor: "can1:0x21"}}\n  - {type: canfd, ends: {arm: "can7:0x21", sensor: "can3:1"}'
+    )
+    motor, other = peers(three(tmp_path, arm, buses), "sensor").links
+    assert (motor.board, motor.received_id) == ("motor", other.received_id) != (other.board, 0)
+
+
+def test_two_buses_with_the_same_boards(tmp_path: Path) -> None:
+    """Boards that exchange something are on one bus; what joins two buses may be on both with others."""
+    second = "  - {type: canfd, id: 0x20000, ends: {motor: can7, sensor: can3}}\n"
+    words = "two links join 'sensor' and 'motor'; the first is in line 6: messages would arrive twice"
+    assert words in refused(bus(tmp_path, SYSTEM + second))
+    silent = CAN_MOTOR.replace("peer: only", "peer: never")
+    apart = bus(tmp_path, SYSTEM + second, CAN_SENSOR.replace("peer: only", "peer: never"), silent)
+    assert words not in refused(apart)
 
 
 AGENT = "transport: {type: canfd, device: DEVICE, id: NUMBER}\n"

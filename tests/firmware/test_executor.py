@@ -3,19 +3,38 @@
 
 from __future__ import annotations
 
+import subprocess
 import time
 from pathlib import Path
 
 import pytest
 
 from tests.support.firmware.board import Builds, Built, board, need
-from tests.support.firmware.footprint import SERVES, bounded_stack, image_sections, touched_stack
+from tests.support.firmware.footprint import EXIT, SERVES, bounded_stack, image_sections, touched_stack
 from tests.support.firmware.line import scripted_agent
 from tests.support.firmware.ticker import APPLICATION, LISTENS
+from tests.support.patience import seconds
 from tests.support.runtime.fake_agent import FakeAgent
 
 NAME = "qemu-mps2-an386"
 SAMPLES = 12
+CHANGES = """\
+version: 1
+profiles: [pure_sender, pure_reader]
+components: [+executor, +timers, +services]
+errors: code
+pools: {executors: 2, handles: 8, timers: 2, guard_conditions: 2}
+nodes:
+  - name: device
+    publishers:
+      - {topic: first, type: std_msgs/msg/Int32, local: only}
+      - {topic: second, type: std_msgs/msg/Int32, local: only}
+    subscriptions:
+      - {topic: first, type: std_msgs/msg/Int32, local: only, queue: 4}
+      - {topic: second, type: std_msgs/msg/Int32, local: only, queue: 4}
+    services: [{name: sum, type: example_interfaces/srv/AddTwoInts, local: only}]
+    clients: [{name: sum, type: example_interfaces/srv/AddTwoInts, local: only}]
+"""
 
 
 @pytest.mark.system
@@ -34,6 +53,21 @@ def test_a_timer_publishes_under_the_executor(builds: Builds, kind: str) -> None
     assert elapsed > 0.1 * SAMPLES * 0.8
     proven = bounded_stack(built, image)  # callbacks of the application included
     assert proven // 4 < touched <= proven
+
+
+@pytest.mark.system
+def test_handles_of_every_kind_are_added_and_removed(builds: Builds) -> None:
+    """Two executors, local topics and a local service, without an agent; the clock wraps meanwhile."""
+    need(NAME, emulator=True)
+    built = builds.build(NAME, CHANGES)
+    emulator = built.target.emulator
+    assert emulator is not None
+    image = builds.application(built, "executor_changes.c")
+    command = [emulator.program, *emulator.arguments, *EXIT, "-kernel", str(image)]
+    done = subprocess.run(
+        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=seconds(60), check=False
+    )
+    assert (done.returncode, done.stderr) == (0, b"")
 
 
 @pytest.mark.system
