@@ -3,7 +3,7 @@
 
 An encoder refuses what is above its limit: `if (!cdr_fits(text->data, text->size, 40U, …)) { return 0U; }`. What
 follows in the same block, or within it, has at most 40 characters. A decoder takes no more elements than the message
-has bytes: `cdr_get_size(in, &message->values, …)`.
+has bytes: `cdr_get_size(in, &message->values, …)`; decoders.py says how few they are.
 """
 
 from __future__ import annotations

@@ -8,7 +8,7 @@ holder. A path ends where the depth becomes 0, in whichever function that is, as
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import field
+from dataclasses import field, replace
 
 from microros_gen.image.flow import Flow, Step
 from microros_gen.image.paths import NOTHING, Length, longer, longest
@@ -44,7 +44,8 @@ class Rules:
     knows. `of_port`: what counts for a function of the port, by its name and what was found.
     `zero`: functions that return zero at each call.
     `calls`: in how many rounds of its loop a call is reached at most; None: in all of them. `anywhere`: functions whose
-    loops may be entered in several places, as each way round is one of `rounds`.
+    loops may be entered in several places, as each way round is one of `rounds`. `of_call`: the length of
+    a call, by its caller, what it calls, and what was found of that. `size`: the most bytes of a message.
     """
 
     rounds: Callable[[Flow, int, frozenset[int], int | None], Length]
@@ -54,6 +55,8 @@ class Rules:
     zero: frozenset[int] = frozenset()
     calls: Callable[[Flow, Step], int | None] = lambda flow, step: None
     anywhere: Callable[[Flow], bool] = lambda flow: False
+    of_call: Callable[[Flow, Step, int, Length], Length] = lambda flow, step, to, length: length
+    size: int = 0
 
 
 @dataclass
@@ -96,6 +99,10 @@ class Holds:
             found[place] = longer(found.get(place), hold.length)
         holds = (Hold(name, at, length) for (name, at), length in found.items())
         return tuple(sorted(holds, key=lambda hold: (-hold.length.count, hold.function, hold.address)))
+
+    def called(self, address: int) -> Length | None:
+        """Return the longest path of the function at `address`, called with the lock; None: it never returns."""
+        return self._summary(address, 1, None).ends.get(1)
 
     def unseen(self, address: int) -> frozenset[str]:
         """Return why the function at `address` may have further holds: calls without the lock that nobody knows."""
@@ -161,7 +168,11 @@ class Holds:
             )
         key = (to, depth, self._rules.bytes(flow, step, caller[2]))
         self._called.setdefault(caller, set()).add(key)
-        return self._summary(*key)
+        found = self._summary(*key)
+        if not found.ends:
+            return found
+        ends = {after: self._rules.of_call(flow, step, to, length) for after, length in found.ends.items()}
+        return replace(found, ends=ends)
 
     @property
     def visited(self) -> frozenset[int]:
@@ -253,7 +264,7 @@ class _Walk:
         """Return the longest paths from `begins` to where the lock is released, and to each end."""
         rules = self._holds.rules
         reached = longest(
-            self._edges, begins, self._rounds, self._limit, lambda _: rules.anywhere(self._flow)
+            self._edges, begins, self._rounds, self._limit, lambda _: rules.anywhere(self._flow), rules.size
         )
         released: Length | None = None
         ends: dict[int, Length] = {}

@@ -5,11 +5,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from microros_gen.image.attribution import Chunk
 from microros_gen.image.callgraph import disassembly_text, reached
+from microros_gen.image.decoders import least_of
 from microros_gen.image.dwarf import read_units, source_places
 from microros_gen.image.elf import Elf
 from microros_gen.image.flow import Flow, Step, read_flows
@@ -18,10 +20,11 @@ from microros_gen.image.guards import Written
 from microros_gen.image.holds import Hold, Holds, Rules
 from microros_gen.image.inlined import Inlined
 from microros_gen.image.lines import Lines
-from microros_gen.image.paths import Length, inner_parts, parts_of
+from microros_gen.image.paths import UNIT, Length, inner_parts, parts_of
 from microros_gen.image.pointers import read_pointers
 from microros_gen.image.report import SizeReport
-from microros_gen.image.rounds import SIZE_OF, Sources, is_of_cdr
+from microros_gen.image.rounds import READ, SIZE_OF, Sources, is_of_cdr
+from microros_gen.image.samples import Samples
 from microros_gen.records import dataclass
 
 OF_SESSION = "rclc_tasks_run_session"
@@ -30,6 +33,11 @@ _ASKS_TURN = ("xrce_turn_is_mine", "xrce_turn_begin")
 """Functions that say to all other tasks that they do not receive and send, unless one of them borrows the turn."""
 _BORROWS = "xrce_turn_borrow"
 _LIBRARIES = ("C library", "compiler")
+_BEGINS = ("cdr_decode", "cdr_loan_decode")
+"""Functions that begin to read a message."""
+_UNKNOWN = "an unknown number of bytes"
+_READS_ON = re.compile(r"^(?:cdr_get_\w+|\w+__decode)$")
+"""Functions that read what follows in a message, and leave it behind."""
 _THIRD_IS_SIZE = re.compile(
     r"^(?:mem(?:cpy|move|set|cmp|chr|ccpy)|str(?:ncpy|ncmp|ncat)|__aeabi_mem(?:cpy|move)[48]?)(?:\.|$)"
 )
@@ -75,7 +83,8 @@ class _Image:
         self.names.update({a: flow.name for a, flow in self.flows.items() if a not in self.names})
         self._lines, self._inlined, self._port = Lines(image), Inlined(image), port
         self._units = read_units(image)
-        self._sources = Sources(_reader(folder), _headers(folder))
+        self._sources = Sources(_reader(folder), _headers(folder), _decoders(folder))
+        self._samples = Samples(folder)
         self._sized = self._functions_with_size(_sized_names(folder))
         self._targets = _targets(folder, image, self._functions, self.flows)
 
@@ -86,7 +95,15 @@ class _Image:
     def rules(self, zero: frozenset[int] = frozenset()) -> Rules:
         """Return what the code does not say."""
         return Rules(
-            self._rounds, self._targets.get, self._bytes, self._of_port, zero, self._calls, self._has_size
+            self._rounds,
+            self._targets.get,
+            self._bytes,
+            self._of_port,
+            zero,
+            self._calls,
+            self._has_size,
+            self._of_call,
+            self._sources.body,
         )
 
     def _rounds(self, flow: Flow, head: int, part: frozenset[int], size: int | None) -> Length:
@@ -99,8 +116,8 @@ class _Image:
         ends = [self._places(_left(flow, each)) for each in (part, *inner)]
         within = [place for each in ends[1:] for place in each]
         rounds = self._sources.rounds(ends[0], self._places(own), within, (flow.name, size))
-        if isinstance(rounds, int):
-            return Length(rounds)
+        if isinstance(rounds, Length):
+            return rounds if self._decodes(flow.address) else rounds.of(self._sources.body)
         written = [self._written(flow, a) for a in _left(flow, part)]
         if (
             written
@@ -121,10 +138,12 @@ class _Image:
         What every round moves a register on by, from which it loads, is handled at once, but for the first and last.
         """
         if size is None:
-            return Length(1, frozenset({f"{flow.name}: called for an unknown number of bytes"}))
+            return Length(1, frozenset({_UNKNOWN}))
         forks = sum(1 for a in part if sum(to in part for to in flow.steps[a].next) > 1)
         stored = 0 if forks else sum(flow.steps[a].stored for a in part)
         far = max((flow.steps[a].moved for a in part if _is_in_each_round(flow, part, a)), default=0)
+        if size == READ:
+            return Length(2 if far and not stored else 0, rate=-(-UNIT // (stored or far or 1)))
         return Length(size // stored if stored else min(size, size // far + 2) if far else size)
 
     def _functions_with_size(self, names: frozenset[str]) -> frozenset[int]:
@@ -155,7 +174,26 @@ class _Image:
         place, written = self._lines.place(step.address), self._written(flow, step.address)
         if written is not None:
             return written.bytes
-        return self._sources.size(place) if place is not None else None
+        found = self._sources.size(place) if place is not None else None
+        return self._sources.body if found == READ and not self._decodes(flow.address) else found
+
+    def _decodes(self, address: int) -> bool:
+        """Return whether a function reads a message, and has no part that reads another one."""
+        name = self.names.get(address, "").partition(".")[0]
+        return name not in _BEGINS and self._sources.decodes(self._units.get(address, ""))
+
+    def _of_call(self, flow: Flow, step: Step, to: int, length: Length) -> Length:
+        """Return the length of a call: how much is read is known where a message begins; and where it is open."""
+        name = self.names.get(to, "")
+        if _UNKNOWN in length.open and not self._is_library(flow.address):
+            at = self._sources.shown(self._lines.place(step.address))
+            why = f"{flow.name}: {name} is called for {_UNKNOWN} ({at})"
+            length = replace(length, open=length.open - {_UNKNOWN} | {why})
+        if self._decodes(flow.address):
+            if not self._decodes(to) or not _READS_ON.match(name):
+                return replace(length, least=0)
+            return replace(length, apart=length.rate > 0, least=max(length.least, least_of(name)))
+        return length.of(self._samples.size(name) or self._sources.body)
 
     def _written(self, flow: Flow, address: int) -> Written | None:
         """Return what the function of microros/cdr.h that an instruction is of writes at most."""
@@ -208,6 +246,11 @@ def _sized_names(folder: Folder) -> frozenset[str]:
     )
 
 
+def _decoders(folder: Folder) -> list[str]:
+    paths = sorted(Path(folder.path / "src").rglob("*__decode.c"))
+    return [path.read_text(encoding="utf-8", errors="replace") for path in paths]
+
+
 def _headers(folder: Folder) -> list[str]:
     paths = sorted(Path(folder.path / "include").rglob("*.h"))
     return [path.read_text(encoding="utf-8", errors="replace") for path in paths]
@@ -257,6 +300,15 @@ def task_holds(report: SizeReport, image: Elf, port: int | None) -> tuple[TaskHo
         for task in tasks
         for found in (known[task["entry"]],)
     )
+
+
+def longest_calls(report: SizeReport, image: Elf, functions: Iterable[str]) -> Mapping[str, Length]:
+    """Return the longest path of each of `functions`, called with the lock; those that the image lacks are left out."""
+    code = _Image(report, image, None)
+    holds = Holds(code.flows, code.names, code.rules())
+    found = ((name, code.address(name)) for name in functions)
+    lengths = ((name, holds.called(address)) for name, address in found if address is not None)
+    return {name: length for name, length in lengths if length is not None}
 
 
 @dataclass(frozen=True)

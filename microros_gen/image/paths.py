@@ -5,6 +5,10 @@ A loop is a strongly connected part that is entered at one place. Without the ed
 (Bourdoncle, "Efficient chaotic iteration strategies with widenings", 1993). What its place is reached with grows by its
 longest round for each round. A place of a loop may be reached in few of its rounds only: the others then grow by the
 longest one without it.
+
+What decodes a message has a part for each byte that it reads, besides a fixed one. Each byte is read once: of two calls
+one after the other, and of the rounds of a loop, the bytes are disjoint (Cormen et al., "Introduction to Algorithms",
+amortized analysis). So the part for each byte is the larger one of both calls, and that of one round.
 """
 
 from __future__ import annotations
@@ -17,22 +21,73 @@ from microros_gen.records import dataclass
 Node = TypeVar("Node", bound=Hashable)
 
 
+UNIT = 1 << 16
+"""Parts of an instruction in which `Length.rate` is: it is rounded up to one."""
+
+
 @dataclass(frozen=True)
 class Length:
-    """At most `count` instructions, but for what is in `open`: why it is no bound."""
+    """At most `count` instructions, but for what is in `open`: why it is no bound.
+
+    `rate`: those for each byte of the message that are read meanwhile, besides `count`; of an instruction UNIT parts.
+    `apart`: another length that is apart is of other bytes. `least`: it reads so many bytes, for which `rate` does not
+    count, unless what is read is refused. Then it counts for all bytes, and the message ends.
+    """
 
     count: int
     open: frozenset[str] = frozenset()
+    rate: int = 0
+    apart: bool = False
+    least: int = 0
 
     def __add__(self, other: Length) -> Length:
         """Return both, one after the other."""
-        return Length(self.count + other.count, self.open | other.open)
+        count, why, least = self.count + other.count, self.open | other.open, self.least + other.least
+        if not self.rate and not other.rate:
+            return Length(count, why, least=least)
+        apart = self._is_apart and other._is_apart
+        rate = max(self.rate, other.rate) if apart else self.rate + other.rate
+        return Length(count, why, rate, apart, least if apart else 0)
+
+    @property
+    def _is_apart(self) -> bool:
+        return self.apart or not self.rate
+
+    def of(self, size: int) -> Length:
+        """Return the length where at most `size` bytes are read."""
+        return (
+            Length(self.count + -(-self.rate * size // UNIT), self.open) if self.rate or self.least else self
+        )
+
+    def times(self, rounds: Length, size: int) -> Length:
+        """Return `rounds.count` rounds of this length, and those for each byte; `size`: the most bytes of a message.
+
+        Of `k` rounds that read at least `m` bytes each, `k * count + rate * (bytes - k * least)` is the largest for no
+        round or for as many as there are bytes for.
+        """
+        rate, most, each = self.rate, rounds, self.count * UNIT
+        if self.rate and not self.apart:  # each round may be about the same bytes
+            most = rounds.of(size)
+            rate *= most.count
+        elif rounds.apart:
+            each = max(each - self.rate * self.least, 0)
+        apart = self._is_apart and (rounds.apart or not most.rate)
+        rate += -(-each * most.rate // UNIT)
+        return Length(self.count * most.count, self.open | rounds.open, rate, apart and rate > 0)
+
+    def or_longer(self, other: Length) -> Length:
+        """Return a length that neither of both is longer than."""
+        apart, rate = self._is_apart and other._is_apart, max(self.rate, other.rate)
+        least = min(self.least, other.least) if apart else 0
+        return Length(max(self.count, other.count), self.open | other.open, rate, apart and rate > 0, least)
 
 
 NOTHING = Length(0)
 Edges = Mapping[Node, Mapping[Node, Length]]
 Rounds = Callable[[Node, frozenset[Node]], Length]
-"""Of a loop, by the place where it is entered and all of its places: the most rounds, or why nobody knows."""
+"""Of a loop, by the place where it is entered and all of its places: the most rounds, or why nobody knows.
+
+`rate`: those for each byte that is read in it."""
 Limits = Callable[[Node], int | None]
 """Of a place: in how many rounds of its innermost loop it is reached at most, each time that the loop is entered.
 None: in all of them."""
@@ -59,11 +114,12 @@ class _Bounds(Generic[Node]):
     rounds: Rounds[Node]
     limits: Limits[Node]
     anywhere: Anywhere[Node]
+    size: int
 
 
 def longer(known: Length | None, other: Length) -> Length:
     """Return the longer of two paths, with what is open in either."""
-    return other if known is None else Length(max(known.count, other.count), known.open | other.open)
+    return other if known is None else known.or_longer(other)
 
 
 def longest(
@@ -72,9 +128,13 @@ def longest(
     rounds: Rounds[Node],
     limits: Limits[Node] = _everywhere,
     anywhere: Anywhere[Node] = _nowhere,
+    size: int = 0,
 ) -> dict[Node, Length]:
-    """Return the longest path to each place that one of `begins` leads to, from what each of those begins with."""
-    return _longest(_reached(edges, begins), edges, begins, _Bounds(rounds, limits, anywhere))
+    """Return the longest path to each place that one of `begins` leads to, from what each of those begins with.
+
+    `size`: the most bytes of a message.
+    """
+    return _longest(_reached(edges, begins), edges, begins, _Bounds(rounds, limits, anywhere, size))
 
 
 def _reached(edges: Edges[Node], begins: Iterable[Node]) -> set[Node]:
@@ -137,30 +197,29 @@ def _loop(
     most = bounds.rounds(head, part)
     if several:
         most += Length(1)
-    more = _rounds(part, head, edges, inner, most)
+    more = _rounds(part, head, edges, inner).times(most, bounds.size)
     limited = _limited(part, within, bounds.limits)
     few = sum(limited.values())
-    if limited and few < most.count and not several:
+    if limited and (few < most.count or most.rate) and not several:
         others = {node: {} if node in limited else after for node, after in within.items()}
         shorter = _longest(set(part), others, {head: NOTHING}, bounds)
         free = {node: edges.get(node, {}) if node not in limited else {} for node in part}
-        rest = _rounds(part, head, free, shorter, Length(most.count - few))
-        more = _rounds(part, head, edges, inner, Length(few, most.open)) + rest
+        others_most = Length(max(most.count - few, 0), rate=most.rate, apart=most.apart)
+        rest = _rounds(part, head, free, shorter).times(others_most, bounds.size)
+        more = _rounds(part, head, edges, inner).times(Length(few, most.open), bounds.size) + rest
     if len(outside) > 1 and not several:
         more += Length(0, frozenset({"a loop with several entries"}))
     return {node: value + more + length for node, length in inner.items()}
 
 
-def _rounds(
-    part: frozenset[Node], head: Node, edges: Edges[Node], inner: Mapping[Node, Length], most: Length
-) -> Length:
-    """Return `most` times the longest round of a loop; `inner` are the longest paths from its entry."""
-    cycle = NOTHING
+def _rounds(part: frozenset[Node], head: Node, edges: Edges[Node], inner: Mapping[Node, Length]) -> Length:
+    """Return the longest round of a loop; `inner` are the longest paths from its entry."""
+    cycle: Length | None = None
     for node in part:
         back = edges.get(node, {}).get(head)
         if back is not None and node in inner:
             cycle = longer(cycle, inner[node] + back)
-    return Length(cycle.count * most.count, cycle.open | most.open)
+    return cycle if cycle is not None else NOTHING
 
 
 def _limited(part: frozenset[Node], within: Edges[Node], limits: Limits[Node]) -> dict[Node, int]:

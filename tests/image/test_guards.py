@@ -6,6 +6,7 @@ from __future__ import annotations
 import pytest
 
 from microros_gen.image.guards import OF_BODY, Guards, Written
+from microros_gen.image.paths import Length
 from microros_gen.image.rounds import Sources
 
 ENCODER = """\
@@ -102,13 +103,13 @@ void decode(cdr_in_t * in, void * untyped)
     assert Guards(decoder).limit("message->names.size", 4) == OF_BODY
     constants = "#define MICROROS_INPUT_BUFFER_SIZE 64u\n#define MICROROS_QUEUES_SIZE 100u\n"
     sources = Sources(lambda _: decoder, [constants])
-    assert sources.rounds([("a.c", 5)]) == 164
+    assert sources.rounds([("a.c", 5)]) == Length(164)
     assert sources.rounds([("a.c", 8)]) == "a.c:7"
 
 
 def test_a_loop_of_an_encoder_has_the_rounds_that_it_checks() -> None:
     sources = Sources(lambda _: ENCODER, [])
-    assert sources.rounds([("a.c", line_of("return 0U;\n    }"))]) == 8
+    assert sources.rounds([("a.c", line_of("return 0U;\n    }"))]) == Length(8)
     changed = ENCODER.replace(
         "position, text->data, text->size);", "position, text->data, text->size);\n    i = 0U;"
     )

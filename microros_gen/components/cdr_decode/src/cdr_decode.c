@@ -69,16 +69,15 @@ static inline const uint8_t * take(cdr_in_t * in, size_t count, uint32_t width, 
   return from;
 }
 
-/** Reverses the bytes of each of `count` numbers. */
-static void turn(uint8_t * numbers, size_t count, uint32_t width)
+/** Reverses the bytes of each of the numbers of `width` bytes (2, 4 or 8) that take `size` bytes. */
+static void turn(uint8_t * numbers, size_t size, uint32_t width)
 {
-  for (size_t i = 0U; i < count; ++i) { /* at most MICROROS_INPUT_BUFFER_SIZE + MICROROS_QUEUES_SIZE rounds */
-    uint8_t * const number = &numbers[i * width];
-    for (uint32_t first = 0U; first < (width / 2U); ++first) { /* at most 4 rounds */
-      const uint32_t last = (width - 1U) - first;
-      const uint8_t byte = number[first];
-      number[first] = number[last];
-      number[last] = byte;
+  for (size_t i = 0U; i < size; ++i) { /* at most BYTES_READ rounds */
+    const size_t mirrored = i ^ ((size_t)width - 1U);
+    if (i < mirrored) {
+      const uint8_t byte = numbers[i];
+      numbers[i] = numbers[mirrored];
+      numbers[mirrored] = byte;
     }
   }
 }
@@ -92,10 +91,10 @@ static inline void get_numbers(cdr_in_t * in, void * to, size_t count, uint32_t 
   if (from == NULL) {
     return;
   }
-  /* at most MICROROS_INPUT_BUFFER_SIZE + MICROROS_QUEUES_SIZE bytes */
-  (void)memcpy(to, from, count * (size_t)width);
+  const size_t size = count * (size_t)width;
+  (void)memcpy(to, from, size); /* at most BYTES_READ bytes */
   if (in->swap) {
-    turn((uint8_t *)to, count, width);
+    turn((uint8_t *)to, size, width);
   }
 }
 
@@ -123,7 +122,7 @@ void cdr_get_bool(cdr_in_t * in, bool * to, size_t count, const char * field)
 {
   const uint8_t * const from = take(in, count, 1U, field);
 
-  /* at most MICROROS_INPUT_BUFFER_SIZE + MICROROS_QUEUES_SIZE rounds */
+  /* at most BYTES_READ rounds */
   for (size_t i = 0U; (from != NULL) && (i < count); ++i) {
     to[i] = from[i] != 0U;
   }

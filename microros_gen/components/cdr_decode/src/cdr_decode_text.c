@@ -11,9 +11,9 @@ static size_t count_characters(const char * from, uint32_t length)
   size_t size = 0U;
 
   if (from[length - 1U] == '\0') {
-    return strlen(from); /* at most MICROROS_INPUT_BUFFER_SIZE + MICROROS_QUEUES_SIZE bytes */
+    return strlen(from); /* at most BYTES_READ bytes */
   }
-  /* at most MICROROS_INPUT_BUFFER_SIZE + MICROROS_QUEUES_SIZE rounds */
+  /* at most BYTES_READ rounds */
   while ((size < length) && (from[size] != '\0')) {
     ++size;
   }
@@ -41,7 +41,7 @@ void cdr_get_string(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bou
     size = 0U;
   }
   if (size > 0U) {
-    /* at most MICROROS_INPUT_BUFFER_SIZE + MICROROS_QUEUES_SIZE bytes */
+    /* at most BYTES_READ bytes */
     (void)memcpy(text->data, from, size);
   }
   if ((capacity > 1U) || ((capacity == 1U) && (text->data[0] != '\0'))) {
@@ -54,7 +54,8 @@ void cdr_get_string(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bou
 void cdr_get_strings(
   cdr_in_t * in, rosidl_runtime_c__String * texts, size_t count, uint32_t bound, const char * field)
 {
-  for (size_t i = 0U; i < count; ++i) { /* at most MICROROS_INPUT_BUFFER_SIZE + MICROROS_QUEUES_SIZE rounds */
+  /* at most BYTES_READ / 4 + 1 rounds: each has a length, and one that is refused is the last one */
+  for (size_t i = 0U; (i < count) && !in->failed; ++i) {
     cdr_get_string(in, &texts[i], bound, field);
   }
 }

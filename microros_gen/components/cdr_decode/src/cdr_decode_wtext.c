@@ -15,7 +15,7 @@ void cdr_get_wstring(cdr_in_t * in, rosidl_runtime_c__U16String * text, uint32_t
     cdr_in_refuse_above(in, field, size, limit, bound);
     size = 0U;
   }
-  /* at most (MICROROS_INPUT_BUFFER_SIZE + MICROROS_QUEUES_SIZE) / 4 rounds */
+  /* at most BYTES_READ / 4 rounds */
   for (uint32_t i = 0U; i < size; ++i) {
     uint32_t unit = 0U;
     cdr_get_4(in, &unit, 1U, field);
@@ -34,7 +34,8 @@ void cdr_get_wstring(cdr_in_t * in, rosidl_runtime_c__U16String * text, uint32_t
 void cdr_get_wstrings(
   cdr_in_t * in, rosidl_runtime_c__U16String * texts, size_t count, uint32_t bound, const char * field)
 {
-  for (size_t i = 0U; i < count; ++i) { /* at most MICROROS_INPUT_BUFFER_SIZE + MICROROS_QUEUES_SIZE rounds */
+  /* at most BYTES_READ / 4 + 1 rounds */
+  for (size_t i = 0U; (i < count) && !in->failed; ++i) {
     cdr_get_wstring(in, &texts[i], bound, field);
   }
 }

@@ -44,7 +44,7 @@ static char * loan_terminate(uint8_t * text, uint32_t length)
     first = &text[-1]; /* a byte of the length, which is 0 */
   } else if (text[length - 1u] != 0u) {
     first = &text[-1];
-    (void)memmove(first, text, (size_t)length);
+    (void)memmove(first, text, (size_t)length); /* at most BYTES_READ bytes */
     first[length] = 0u;
   } else {
     /* usual */
@@ -64,7 +64,7 @@ bool cdr_loan_string(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bo
     return true;
   }
   text->data = loan_terminate(&loan_body[in->position], length);
-  text->size = strlen(text->data);
+  text->size = strlen(text->data); /* at most BYTES_READ bytes */
   text->capacity = text->size + 1u;
   in->position += length;
   if (text->size > bound) {
@@ -76,10 +76,10 @@ bool cdr_loan_string(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bo
 /* Reverses the bytes of each number. */
 static void loan_swap(uint8_t * numbers, uint32_t count, uint32_t width)
 {
-  for (uint32_t i = 0; i < count; ++i) {
+  for (uint32_t i = 0; i < count; ++i) { /* at most BYTES_READ rounds */
     uint8_t * number = &numbers[(size_t)i * width];
 
-    for (uint32_t first = 0; first < width / 2u; ++first) {
+    for (uint32_t first = 0; first < width / 2u; ++first) { /* at most 4 rounds */
       const uint8_t byte = number[first];
 
       number[first] = number[width - 1u - first];
@@ -96,7 +96,7 @@ static uint8_t * loan_align(uint8_t * numbers, size_t size, uint32_t width)
 
   if (off != 0u && off <= (uintptr_t)LENGTH_SIZE) {
     aligned = &numbers[-(ptrdiff_t)off];
-    (void)memmove(aligned, numbers, size);
+    (void)memmove(aligned, numbers, size); /* at most BYTES_READ bytes */
   }
   return aligned;
 }

@@ -35,6 +35,7 @@ static void fragments_add(uint8_t index, const uint8_t * payload, uint32_t size)
   if (arrived > (uint32_t)ROOM || size > (uint32_t)ROOM - arrived) {
     joined_sizes[index] = (uint32_t)ROOM + 1u;
   } else {
+    /* at most MICROROS_PEER_JOINED bytes */
     (void)memcpy(&peer_joined[index][(uint32_t)BEGIN + arrived], payload, size);
     joined_sizes[index] = arrived + size;
   }

@@ -61,7 +61,7 @@ static bool fragments_add(xrce_client_t * client, const uint8_t * fragment, size
     ++client->session.statistics.malformed;
     return false;
   }
-  (void)memcpy(&place[fragments->arrived], fragment, size);
+  (void)memcpy(&place[fragments->arrived], fragment, size); /* at most MICROROS_INPUT_SIZE bytes */
   fragments->arrived = (uint16_t)(fragments->arrived + size);
   return true;
 }

@@ -29,6 +29,7 @@ static void outbox_remove(void)
   const size_t size = (size_t)OUTBOX_SIZE_BYTES + outbox_oldest();
 
   outbox.used -= size;
+  /* at most MICROROS_OUTBOX_SIZE bytes */
   (void)memmove(outbox.messages, &outbox.messages[size], outbox.used);
 }
 
@@ -39,6 +40,7 @@ static bool outbox_put(const uint8_t * message, size_t size)
 
   if (fits) {
     xrce_put_le16(&outbox.messages[outbox.used], (uint16_t)size);
+    /* at most MICROROS_OUTBOX_SIZE bytes */
     (void)memcpy(&outbox.messages[outbox.used + (size_t)OUTBOX_SIZE_BYTES], message, size);
     outbox.used += (size_t)OUTBOX_SIZE_BYTES + size;
   }

@@ -43,7 +43,7 @@ bool xrce_plain_send(xrce_transport_t * transport, const uint8_t * message, size
   }
   (void)memset(data, 0, sizeof(data));
   data[0] = (uint8_t)size;
-  (void)memcpy(&data[LENGTH_SIZE], message, size);
+  (void)memcpy(&data[LENGTH_SIZE], message, size); /* at most PORT_CAN_DATA bytes */
   return port_can_send(&transport->can, data, canfd_length(LENGTH_SIZE + size));
 }
 
@@ -60,6 +60,6 @@ int32_t xrce_plain_receive(xrce_transport_t * transport, uint8_t * buffer, size_
   if (size == 0u || size > received - LENGTH_SIZE || size > capacity) {
     return -1;
   }
-  (void)memcpy(buffer, &data[LENGTH_SIZE], size);
+  (void)memcpy(buffer, &data[LENGTH_SIZE], size); /* at most PORT_CAN_DATA bytes */
   return (int32_t)size;
 }
