@@ -54,13 +54,27 @@ def check_deadlines(
 
 
 def _parts(response: Response) -> str:
-    """Return what the response consists of."""
+    """Return what the response consists of; that of a later release of a busy period also has what is before it."""
     task = response.task
-    parts = [f"time {task.time_us}"]
+    earlier = _earlier(response)
+    parts = [f"time {earlier + 1} x {task.time_us}" if earlier else f"time {task.time_us}"]
     parts += [f"jitter {task.jitter_us}"] if task.jitter_us else []
     parts += [f"blocking {response.blocking_us}: {blocked_by(response)}"] if response.blocking_us else []
     parts += [f"{i.task} {i.times} x {i.time_us // i.times}" for i in response.interference]
+    if earlier:
+        releases = "release delays" if earlier == 1 else "releases delay"
+        parts.append(f"less {earlier} x {task.period_us}, as {earlier} earlier {releases} it")
     return "; ".join(parts)
+
+
+def _earlier(response: Response) -> int:
+    """Return how many releases of the task precede the one of the longest response in its busy period."""
+    task, response_us = response.task, response.response_us or 0
+    whole = (
+        task.time_us + task.jitter_us + response.blocking_us + sum(i.time_us for i in response.interference)
+    )
+    gained = task.period_us - task.time_us
+    return (whole - response_us) // gained if gained > 0 else 0
 
 
 def _hint(found: Sequence[Remedy], tasks: Sequence[Task], name: str) -> str:

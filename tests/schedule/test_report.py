@@ -152,6 +152,21 @@ def test_what_blocks_and_jitter_are_named() -> None:
     assert message.endswith("Write `deadline: 43 us` or more, or `lock: 7 us` of 'below' or less [MG-7142]")
 
 
+def test_the_parts_of_a_response_add_up_where_earlier_releases_delay_it() -> None:
+    tasks = [
+        Task("control", 1000, 250),
+        Task("session", 1000, 300, deadline_us=1001),
+        Task("worker", 8949, 4000, sporadic=True),
+    ]
+    (message,) = messages(tasks)
+    assert "may end 8957 us" in message
+    parts = (
+        "(time 8 x 4000; control 72 x 250; session 72 x 300; less 7 x 8949, as 7 earlier releases delay it)"
+    )
+    assert parts in message
+    assert 8 * 4000 + 72 * 250 + 72 * 300 - 7 * 8949 == 8957
+
+
 def test_an_overload_is_refused_with_its_share() -> None:
     assert messages([Task("a", 10, 6), Task("b", 12, 6)]) == [
         "microros-gen: error: the task 'b' and the 1 above it take 110.0 % of the processor's time."
