@@ -39,20 +39,20 @@ def validate(tree: YamlNode | None, source: Source, schema: Schema, diagnostics:
         return
     found, data = Diagnostics(), to_data(tree)
     for difference in differences(data, schema):
-        _report(tree, difference, found)
+        _report(tree, difference, schema, found)
     for part in deprecated_parts(data, schema):
         _warn_of_deprecated(tree, part, found)
     diagnostics.extend(sorted(found, key=lambda d: (d.span.line, d.span.column) if d.span else (0, 0)))
 
 
-def _report(tree: YamlNode, difference: Difference, diagnostics: Diagnostics) -> None:
+def _report(tree: YamlNode, difference: Difference, root: Schema, diagnostics: Diagnostics) -> None:
     path, schema, keyword = list(difference.path), difference.schema, difference.keyword
     node = _node_at(tree, path)
     label = path_label(path)
     if keyword == "additionalProperties" and isinstance(node, MappingNode):
         for entry in node:
             if _is_unknown(entry.key, schema):
-                message, hint = describe_unknown_key(entry.key, label, schema)
+                message, hint = describe_unknown_key(entry.key, label, schema, root)
                 diagnostics.error(message, entry.key_span, hint, id="MG-1002")
     elif keyword == "required" and isinstance(node, MappingNode):
         for key in cast("list[str]", schema["required"]):

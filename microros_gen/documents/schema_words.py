@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from typing import Any
 
 from microros_gen.diagnostics import nearest
+from microros_gen.documents.schema_values import value_hint
 from microros_gen.documents.yaml_tree import MappingNode, ScalarNode, SequenceNode, YamlNode
 
 _TYPES = {
@@ -33,6 +35,7 @@ _QOS_PROFILES = {
     "system_default": "{depth: 10}",
 }
 """What people write for `qos:` (names of rmw_qos_profile_…, policies) → the same as a mapping."""
+_KINDS_OF_TYPE = ("msg", "srv", "action")
 _WORDS = re.compile(r"\^\(([a-z_|]+)\)\$")
 """A pattern of words, one of which may stand in place of a list."""
 _OLD_NUMBER = re.compile(r"[-+]?([0-9][0-9_]*(:[0-5]?[0-9])+|[0-9]+(_[0-9]+)+|0b[01]+)")
@@ -43,15 +46,16 @@ def describe_mismatch(node: YamlNode, label: str, schema: dict[str, Any]) -> tup
     what = f"'{label}'" if label else "the file"
     if isinstance(node, ScalarNode) and node.value == "" and schema.get("minLength"):
         return f"{what} must not be empty", "Write a text, or remove the key"
-    is_short = isinstance(node, MappingNode) and 0 < len(node.entries) < schema.get("minProperties", 0)
-    instead = (
-        f"has {len(node.entries)}" if isinstance(node, MappingNode) and is_short else f"is {found(node)}"
-    )
-    return f"{what} must be {expectation(schema)}; it {instead}", _hint(node, schema)
+    hint = _hint(node, schema) if label else "Write `key: value` lines"
+    if isinstance(node, MappingNode) and 0 < len(node.entries) < schema.get("minProperties", 0):
+        return f"{what} must be {expectation(schema)}; it has {len(node.entries)}", hint
+    return f"{what} must be {expectation(schema)}; it is {found(node)}", hint
 
 
-def describe_unknown_key(key: str, label: str, schema: dict[str, Any]) -> tuple[str, str | None]:
-    """Return message and hint for a key that `schema` does not have."""
+def describe_unknown_key(
+    key: str, label: str, schema: dict[str, Any], root: dict[str, Any]
+) -> tuple[str, str | None]:
+    """Return message and hint for a key that `schema`, a part of `root`, does not have."""
     where = f"'{label}'" if label else "the file"
     known_key = key_without_space(key, schema)
     if known_key is not None:
@@ -64,7 +68,31 @@ def describe_unknown_key(key: str, label: str, schema: dict[str, Any]) -> tuple[
         hint = f"Write {corrected}" if corrected else nearest(key, schema.get("properties", {}))
         return f"the keys of {where} must be {schema['x-keys']}; '{key}' is not", hint
     known = [k for k, value in schema.get("properties", {}).items() if "x-reserved" not in value]
+    owners = [f"`{owner}`" for owner in _owners(key, root, root, "", frozenset()) if owner and owner != label]
+    if owners:
+        return (
+            f"unknown key '{key}' in {where}",
+            f"It is a key of {' and '.join(sorted(owners, key=len)[:2])}",
+        )
     return f"unknown key '{key}' in {where}", nearest(key, known) or f"Known: {', '.join(known)}"
+
+
+def _owners(
+    key: str, schema: dict[str, Any], root: dict[str, Any], label: str, seen: frozenset[str]
+) -> Iterator[str]:
+    """Yield the labels of all mappings of `schema` that have a key; a definition within itself is not searched."""
+    reference = schema.get("$ref", "")
+    if reference in seen:
+        return
+    if reference:
+        schema, seen = root["$defs"][reference.removeprefix("#/$defs/")], seen | {reference}
+    properties = schema.get("properties", {})
+    if key in properties and "x-reserved" not in properties[key]:
+        yield label
+    for name, part in properties.items():
+        yield from _owners(key, part, root, f"{label}.{name}".lstrip("."), seen)
+    if isinstance(schema.get("items"), dict):
+        yield from _owners(key, schema["items"], root, f"{label}[]", seen)
 
 
 def key_without_space(key: str, schema: dict[str, Any]) -> str | None:
@@ -115,9 +143,20 @@ def _hint(node: YamlNode, schema: dict[str, Any]) -> str | None:
     return None
 
 
+def _empty_hint(kinds: list[str]) -> str:
+    """Return what to do about a key without a value."""
+    if "array" in kinds:
+        return "Add an item, or remove the key"
+    return (
+        "Add a `key: value`, or remove the key" if kinds == ["object"] else "Write a value, or remove the key"
+    )
+
+
 def _scalar_hint(node: ScalarNode, kinds: list[str], schema: dict[str, Any]) -> str | None:
     text = node.text
     if schema.get("x-format") == "version":
+        if node.text == str(schema["const"]):
+            return "Remove the quotes"
         later = isinstance(node.value, int) and node.value > schema["const"]
         return "A later microros-gen wrote the file: update microros-gen" if later else None
     if "enum" in schema:
@@ -128,25 +167,35 @@ def _scalar_hint(node: ScalarNode, kinds: list[str], schema: dict[str, Any]) -> 
         return f"Write it as a list: [{text}]"
     if "boolean" in kinds and text.lower() in _OLD_BOOLEANS:
         return f"'{text}' is a text in YAML 1.2; write {_OLD_BOOLEANS[text.lower()]}"
+    if node.value is None:
+        return _empty_hint(kinds)
     numeric = "integer" in kinds or "number" in kinds
-    if numeric and isinstance(node.value, str) and re.fullmatch(r"[-+]?[0-9]+", text):
-        return "Remove the quotes"
     if numeric and _OLD_NUMBER.fullmatch(text):
         return f"'{text}' is a text in YAML 1.2; write the number in decimal, or in hex with 0x"
-    if kinds == ["string"] and not isinstance(node.value, str) and node.value is not None:
-        return f'Put it into quotes: "{text}"' if "pattern" not in schema else None
+    if kinds == ["string"] and not isinstance(node.value, str) and "pattern" not in schema:
+        return f'Put it into quotes: "{text}"'
     if kinds == ["object"] and key_without_space(text, schema) is not None:
         beginning, _, value = text.partition(":")
         return f"Write `{beginning}: {value}`, with a space after the colon"
     profile = _QOS_PROFILES.get(text.lower().removeprefix("rmw_qos_profile_"))
     if profile is not None and "reliability" in schema.get("properties", {}):
         return f"Write `qos: {profile}`"
+    if kinds == ["object"]:
+        return _item_hint(text, schema)
     corrected = _full_type(text, schema.get("x-format"))
-    return f"Write {corrected}" if corrected else None
+    return f"Write {corrected}" if corrected else value_hint(node, schema)
+
+
+def _item_hint(text: str, schema: dict[str, Any]) -> str | None:
+    """Return how a mapping is written of which there is only a text, the value of its first key."""
+    first, *others = schema.get("required", [])[:2] or [None]
+    if first is None or not re.fullmatch(r"[\w/~-]+", text):
+        return None
+    return f"Write {{{first}: {text}{', …' if others else ''}}}"
 
 
 def _full_type(text: str, kind: str | None) -> str | None:
-    match = _LOOSE_TYPE.fullmatch(text) if kind else None
+    match = _LOOSE_TYPE.fullmatch(text) if kind in _KINDS_OF_TYPE else None
     if match is None:
         return None
     name = match.group(2)

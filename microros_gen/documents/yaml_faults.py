@@ -12,6 +12,7 @@ from microros_gen.diagnostics import Diagnostic, Source, Span
 # What PyYAML's scanner, parser and composer say → message and hint. First match counts.
 _FAULTS: tuple[tuple[str, str, str | None], ...] = (
     (r"'\\t'", "a tab", "YAML is indented with spaces only; replace the tab by spaces"),
+    (r"an odd space", "a character that looks like a space and is none", "Replace it by an ordinary space"),
     (
         r"found unexpected end of stream",
         "a quoted text does not end",
@@ -66,6 +67,8 @@ _FAULTS: tuple[tuple[str, str, str | None], ...] = (
     ),
 )
 
+_ODD_SPACE = re.compile(r" *[\u00a0\u2000-\u200b\u202f\u3000\ufeff]")
+
 
 def yaml_fault(source: Source, error: Exception) -> Diagnostic:
     """Return the diagnostic for what PyYAML raised on the text of `source`."""
@@ -82,15 +85,34 @@ def _marked(source: Source, error: yaml.MarkedYAMLError) -> Diagnostic:
     problem = error.problem or error.context or "it cannot be read"
     mark = error.problem_mark or error.context_mark
     span = Span(source, mark.line + 1, mark.column + 1) if mark else Span(source, 1, 1)
-    if "found unexpected end of stream" in problem and error.context_mark:
+    if error.context_mark and _begins_before(source, problem, error.context_mark, span):
         span = Span(source, error.context_mark.line + 1, error.context_mark.column + 1)
-    tab = _tab_in_indent(source, span.line)
+    tab, space = _tab_in_indent(source, span.line), _odd_space(source, span.line)
     if tab:
         span, problem = tab, r"'\t'"
+    if space:
+        span, problem = space, "an odd space"
     for pattern, message, hint in _FAULTS:
         if re.search(pattern, problem):
             return Diagnostic(f"not valid YAML: {message}", span, hint, id="MG-1018")
     return Diagnostic(f"not valid YAML: {problem}", span, id="MG-1019")
+
+
+def _begins_before(source: Source, problem: str, mark: yaml.Mark, span: Span) -> bool:
+    """Return whether the fault is at `mark`, where something begins that does not end, and not where it was noticed."""
+    if re.search(r"found unexpected end of stream|could not find expected ':'", problem):
+        return True
+    noticed = source.line(span.line)
+    indent = len(noticed) - len(noticed.lstrip(" "))
+    line = source.line(mark.line + 1)
+    ended = not noticed.strip() or indent <= len(line) - len(line.lstrip(" "))
+    return "expected ','" in problem and span.line > mark.line + 1 and ended
+
+
+def _odd_space(source: Source, last: int) -> Span | None:
+    """Return the place of what looks like a space and is none before the text of a line up to `last`."""
+    found = ((number, _ODD_SPACE.match(source.line(number))) for number in range(1, last + 1))
+    return next((Span(source, number, match.end()) for number, match in found if match), None)
 
 
 def _tab_in_indent(source: Source, line: int) -> Span | None:

@@ -74,15 +74,28 @@ def test_not_a_number_is_one() -> None:
 FAULTS = {
     "tab": ("a:\n\t- 1\n", "f:2:1: error: not valid YAML: a tab. YAML is indented with spaces only; replace"),
     "quote": ("a: 'x\n", "f:1:4: error: not valid YAML: a quoted text does not end. Close it with the quote"),
-    "list": ("a: [1, 2\n", "f:2:1: error: not valid YAML: a list in [ ] is not closed or lacks a comma. Add"),
+    "list": ("a: [1, 2\n", "f:1:4: error: not valid YAML: a list in [ ] is not closed or lacks a comma. Add"),
     "mapping": (
         "a: {b: 1\n",
-        "f:2:1: error: not valid YAML: a mapping in { } is not closed or lacks a comma",
+        "f:1:4: error: not valid YAML: a mapping in { } is not closed or lacks a comma",
     ),
     "colon": ("a: b: c\n", "f:1:5: error: not valid YAML: a ':' where no key can be. Quote a text that has"),
     "no colon": (
         "a: 1\nb\nc: 2\n",
-        "f:3:1: error: not valid YAML: a line without ':'. Write `key: value`, with",
+        "f:2:1: error: not valid YAML: a line without ':'. Write `key: value`, with",
+    ),
+    "list before a key": (
+        "a: [1, 2\nb: 3\n",
+        "f:1:4: error: not valid YAML: a list in [ ] is not closed or lacks a comma. Add",
+    ),
+    "comma": ("a: {\n  b: 1\n  c: 2}\n", "f:3:4: error: not valid YAML: a mapping in { } is not closed or"),
+    "no space after a colon": (
+        "a: 1\nb:[c]\nd: 2\n",
+        "f:2:1: error: not valid YAML: a line without ':'. Write `key: value`, with",
+    ),
+    "no-break space": (
+        "a:\n\u00a0 - b: 1\n   c: 2\n",
+        "f:2:1: error: not valid YAML: a character that looks like a space and is none. Replace",
     ),
     "alias": (
         "a: *x\n",

@@ -128,6 +128,37 @@ def test_errors_say_where_what_and_what_to_do(text: str, messages: str) -> None:
     assert all(line.startswith("Foo.msg:") for line in found)
 
 
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        ("string<= a", "For example 'string<=10 a'"),
+        ("uint8[<=] a", "For example 'uint8[<=10] a'"),
+        ("string<=", "For example 'string<=10 name'"),
+        ("uint8[ a", "Write 'uint8[] a'"),
+        ("uint8[ 3] a", "Write 'uint8[3] a'"),
+        ("int32[3]a", "Write 'int32[3] a'"),
+        ("// a comment", "write '# a comment'"),
+        ("---", "Remove the line: only services (.srv) and actions (.action) have parts"),
+        ("vector<int> a", "A sequence is written 'type[]', one of at most 10 elements 'type[<=10]'"),
+        ("uint8[-1] a", "Leave it out: '[]' takes any number of elements"),
+        ("string<=0 a", "Leave it out: 'string' takes any length"),
+        ("uint8[99999999999] a", "Write 4294967295, or leave it out: '[]' takes any number of elements"),
+        ("std_msgs::msg::String a", "Write 'std_msgs/String'"),
+        ("std_msgs.msg.String a", "Write 'std_msgs/String'"),
+        ("a int32", "Write 'int32 a'"),
+        ("enum E", "Write a constant for each value: 'uint8 FIRST=0'"),
+        ("struct a", "Write its fields into a separate .msg file"),
+        ("@optional int32 a", "a sequence 'type[<=1]' can be empty"),
+        ("int32[3] a [1, 2]", "Write 3 values, or '[2]' after the type"),
+        ("int32[<=1] a [1, 2]", "Write fewer, or '[<=2]' after the type"),
+    ],
+)
+def test_the_hint_can_be_pasted(text: str, hint: str) -> None:
+    message, found = read(text)
+    assert message is None
+    assert any(line.endswith(hint) for line in found), found
+
+
 def test_every_faulty_line_is_reported_in_one_run() -> None:
     text = "int32 a\nint32 B\nint32[ c\nuint8 d 300\nint32 e\nfloat F\nint32 a"
     _, found = read(text)

@@ -8,9 +8,10 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
+from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.interfaces.msg import names as msg_names
 from microros_gen.interfaces.msg.fault import Fault
+from microros_gen.interfaces.msg.hints import type_hint
 from microros_gen.interfaces.msg.syntax import Node, Word
 from microros_gen.interfaces.msg.values import (
     InvalidValueError,
@@ -39,17 +40,6 @@ LARGEST_BOUND = 2**32 - 1
 """The most elements or characters that CDR can count: lengths have 32 bits (DDS-XTypes 1.3, 7.4.3)."""
 
 _PRIMITIVES = {p.value: p for p in Primitive if p.in_msg}
-_OTHER_LANGUAGES = {
-    **{
-        "boolean": "bool",
-        "octet": "byte",
-        "short": "int16",
-        "int": "int32",
-        "long": "int64",
-        "unsigned": "uint32",
-    },
-    **{"float": "float32", "double": "float64", "str": "string", "wchar": "wstring"},
-}
 _ONCE_PRIMITIVE = {"time": "builtin_interfaces/Time", "duration": "builtin_interfaces/Duration"}
 
 
@@ -233,27 +223,23 @@ def _type_name(parts: Sequence[Word], line: Line, package: str) -> TypeName:
         package = str(first)
     fault = msg_names.type_name_fault(str(last))
     if fault is not None:
-        hint = _type_hint(str(last)) if len(parts) == 1 else None
+        hint = type_hint(str(last), line.text, _PRIMITIVES) if len(parts) == 1 else None
         raise _DeclarationError(span, fault.message, hint, id=fault.id)
     return TypeName(package, "msg", str(last))
 
 
-def _type_hint(name: str) -> str | None:
-    if name in _OTHER_LANGUAGES:
-        return f"Write '{_OTHER_LANGUAGES[name]}'"
-    return nearest(name, [*_PRIMITIVES, "string", "wstring"])
-
-
 def _bound(token: Word, line: Line, what: str) -> int:
     number = positive_integer(str(token))
+    any_number = "'string' takes any length" if "string" in what else "'[]' takes any number of elements"
     if number is None:
-        hint = "Write '<=N' for at most N elements" if token[0] in "<>" else None
+        hint = "Write '<=N' for at most N elements" if token[0] in "<>" else f"Leave it out: {any_number}"
         raise _DeclarationError(
             line.span_of(token), f"{what} is a whole number above zero, not '{token}'", hint, id="MG-2114"
         )
     if number > LARGEST_BOUND:
+        hint = f"Write {LARGEST_BOUND}, or leave it out: {any_number}"
         raise _DeclarationError(
-            line.span_of(token), f"{what} is at most {LARGEST_BOUND}, not {number}", id="MG-2115"
+            line.span_of(token), f"{what} is at most {LARGEST_BOUND}, not {number}", hint, id="MG-2115"
         )
     return number
 
@@ -337,12 +323,16 @@ def _check_count(field_type: ArrayType | SequenceType, count: int, line: Line) -
     if isinstance(field_type, ArrayType):
         if count != field_type.size:
             raise _DeclarationError(
-                span, f"the default has {count} elements, but the array has {field_type.size}", id="MG-2122"
+                span,
+                f"the default has {count} elements, but the array has {field_type.size}",
+                f"Write {field_type.size} values, or '[{count}]' after the type",
+                id="MG-2122",
             )
     elif field_type.bound is not None and count > field_type.bound:
         raise _DeclarationError(
             span,
             f"the default has {count} elements, but the sequence takes at most {field_type.bound}",
+            f"Write fewer, or '[<={count}]' after the type",
             id="MG-2123",
         )
 

@@ -96,17 +96,33 @@ def _report(line: Line, fault: UnexpectedInput, diagnostics: Diagnostics) -> Non
 
 
 def _syntax_hint(text: str, column: int, expected: set[str]) -> str | None:
-    rest = text[column - 1 :]
+    before, rest = text[: column - 1], text[column - 1 :]
+    if text.startswith("//"):
+        return f"A comment begins with '#': write '#{text.lstrip('/')}'"
+    if text.strip("-") == "":
+        return "Remove the line: only services (.srv) and actions (.action) have parts"
+    if expected == {"BOUND"}:
+        return f"For example '{before}10{rest or ' name'}'"
+    if expected == {"_GAP"} and rest[:1].isalpha():
+        return f"Write '{before} {rest}'"
     if not rest and " " not in text:
         return "A field is written 'type name', a constant 'type NAME=value'"
+    return _extent_hint(before, rest, expected)
+
+
+def _extent_hint(before: str, rest: str, expected: set[str]) -> str | None:
+    """Return the hint for a line that leaves the grammar at a size, a bound or a default."""
     if expected == {"_GAP"} and rest.startswith("["):
         return "An array has one dimension; put the second one into a separate message"
     if expected == {"_OPEN"}:
         return "The default of an array is written '[1, 2]'"
     if "_AT_MOST" in expected and rest.startswith(" "):
-        return "The type and its size are written without a space"
-    if "_GAP" in expected and rest.startswith("<"):
+        sized = rest.partition("]")[1] != ""
+        return f"Write '{before}{rest.replace(' ', '', 1)}'" if sized else f"Write '{before}]{rest}'"
+    if "_GAP" in expected and rest.startswith("<="):
         return "Only strings have a bound here, written 'string<=10'; that of a sequence is 'type[<=10]'"
+    if "_GAP" in expected and rest.startswith("<"):
+        return "A sequence is written 'type[]', one of at most 10 elements 'type[<=10]'"
     if "QUOTED" in expected and rest[:1] in ("'", '"'):
         return "The quote is not closed"
     return None

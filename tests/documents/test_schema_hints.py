@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Hints for values and keys that a schema refuses."""
+
+from __future__ import annotations
+
+import pytest
+
+from microros_gen.application.parser import parse_application
+from microros_gen.diagnostics import Diagnostics, Source
+
+START = "version: 1\nprofiles: [pure_sender]\n"
+NODE = "nodes:\n  - name: probe\n    publishers: [{topic: count, type: std_msgs/msg/Int32, MORE}]\n"
+# Text after START → end of the message
+HINTS = {
+    "transport: {mtu: 512 bytes}": "it is the text '512 bytes'. Write 512",
+    "transport: {mtu: 1 KiB}": "it is the text '1 KiB'. Write 1024",
+    "transport: {mtu: 1.5 kB}": "it is the text '1.5 kB'. Write 1500",
+    "transport: {mtu: '0x200'}": "it is the text '0x200'. Remove the quotes",
+    "transport: {mtu: 512.5}": "it is 512.5. Write 512",
+    "transport: {mtu: -1}": "it is -1. Write 64 or more",
+    "transport: {mtu: 1e300}": "Write 65535 or less",
+    "transport: {mtu: }": "it is empty. Write a value, or remove the key",
+    "session: {key: 0}": "it is 0. Write 1 or more",
+    "session: {key: 0x1FFFFFFFF}": "it is 0x1FFFFFFFF. Write 4294967295 or less",
+    "limits: {'*': {string: -5}}": "it is -5. Write 1 or more",
+    "on_full: block": "it is the text 'block'. Write block 20 ms",
+    "on_full: block 1sec": "it is the text 'block 1sec'. Write block 1 s",
+    "on_full: block 5": "it is the text 'block 5'. Write block 5 ms",
+    "on_full: drop oldest": "it is the text 'drop oldest'. Did you mean 'drop_oldest'?",
+    "memory: {arena: 2 KB}": "it is the text '2 KB'. Write 2 kB",
+    "memory: {arena: 2048 bytes}": "it is the text '2048 bytes'. Write 2048 B",
+    "memory: {arena: 1.5 KiB}": "it is the text '1.5 KiB'. Write 1536",
+    "session: {hard_liveliness: 5}": "it is 5. Add the unit: 5 ms or 5 s",
+    "session: {hard_liveliness: 5 seconds}": "it is the text '5 seconds'. Write 5 s",
+    "session: {hard_liveliness: 10 hz}": "it is the text '10 hz'. Write 100 ms, the period of 10 Hz",
+    "session: {hard_liveliness: 4 kHz}": "Write 0.25 ms, the period of 4 kHz",
+    NODE.replace("MORE", "rate: 10"): "it is 10. Write 10 Hz",
+    NODE.replace("MORE", "rate: 0 Hz"): "it is the text '0 Hz'. Remove the key",
+    NODE.replace("MORE", "rate: 20 ms"): "it is the text '20 ms'. Write 50 Hz",
+    "nodes: [probe]": "it is the text 'probe'. Write {name: probe}",
+    "nodes: [{name: probe, publishers: [count]}]": "Write {topic: count, …}",
+    "nodes:": "it is empty. Add an item, or remove the key",
+    "session:": "it is empty. Add a `key: value`, or remove the key",
+    "rtos: freertos": "unknown key 'rtos' in the file. It is a key of `target`",
+    "executors: 2": "unknown key 'executors' in the file. It is a key of `pools` and `nodes[]`",
+}
+
+
+def messages(text: str) -> list[str]:
+    found = Diagnostics()
+    assert parse_application(Source("f", text), found) is None
+    return [diagnostic.headline().rpartition(" [")[0] for diagnostic in found]
+
+
+@pytest.mark.parametrize("text", HINTS)
+def test_the_hint_can_be_pasted(text: str) -> None:
+    lines = messages(f"{START}{text}\n")
+    assert any(line.endswith(HINTS[text]) for line in lines), lines
+
+
+def test_a_version_in_quotes() -> None:
+    assert messages(START.replace("1", '"1"')) == [
+        "f:1:10: error: 'version' must be 1; it is the text '1'. Remove the quotes"
+    ]
+
+
+@pytest.mark.parametrize("text", ["- version: 1\n", "hello\n"])
+def test_a_file_that_is_no_mapping(text: str) -> None:
+    (line,) = messages(text)
+    assert line.startswith("f:1:1: error: the file must be a mapping of keys and values; it is ")
+    assert line.endswith(". Write `key: value` lines")
