@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from microros_gen.cli.generate import warnings_text
-from microros_gen.cli.offers import package_names, profile_names, target_names
+from microros_gen.cli.offers import profile_names, project_names, target_names
 from microros_gen.cli.options import interface_path_option
 from microros_gen.cli.terminal import echo_found
 from microros_gen.diagnostics import Diagnostics
@@ -55,7 +55,7 @@ if TYPE_CHECKING:
 @click.option(
     "--platform",
     metavar="NAME",
-    shell_complete=package_names,
+    shell_complete=project_names,
     help="Write a project of another build system: one of `microros-gen package --list`, or the folder of a package.",
 )
 @click.option(

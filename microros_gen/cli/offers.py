@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
     Items = list[CompletionItem[str]]
 
+_PACKAGES = COMPONENTS.parent / "platform" / "package"
+
 
 def profile_names(ctx: click.Context, param: click.Parameter, incomplete: str) -> Items:
     """Offer the profiles that are built in or installed, and files."""
@@ -71,6 +73,14 @@ def package_names(ctx: click.Context, param: click.Parameter, incomplete: str) -
     return _offered({*_own_packages(), *_installed("platform/package", "*")}, incomplete, files=True)
 
 
+def project_names(ctx: click.Context, param: click.Parameter, incomplete: str) -> Items:
+    """Offer the packages with which `init` makes a project, those that are installed, and folders."""
+    own = {
+        path.parent.name for path in _PACKAGES.glob("*/package.yaml") if b"\nproject:\n" in path.read_bytes()
+    }
+    return _offered({*own, *_installed("platform/package", "*")}, incomplete, files=True)
+
+
 def ways(ctx: click.Context, param: click.Parameter, incomplete: str) -> Items:
     """Offer the ways to build and run that `doctor` checks."""
     others = {"agent", "cmake", "colcon", *_own_packages()}
@@ -87,7 +97,7 @@ def output_or_id(ctx: click.Context, param: click.Parameter, incomplete: str) ->
 
 
 def _own_packages() -> Iterator[str]:
-    return (path.parent.name for path in (COMPONENTS.parent / "platform" / "package").glob("*/package.yaml"))
+    return (path.parent.name for path in _PACKAGES.glob("*/package.yaml"))
 
 
 def _offered(names: Iterable[str], incomplete: str, files: bool = False) -> Items:

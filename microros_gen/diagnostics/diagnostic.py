@@ -32,7 +32,8 @@ class Diagnostic:
     """One message to the user: what is wrong (`message`), where (`span`), and what to do (`hint`).
 
     `block` contains lines to paste into the file, printed after the source line. `too_large`: a message exceeds its
-    stream, so lower limits would help. `id` (`MG-3012`) is stable across versions; `microros-gen explain` explains it.
+    stream, so lower limits would help; `mtu` is the `transport.mtu` in bytes that would help, too, if the
+    transport can have it (0: none). `id` (`MG-3012`) is stable across versions; `microros-gen explain` explains it.
     """
 
     message: str
@@ -41,6 +42,7 @@ class Diagnostic:
     severity: Severity = Severity.ERROR
     block: tuple[str, ...] = ()
     too_large: bool = False
+    mtu: int = 0
     id: str = ""
 
     def headline(self) -> str:
@@ -105,9 +107,9 @@ class Diagnostics:
         """Add an error."""
         self._add(Diagnostic(message, span, hint, id=id))
 
-    def too_large(self, message: str, span: Span | None, hint: str, *, id: str) -> None:
-        """Add an error that lower limits would fix."""
-        self._add(Diagnostic(message, span, hint, too_large=True, id=id))
+    def too_large(self, message: str, span: Span | None, hint: str, *, id: str, mtu: int = 0) -> None:
+        """Add an error that lower limits would fix, or a `transport.mtu` of `mtu` bytes if that is not 0."""
+        self._add(Diagnostic(message, span, hint, too_large=True, mtu=mtu, id=id))
 
     def warning(self, message: str, span: Span | None = None, hint: str | None = None, *, id: str) -> None:
         """Add a warning."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 import shlex
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
@@ -19,7 +19,7 @@ from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, UserError
 from microros_gen.documents.schema_files import complete_schema, modeline, schema_text
 from microros_gen.documents.templates import shared_environment
 from microros_gen.migrate.code import c_sources, include_folders
-from microros_gen.migrate.draft import Draft
+from microros_gen.migrate.draft import Draft, DraftValue, report_remarks
 from microros_gen.migrate.draft_text import draft_text
 from microros_gen.migrate.limits import LOWER_LIMITS
 from microros_gen.migrate.platform_project import find_needs, next_steps, project_files
@@ -90,12 +90,14 @@ def write_folder(options: InitOptions, draft: Draft) -> NewFolder:
         text, planned, found = _planned(options, draft)
         if planned is None and not options.adopts:
             found.check()
-        files = _files(options, text, planned, len(undecided))
+        report_remarks(undecided, found)
+        try:
+            files = _files(options, text, planned, len(undecided))
+        except UserError as error:
+            found.extend(error.diagnostics)
+            raise UserError(found) from error
         _refuse_to_overwrite(options.folder, files)
         write_files(options.folder, files)
-    for remark in undecided:
-        report = found.error if remark.refused else found.warning
-        report(remark.text, remark.span, remark.refused or None, id="MG-9099")
     builds = planned is not None and not any(remark.refused for remark in undecided)
     written = NewFolder(options.folder, tuple(sorted(files)), len(undecided), builds, tuple(found))
     project = options.package.project if options.package is not None else None
@@ -138,19 +140,36 @@ def _heading(options: InitOptions) -> list[str]:
 
 
 def _planned(options: InitOptions, draft: Draft) -> tuple[str, Planned | None, Diagnostics]:
-    """Return the text of the proposal, its plan and what was found; the first limits for "*" with which it plans."""
-    first: tuple[str, Planned | None, Diagnostics] | None = None
-    for lower in (None, *(LOWER_LIMITS if "*" in draft.limits else ())):
-        limits = draft.limits if lower is None else {**draft.limits, "*": lower}
-        text, found = draft_text(replace(draft, limits=limits), _heading(options)), Diagnostics()
-        planned = _plan(options, text, found)
-        if planned is not None:
-            return text, planned, found
-        first = first or (text, planned, found)
-        if not any(diagnostic.too_large for diagnostic in found):
-            break
-    assert first is not None
+    """Return the text of the proposal, its plan and what was found: the first of the proposals that plans."""
+    first = _attempt(options, draft)
+    _, planned, found = first
+    if planned is not None or not any(diagnostic.too_large for diagnostic in found):
+        return first
+    for changed in _smaller_or_with_room(draft, found):
+        attempt = _attempt(options, changed)
+        if attempt[1] is not None:
+            return attempt
     return first
+
+
+def _attempt(options: InitOptions, draft: Draft) -> tuple[str, Planned | None, Diagnostics]:
+    text, found = draft_text(draft, _heading(options)), Diagnostics()
+    return text, _plan(options, text, found), found
+
+
+def _smaller_or_with_room(draft: Draft, found: Iterable[Diagnostic]) -> Iterator[Draft]:
+    """Yield the proposal with lower limits for "*", then with a larger MTU, for messages that do not fit."""
+    if "*" in draft.limits:
+        yield from (replace(draft, limits={**draft.limits, "*": lower}) for lower in LOWER_LIMITS)
+    transport = draft.groups.get("transport", {})
+    largest = max((diagnostic.mtu for diagnostic in found), default=0)
+    if largest and "mtu" not in transport:
+        mtu = DraftValue(largest, "bytes of the largest message that is not sent in fragments")
+        yield replace(draft, groups={"transport": {**transport, "mtu": mtu}, **_without_transport(draft)})
+
+
+def _without_transport(draft: Draft) -> dict[str, Mapping[str, DraftValue]]:
+    return {name: values for name, values in draft.groups.items() if name != "transport"}
 
 
 def _plan(options: InitOptions, text: str, diagnostics: Diagnostics) -> Planned | None:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from pathlib import Path
 
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, UserError
@@ -20,6 +21,7 @@ _LARGEST = 1 << 20
 _MANIFEST = "manifest.json"  # in every folder that this tool wrote
 _LIBRARY = "rclc/rclc.h"  # a copy of micro-ROS, with the headers of its packages around it
 _LEFT_OUT = ("build", "install", "log", "managed_components", "node_modules")
+_VENDOR = re.compile(r"CMSIS|STM32\w+_HAL_Driver|Third_Party")  # what STM32CubeMX puts next to an application
 _SEPARATE = ("example", "examples", "test", "tests")  # programs of an application or of a library in it
 
 
@@ -31,6 +33,17 @@ def code_files(folder: Path) -> tuple[Path, ...]:
 def code_folder(path: Path) -> Path:
     """Return the folder of the sources `path`, which may be a single file."""
     return path.parent if path.is_file() else path
+
+
+def read_all(paths: Iterable[Path], diagnostics: Diagnostics) -> dict[Path, bytes]:
+    """Return the files that can be read; errors for all others."""
+    found: dict[Path, bytes] = {}
+    for path in paths:
+        try:
+            found[path] = code_bytes(path)
+        except UserError as error:
+            diagnostics.extend(error.diagnostics)
+    return found
 
 
 def code_bytes(path: Path) -> bytes:
@@ -59,14 +72,20 @@ def include_folders(folder: Path) -> tuple[Path, ...]:
     files = _paths(folder)
     found = {path.parent for path in files if path.suffix in COMPILED}
     headers = [path for path in files if path.suffix not in COMPILED]
-    included = {name for path in files for name in _INCLUDE.findall(_text_of(path))}
+    included = included_headers(folder)
     for path in headers:
         endings = {name for name in included if path.as_posix().endswith(f"/{name}")}
         found.update(path.parents[name.count("/")] for name in endings)
     return tuple(sorted(found))
 
 
-def _text_of(path: Path) -> str:
+def included_headers(folder: Path) -> tuple[str, ...]:
+    """Return the names of the headers that the sources below `folder` include, sorted."""
+    return tuple(sorted({name for path in _paths(folder) for name in _INCLUDE.findall(text_of(path))}))
+
+
+def text_of(path: Path) -> str:
+    """Return the text of a source; empty if it cannot be read, or is larger than programs are."""
     try:
         return read_text(path, errors="replace") if path.stat().st_size <= _LARGEST else ""
     except OSError:
@@ -115,4 +134,6 @@ def _is_separate(path: Path) -> bool:
 
 
 def _is_left_out(path: Path) -> bool:
-    return any(part.startswith(".") or part in _LEFT_OUT for part in path.parts[:-1])
+    return any(
+        part.startswith(".") or part in _LEFT_OUT or _VENDOR.fullmatch(part) for part in path.parts[:-1]
+    )

@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import field
 from types import MappingProxyType
 
-from microros_gen.diagnostics import Span
+from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.records import dataclass
 
 Setting = str | int | bool
@@ -140,6 +140,13 @@ class Draft:
             found += [remark for client in node.clients for remark in client.remarks]
             found += [remark for action in node.actions for remark in action.remarks]
         return tuple(found)
+
+
+def report_remarks(remarks: Iterable[Remark], diagnostics: Diagnostics) -> None:
+    """Add what somebody must decide: an error where a program does not build with it, else a warning."""
+    for remark in remarks:
+        report = diagnostics.error if remark.refused else diagnostics.warning
+        report(remark.text, remark.span, remark.refused or None, id="MG-9099")
 
 
 def place(span: Span | None) -> str:

@@ -15,7 +15,15 @@ from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
 from microros_gen.documents.files import read_bytes
 from microros_gen.documents.own_templates import render_own
 from microros_gen.documents.templates import shared_environment
-from microros_gen.migrate.code import COMPILED, code_bytes, code_files
+from microros_gen.migrate.code import (
+    COMPILED,
+    code_files,
+    code_folder,
+    include_folders,
+    included_headers,
+    read_all,
+    text_of,
+)
 from microros_gen.migrate.proposal import InitOptions, source_places
 from microros_gen.package.description import PROJECT_FOLDER, PackageDescription
 from microros_gen.package.project import Project
@@ -34,8 +42,10 @@ class ProjectView:
 
     `folder` is the name of the project's folder, `library` the folder of the package in it. `sources` are the paths of
     all sources in the project, `names` below the folder of the sources; `first` is the one of `names` that has the
-    entry function, `rest_c` and `rest_cpp` are the others of the two languages. `update` is the command that writes the
-    package again, `undecided` lines say what is left to the user.
+    entry function, `rest_c` and `rest_cpp` are the others of the two languages. `folders` are those in which the
+    sources find their headers, below the folder of the sources, which is the first one (`.`). `includes` are all
+    headers that they name. `update` is the command that writes the package again, `undecided` lines say what is left to
+    the user.
     """
 
     name: str
@@ -44,12 +54,13 @@ class ProjectView:
     package: str
     summary: str
     library: str
-    library_name: str
     sources: tuple[str, ...]
     names: tuple[str, ...]
     first: str
     rest_c: tuple[str, ...]
     rest_cpp: tuple[str, ...]
+    folders: tuple[str, ...]
+    includes: tuple[str, ...]
     update: str
     next: tuple[str, ...]
     undecided: tuple[str, ...]
@@ -77,8 +88,10 @@ def project_files(options: InitOptions, planned: Planned | None, undecided: int)
         library = project.place_of_library(options.name)
         rendered = render_package(PackagePlan(package, planned, general=False))
         files = {f"{library}/{name}": content for name, content in rendered.items()}
-    places = source_places(options)
-    files |= {place: code_bytes(path) for path, place in places.items()}
+    places, found = source_places(options), Diagnostics()
+    contents = read_all(places, found)
+    found.check()
+    files |= {places[path]: content for path, content in contents.items()}
     view = _view(options, package, project, places, undecided)
     files["README.md"] = (
         shared_environment().get_template("init/platform_README.md.j2").render(view=view).encode()
@@ -92,7 +105,7 @@ def find_needs(options: InitOptions, planned: Planned, diagnostics: Diagnostics)
     assert options.package is not None
     assert options.code is not None
     project = checked_project(options.package)
-    texts = [_text(path) for path in code_files(options.code)]
+    texts = [text_of(path) for path in code_files(options.code)]
     for need in project.needs_of(planned.project.selection.transport):
         if not need.is_met(texts):
             names = " or ".join(f"{name}()" for name in need.functions)
@@ -115,10 +128,11 @@ def _view(
     places: Mapping[Path, str],
     undecided: int,
 ) -> ProjectView:
+    assert options.code is not None
     start = project.sources.replace("{name}", options.name)
     compiled = {place: path for path, place in places.items() if path.suffix in COMPILED}
     names = tuple(place.removeprefix(start) for place in sorted(compiled))
-    entries = [n for n in names if project.entry.is_met([_text(compiled[f"{start}{n}"])])]
+    entries = [n for n in names if project.entry.is_met([text_of(compiled[f"{start}{n}"])])]
     first = (entries or [*names, ""])[0]
     rest = [name for name in names if name != first]
     paths = "".join(
@@ -132,16 +146,23 @@ def _view(
         package=package.name,
         summary=package.summary,
         library=library,
-        library_name=package.library,
         sources=tuple(sorted(compiled)),
         names=names,
         first=first,
         rest_c=tuple(name for name in rest if name.endswith(".c")),
         rest_cpp=tuple(name for name in rest if not name.endswith(".c")),
+        folders=_folders(options.code),
+        includes=included_headers(options.code),
         update=f"microros-gen package {_named(options, package)} -c {APPLICATION_FILE}{paths} -o {library}",
         next=tuple(step.replace("{dir}", ".").replace("{name}", options.name) for step in project.next),
         undecided=(f"{undecided} places of {APPLICATION_FILE}, marked UNDECIDED",) * bool(undecided),
     )
+
+
+def _folders(code: Path) -> tuple[str, ...]:
+    """Return the folders of sources and headers below that of the sources, which is the first one."""
+    found = (path.relative_to(code_folder(code)).as_posix() for path in include_folders(code))
+    return (".", *(folder for folder in found if folder != "."))
 
 
 def _named(options: InitOptions, package: PackageDescription) -> str:
@@ -172,7 +193,3 @@ def _own(package: PackageDescription, view: ProjectView) -> Iterator[tuple[str, 
             environment.get_template(name).render(context) if name else render_own(path, environment, context)
         )
         yield place.removesuffix(".j2"), text.encode()
-
-
-def _text(path: Path) -> str:
-    return code_bytes(path).decode(errors="replace")

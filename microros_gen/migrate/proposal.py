@@ -19,9 +19,9 @@ from microros_gen.interfaces.closure import InterfaceSet, resolve_interfaces
 from microros_gen.interfaces.derived import parts_of
 from microros_gen.interfaces.find import InterfaceFinder
 from microros_gen.interfaces.types import Declaration, Message
-from microros_gen.migrate.code import code_files, code_folder, read_code
+from microros_gen.migrate.code import code_files, code_folder, read_code, text_of
 from microros_gen.migrate.colcon_meta import MetaSetting, read_settings
-from microros_gen.migrate.draft import Draft, DraftValue, Flow, Remark
+from microros_gen.migrate.draft import Draft, DraftValue, Flow, Remark, report_remarks
 from microros_gen.migrate.first import AGENT, first_draft
 from microros_gen.migrate.included import included_types
 from microros_gen.migrate.limits import DEFAULT_LIMITS, limits_of
@@ -29,6 +29,7 @@ from microros_gen.migrate.meta_draft import meta_draft
 from microros_gen.migrate.profiles import first_profile
 from microros_gen.migrate.rclc_draft import Adopted, rclc_draft
 from microros_gen.package.description import PackageDescription
+from microros_gen.package.project import Project
 from microros_gen.platform.capabilities import capabilities
 from microros_gen.records import dataclass
 from microros_gen.selection.find_components import declared_functions, load_catalogue
@@ -92,16 +93,26 @@ def draft_of(options: InitOptions, warnings: Diagnostics) -> Draft:
     diagnostics = Diagnostics()
     settings = [setting for path in options.metas for setting in _settings_of(path, diagnostics)]
     adopted = _of_code(options, diagnostics) if options.code is not None else None
+    if diagnostics.has_errors() and adopted is not None:
+        remarks = (*adopted.draft.all_remarks, *_included(options, adopted)[1])
+        report_remarks((remark for remark in remarks if remark.refused), diagnostics)
     diagnostics.check()
     warnings.extend(diagnostics)
     draft = meta_draft(settings, declared=adopted is not None)
     return _with_defaults(options, draft if adopted is None else _joined(options, draft, adopted))
 
 
-def _of_code(options: InitOptions, diagnostics: Diagnostics) -> Adopted:
+def _of_code(options: InitOptions, diagnostics: Diagnostics) -> Adopted | None:
+    """Return what the sources propose that can be read; None where none can."""
     assert options.code is not None
-    sources = read_code(options.code, diagnostics)
-    diagnostics.check()
+    found = Diagnostics()  # of these sources alone: what cannot be read may have the calls that are missing
+    sources = read_code(options.code, found)
+    adopted = _of_sources(options, sources, found) if sources else None
+    diagnostics.extend(found)
+    return adopted
+
+
+def _of_sources(options: InitOptions, sources: tuple[Source, ...], diagnostics: Diagnostics) -> Adopted:
     if options.sources is None:
         places = source_places(options)
         sources = tuple(replace(s, name=places[Path(s.name)]) for s in sources)
@@ -116,13 +127,22 @@ def source_places(options: InitOptions) -> Mapping[Path, str]:
     assert options.code is not None
     project, folder = options.package.project, code_folder(options.code)
     assert project is not None
-    places: dict[Path, str] = {}
-    seen: set[str] = set()
-    for path in code_files(options.code):
-        name = path.relative_to(folder).as_posix()
-        places[path] = project.place_of_source(name, options.name, path.suffix not in seen)
-        seen.add(path.suffix)
-    return places
+    files = code_files(options.code)
+    mains = {
+        suffix: _main_of(project, [f for f in files if f.suffix == suffix]) for suffix, _ in project.renamed
+    }
+    return {
+        path: project.place_of_source(
+            path.relative_to(folder).as_posix(), options.name, path == mains.get(path.suffix)
+        )
+        for path in files
+    }
+
+
+def _main_of(project: Project, files: list[Path]) -> Path | None:
+    """Return the file in which the program begins: the one with the entry function, else the first."""
+    begins = (path for path in files if project.entry.is_met([text_of(path)]))
+    return next(begins, files[0] if files else None)
 
 
 def _provided(package: PackageDescription) -> frozenset[str]:
@@ -150,8 +170,7 @@ def _joined(options: InitOptions, meta: Draft, adopted: Adopted) -> Draft:
 def _with_included(options: InitOptions, adopted: Adopted) -> tuple[Draft, tuple[Remark, ...]]:
     """Return the proposal with the types whose headers are included and that no entity brings, and what is unknown."""
     finder = InterfaceFinder.from_environment(options.interface_paths)
-    own = [path.as_posix() for path in code_files(options.code)] if options.code is not None else []
-    included, remarks = included_types(adopted.includes, own, finder)
+    included, remarks = _included(options, adopted)
     draft = adopted.draft
     if not draft.nodes:
         return draft, remarks
@@ -162,6 +181,12 @@ def _with_included(options: InitOptions, adopted: Adopted) -> tuple[Draft, tuple
     reported = {package for package in map(package_of, _types(draft)) if finder.package(package) is None}
     remarks = tuple(remark for remark in remarks if package_of(remark.text) not in reported)
     return replace(draft, interfaces=tuple(sorted({*draft.interfaces, *more}))), remarks
+
+
+def _included(options: InitOptions, adopted: Adopted) -> tuple[tuple[str, ...], tuple[Remark, ...]]:
+    """Return the types whose headers are included, and what is unknown."""
+    own = [path.as_posix() for path in code_files(options.code)] if options.code is not None else []
+    return included_types(adopted.includes, own, InterfaceFinder.from_environment(options.interface_paths))
 
 
 def _types(draft: Draft) -> list[str]:

@@ -79,8 +79,9 @@ def rclc_draft(
     """Return what the sources of one application propose.
 
     `declared` says which component declares a function; `provided` are functions of the platform. Errors
-    where the sources are several applications, or none.
+    where the sources are several applications, or none; the latter only if all sources could be read.
     """
+    all_read = not diagnostics.has_errors()
     files = read_program(read_c(source) for source in sources)
     _check_one(files, diagnostics)
     values = Values(files)
@@ -114,7 +115,7 @@ def rclc_draft(
         limits=limits,
         remarks=(*remarks, *more, *guesses, *unlimited),
     )
-    if not nodes and not called:
+    if all_read and not nodes and not called:
         diagnostics.error(
             "these sources call no function of rclc or rcl",
             hint="Give the folder of one application: it calls rclc_support_init",

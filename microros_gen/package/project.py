@@ -32,7 +32,7 @@ class Need:
 class Project:
     """Where a project has the package and the sources; paths below its folder, `{name}` is the name of the project.
 
-    The file of the sources whose suffix is a key of `renamed` gets the name there. `example` is the program of a
+    The main file of the sources whose suffix is a key of `renamed` gets the name there. `example` is the program of a
     project that is made of nothing, below the package's folder or that of its `files_of`. `entry` are the functions
     with which a program begins, `transports` what it calls first, by its transport. `next` are the commands that build,
     `{dir}` is the project. `keyed`: boards may have no number, so a project has a client key.
@@ -51,11 +51,11 @@ class Project:
         """Return the folder of the package in the project `name`."""
         return self.library.replace("{name}", name)
 
-    def place_of_source(self, path: str, name: str, is_first: bool) -> str:
-        """Return where the project `name` has a source; `is_first`: the first one with its suffix."""
+    def place_of_source(self, path: str, name: str, is_main: bool) -> str:
+        """Return where the project `name` has a source; `is_main`: the program begins in it."""
         place = PurePosixPath(path)
         for suffix, renamed in self.renamed:
-            if is_first and place.suffix == suffix:
+            if is_main and place.suffix == suffix:
                 place = place.with_name(renamed.replace("{name}", name))
         return f"{self.sources.replace('{name}', name)}{place}"
 

@@ -26,6 +26,16 @@ def test_a_copy_of_micro_ros_is_no_part_of_the_application(tmp_path: Path) -> No
     assert made(tmp_path, "main.c", "my.c", *copy) == ["main.c", "my.c"]
 
 
+def test_what_stm32cubemx_copies_is_no_part_of_the_application(tmp_path: Path) -> None:
+    vendor = [
+        "Drivers/CMSIS/Core/Template/ARMv8-M/main_s.c",
+        "Drivers/STM32F3xx_HAL_Driver/Src/stm32f3xx_hal.c",
+        "Middlewares/Third_Party/FreeRTOS/Source/tasks.c",
+    ]
+    own = ["Core/Src/main.c", "Drivers/motor.c", "Middlewares/filter/filter.c"]
+    assert made(tmp_path, *own, *vendor) == own
+
+
 def test_a_folder_that_has_only_examples_is_read(tmp_path: Path) -> None:
     assert made(tmp_path, "examples/talker/talker.c") == ["examples/talker/talker.c"]
     assert made(tmp_path / "examples/talker") == ["talker.c"]

@@ -3,8 +3,12 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
+import pytest
+
+from microros_gen.documents.files import read_text
 from tests.support.migrate.proposals import Init, application_in, undecided_in
 from tests.support.migrate.rclc import NODE
 
@@ -103,3 +107,62 @@ def test_a_header_of_the_program_is_no_interface(init: Init, tmp_path: Path) -> 
     header.write_text("struct gains;\n")
     (tmp_path / "src/main.c").write_text(MAIN.replace("MORE", "#include <arm_msgs/msg/gains.h>"))
     assert init("app", "--from", "src")[0] == 0
+
+
+def test_a_file_that_cannot_be_read_hides_no_other_fault(
+    init: Init, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def locked(path: Path, errors: str) -> str:
+        if path.name in ("a.c", "b.c"):
+            raise PermissionError(13, "Permission denied")
+        return read_text(path, errors=errors)
+
+    monkeypatch.setattr("microros_gen.migrate.code.read_text", locked)
+    sources = tmp_path / "src"
+    sources.mkdir()
+    for name in ("a.c", "b.c"):
+        (sources / name).write_text("int main(void) {}\n")
+    (sources / "c.h").write_text("#include <own_msgs/msg/gains.h>\n")
+    (tmp_path / "colcon.meta").write_text('{"names": 3}')
+    status, _, error = init("app", "--from", "src", "--from-colcon-meta", "colcon.meta")
+    assert status == 2
+    faults = [line for line in error.splitlines() if ": error: " in line]
+    places = [re.findall(r"colcon\.meta:1|src/\w\.[ch](?::1:1)?", fault) for fault in faults]
+    assert places == [["colcon.meta:1"], ["src/a.c"], ["src/b.c"], ["src/c.h:1:1"]], error
+    assert "call no function of rclc" not in error, "they may be in what cannot be read"
+    assert not (tmp_path / "app").exists()
+
+
+ODOMETRY = """
+#include <rclc/rclc.h>
+#include <rmw_microros/rmw_microros.h>
+#include <nav_msgs/msg/odometry.h>
+int main(void)
+{
+  rmw_uros_set_custom_transport(true, NULL, line_open, line_close, line_write, line_read);
+  NODE
+  rclc_publisher_init_best_effort(&p, &node, ROSIDL_GET_MSG_TYPE_SUPPORT(nav_msgs, msg, Odometry), "odom");
+}
+""".replace("NODE", NODE)
+
+
+def test_a_message_that_fits_no_datagram_gets_a_larger_mtu(init: Init, tmp_path: Path) -> None:
+    (tmp_path / "main.c").write_text(ODOMETRY)
+    status, _, error = init("app", "--from", "main.c")
+    assert (status, error) == (0, "")
+    mtu = application_in(tmp_path / "app/microros.yaml").transport.mtu
+    assert mtu is not None
+    assert 720 < mtu < 1024, "36 and 37 float64 are 600 bytes, and there are two names"
+    assert undecided_in(tmp_path / "app/microros.yaml") == []
+
+
+def test_an_mtu_of_the_settings_is_not_changed(init: Init, tmp_path: Path) -> None:
+    (tmp_path / "main.c").write_text(ODOMETRY)
+    (tmp_path / "colcon.meta").write_text(
+        '{"names": {"microxrcedds_client": {"cmake-args": ["-DUCLIENT_CUSTOM_TRANSPORT_MTU=300"]},'
+        ' "rmw_microxrcedds": {"cmake-args": ["-DRMW_UXRCE_TRANSPORT=custom"]}}}'
+    )
+    status, _, error = init("app", "--from", "main.c", "--from-colcon-meta", "colcon.meta")
+    assert status == 2
+    assert "MG-7028" in error
+    assert application_in(tmp_path / "app/microros.yaml").transport.mtu == 300

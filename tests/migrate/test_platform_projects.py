@@ -7,7 +7,9 @@ import re
 from pathlib import Path
 
 import pytest
+from click.shell_completion import ShellComplete
 
+from microros_gen.cli.main import cli
 from microros_gen.package.find import builtin_packages
 from microros_gen.package.project import Project
 from microros_gen.package.render import describe, plan_package, render_package
@@ -106,6 +108,48 @@ def test_sources_are_copied_and_what_is_missing_is_named(run: Runner, sources: P
     assert "topic: work" in (robot / "microros.yaml").read_text()
 
 
+def test_the_sketch_with_setup_is_the_main_one(run: Runner, sources: Path) -> None:
+    (sources / "battery.ino").write_text("void read_battery() {}\n")
+    (sources / "rover.ino").write_text("void setup() { read_battery(); }\nvoid loop() {}\n")
+    done = run("init", "robot", "--platform", "arduino", "--from", str(sources))
+    assert done.status == 0, done.err
+    sketch = sources.parent / "robot" / "robot"
+    assert sorted(path.name for path in sketch.glob("*.ino")) == ["battery.ino", "robot.ino"]
+    assert (sketch / "robot.ino").read_text() == (sources / "rover.ino").read_text()
+
+
+def test_a_shell_offers_the_packages_that_have_a_project() -> None:
+    offered = ShellComplete(cli, {}, "microros-gen", "_C").get_completions(["init", "x", "--platform"], "")
+    assert [item.value for item in offered] == PACKAGES
+
+
+FOLDERS = {
+    "esp-idf": ("main/CMakeLists.txt", '"include"', '"lib/imu"'),
+    "nuttx": ("robot/Makefile", "-Iinclude", "-Ilib/imu"),
+    "pico": ("CMakeLists.txt", '"src/include"', '"src/lib/imu"'),
+    "platformio": ("platformio.ini", '"-Isrc/include"', '"-Isrc/lib/imu"'),
+    "stm32cube": ("microros_app.mk", "-I$(MICROROS_APP)/src/include ", "-I$(MICROROS_APP)/src/lib/imu\n"),
+    "zephyr": ("CMakeLists.txt", '"src/include"', '"src/lib/imu"'),
+}
+
+
+@pytest.mark.parametrize("name", FOLDERS)
+def test_the_sources_find_headers_in_other_folders(run: Runner, sources: Path, name: str) -> None:
+    for place in ("include/arm/gains.h", "lib/imu/imu.h"):
+        (sources / place).parent.mkdir(parents=True, exist_ok=True)
+        (sources / place).write_text("")
+    (sources / "lib" / "more.c").write_text('#include <arm/gains.h>\n#include "imu.h"\n')
+    done = run("init", "robot", "--platform", name, "--from", str(sources))
+    assert done.status == 0, done.err
+    file, *folders = FOLDERS[name]
+    text = (sources.parent / "robot" / file).read_text()
+    assert [folder for folder in folders if folder not in text] == []
+
+
+def test_the_projects_that_have_include_folders_are_all_but_sketchbooks() -> None:
+    assert {*FOLDERS, "arduino", "teensy"} == set(PACKAGES)
+
+
 @pytest.mark.parametrize("name", PACKAGES)
 def test_set_up_calls_that_are_accepted_are_those_of_the_package(name: str) -> None:
     files = render_package(plan_package(describe(name), None))
@@ -190,8 +234,15 @@ def test_options_without_effect_are_refused(run: Runner, folder: Path, option: t
 
 
 def test_a_file_that_cannot_be_copied(run: Runner, sources: Path) -> None:
-    (sources / "table.h").write_bytes(b"/* */\n" * (1 << 18))
+    for name in ("table.h", "more.h"):
+        (sources / name).write_bytes(b"/* */\n" * (1 << 18))
+    (sources / "helper.h").write_text("#include <own_msgs/msg/gains.h>\n")
     done = run("init", "robot", "--platform", "zephyr", "--from", str(sources))
     assert done.status == 2
-    assert "MG-9004" in done.err
+    faults = [line for line in done.err.splitlines() if ": error: " in line]
+    assert [re.findall(r"helper\.h:1:1|table\.h|more\.h", fault) for fault in faults] == [
+        ["helper.h:1:1"],
+        ["more.h"],
+        ["table.h"],
+    ], done.err
     assert not (sources.parent / "robot").exists()

@@ -83,19 +83,57 @@ def test_a_project_of_the_pico_sdk_reaches_ros(run: Runner, folder: Path) -> Non
         assert len(observer.got(2, timeout_s=30, topic="/pico_publisher")) >= 2
 
 
+def test_a_project_of_the_pico_sdk_links_what_its_sources_include(run: Runner, folder: Path) -> None:
+    if shutil.which("cmake") is None:
+        pytest.skip("no cmake")
+    (folder / "sdk" / "external").mkdir(parents=True)
+    shown = """\
+function(pico_sdk_init)
+  foreach(name pico_stdlib pico_sync pico_unique_id hardware_watchdog hardware_adc hardware_structs hardware_pwm)
+    add_library(${name} INTERFACE)
+  endforeach()
+endfunction()
+function(pico_enable_stdio_usb)
+endfunction()
+function(pico_enable_stdio_uart)
+endfunction()
+function(pico_add_extra_outputs name)
+  get_target_property(libraries ${name} LINK_LIBRARIES)
+  message(STATUS "${libraries}")
+endfunction()
+"""
+    (folder / "sdk" / "external" / "pico_sdk_import.cmake").write_text(shown)
+    assert run("init", "first", "--platform", "pico").status == 0
+    source = folder / "first" / "src" / "main.c"
+    more = '#include "hardware/adc.h"\n#include <hardware/structs/sio.h>\n#include "pico/cyw43_arch.h"\n'
+    source.write_text(more + source.read_text())
+    done = run("init", "robot", "--platform", "pico", "--from", str(folder / "first" / "src"))
+    assert done.status == 0, done.err
+    call = ("cmake", "-S", "robot", "-B", "build")
+    assert "-- microros;hardware_adc;hardware_structs;pico_stdlib\n" in called(
+        *call, PICO_SDK_PATH=str(folder / "sdk")
+    )
+
+
 def test_a_project_of_platformio_builds(run: Runner, folder: Path, tmp_path: Path) -> None:
-    """By `pio run`, for this computer; its sources are a sketch with its own message."""
+    """By `pio run`, for this computer; its sources are a sketch with its own message, and a header elsewhere."""
     example = ROOT / "examples" / "platformio"
+    sources = tmp_path / "old"
+    shutil.copytree(example / "src", sources / "src")
+    (sources / "include").mkdir()
+    (sources / "include" / "gains.h").write_text("#define GAIN 3\n")
+    (sources / "src" / "gain.cpp").write_text("#include <gains.h>\nint gain() { return GAIN; }\n")
     paths = ("--interface-path", str(example / "extra_packages"))
-    for options in ((), ("--from", str(example / "src"), *paths)):
+    for options in ((), ("--from", str(sources), *paths)):
         pio = Pio(tmp_path / f"pio{len(options)}")
         pio.project.rmdir()
         done = run("init", str(pio.project), "--platform", "platformio", *options)
         assert done.status == 0, done.err
         if options:
             shutil.copytree(example / "extra_packages", pio.project / "extra_packages")
-        (pio.project / "platformio.ini").unlink()  # it names a board
-        pio.settings("board_microros_transport = serial", arduino=True)
+        written = (pio.project / "platformio.ini").read_text()  # it names a board
+        start = written.index("board_microros_transport = serial")
+        pio.settings(*written[start:].splitlines(), arduino=True)
         assert "Compiling" in "".join(pio.build())
         assert pio.program.is_file()
 
@@ -116,7 +154,7 @@ def test_a_project_of_esp_idf_registers_its_program(run: Runner, folder: Path) -
     assert run("init", "chip", "--platform", "esp-idf").status == 0
     (folder / "commands.cmake").write_text(IDF)
     printed = called("cmake", f"-DFOLDER={folder / 'chip'}", "-P", "commands.cmake")
-    assert printed == "-- SRCS;main.c;INCLUDE_DIRS;.;REQUIRES;micro_ros_espidf_component\n"
+    assert printed == "-- SRCS;main.c;INCLUDE_DIRS;.\n"
     defined = (folder / "chip" / "main" / "Kconfig.projbuild").read_text()
     assert "config MICRO_ROS_APP_STACK" in defined
     assert (folder / "chip" / "components" / "micro_ros_espidf_component" / "Kconfig.projbuild").is_file()

@@ -280,9 +280,7 @@ def _send_buffer(
     application: Application, messages: tuple[Written, ...], least: int, diagnostics: Diagnostics
 ) -> int:
     """Return the bytes that a serial line needs for its output, of which one is never used."""
-    at_once = sum(
-        usual_frame(carried(_datagram(message), application)) for message in messages if message.best_effort
-    )
+    at_once = sum(usual_frame(carried(_datagram(m), application)) for m in messages if m.best_effort)
     requested = application.transport.send_buffer
     if requested is not None and requested < least:
         diagnostics.error(
@@ -366,6 +364,7 @@ def _check_fits(
             f"{_larger_mtu(size, transport)} its limits{message.hint}, or {reliable}: reliable messages"
             " are sent in fragments",
             id="MG-7028",
+            mtu=size,
         )
 
 
@@ -389,6 +388,7 @@ def _check_received(
             span,
             f"{_larger_mtu(size, transport)} its limits, or {reliable}: reliable messages come in fragments",
             id="MG-7030",
+            mtu=size,
         )
 
 
