@@ -10,6 +10,7 @@ import click
 from microros_gen import compiler
 from microros_gen.cli.generate import files_line, warnings_text
 from microros_gen.cli.summary import table
+from microros_gen.diagnostics import Diagnostic, UserError
 from microros_gen.output.tree import check_owned, write_files
 from microros_gen.package.archive import archive
 from microros_gen.package.description import PackageDescription
@@ -32,17 +33,27 @@ def write_package(
     """
     package = describe(name)
     check_owned(output)
+    place = _archive_of(output, package.archive) if archived else None
     plan = plan_package(package, config, interface_paths)
     click.echo(warnings_text(plan.planned.warnings), nl=False, err=True)
     files = render_package(plan)
     report = compiler.write(files, output)
     click.echo(_summary(plan) + files_line(output, report), nl=False)
     steps = [_next(package.next_folder, output)]
-    if archived:
-        result = output.with_name(f"{output.name}.{package.archive}")
-        write_files(result.parent, {result.name: archive(files, package.library, package.archive)})
-        steps = [("archive", str(result)), _next(package.next_archive or package.next_folder, result)]
+    if place is not None:
+        write_files(place.parent, {place.name: archive(files, package.library, package.archive)})
+        steps = [("archive", str(place)), _next(package.next_archive or package.next_folder, place)]
     click.echo(table([step for step in steps if step[1]]), nl=False)
+
+
+def _archive_of(output: Path, kind: str) -> Path:
+    """Return the path of the archive next to the folder. Raises UserError if a folder has it."""
+    folder = output if output.name not in ("", "..") else output.resolve()
+    place = folder.with_name(f"{folder.name}.{kind}")
+    if place.is_dir():
+        hint = "Choose another output folder with -o, or rename the folder"
+        raise UserError([Diagnostic(f"the archive {place} is a folder", hint=hint, id="MG-9209")])
+    return place
 
 
 def _next(text: str, result: Path) -> tuple[str, str]:

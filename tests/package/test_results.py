@@ -113,3 +113,22 @@ def test_the_ram_of_both_plans_is_printed(run: Runner, folder: Path) -> None:
         manifest = packed.extractfile("microros/manifest.json")
         assert manifest is not None
         assert json.load(manifest)["package"] == {"name": "cmake", "plan": "application"}
+
+
+def test_the_archive_of_the_current_folder_is_next_to_it(
+    run: Runner, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (folder / "own.yaml").write_text(OWN)
+    (folder / "robot").mkdir()
+    monkeypatch.chdir(folder / "robot")
+    done = run("package", "cmake", "-c", "../own.yaml", "-o", ".", "--archive")
+    assert (done.status, done.err) == (0, "")
+    assert (folder / "robot.tar.gz").is_file()
+
+
+def test_an_archive_replaces_no_folder(run: Runner, folder: Path) -> None:
+    (folder / "robot.tar.gz").mkdir()
+    done = run("package", "cmake", "-o", "robot", "--archive")
+    assert done.status == 2
+    assert "the archive robot.tar.gz is a folder. Choose another output folder with -o" in done.err
+    assert not (folder / "robot").exists()
