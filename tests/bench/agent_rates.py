@@ -12,8 +12,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from tests.bench.agent_sides import (
+    DEPTH,
     KEEP_ALL_BEST_EFFORT,
     KEEP_ALL_RELIABLE,
+    KEEP_LAST_RELIABLE,
     READER,
     RELIABLE,
     WRITER,
@@ -157,7 +159,10 @@ def loopback_trip(programs: Programs, count: int) -> Trip:
 
 
 def memory(target: Target, steps: Sequence[int]) -> list[tuple[int, float, int]]:
-    """Return clients, MB and threads of the agent, for numbers of clients with two topics each, both ways."""
+    """Return clients, MB and threads of the agent, for numbers of clients with two topics each, both ways.
+
+    The endpoints have ROS 2's default QoS. 104 readers with KEEP_ALL would take all of the agent's `history_bytes`.
+    """
     clients: list[LoadClient] = []
     seen = [(0, target.memory_mb(), target.threads())]
     try:
@@ -165,7 +170,9 @@ def memory(target: Target, steps: Sequence[int]) -> list[tuple[int, float, int]]
             while len(clients) < step:
                 client = LoadClient(target, 0x10000 + len(clients))
                 for number in (1, 2):
-                    client.make(f"bench_{len(clients)}_{number}", number=number)
+                    client.make(
+                        f"bench_{len(clients)}_{number}", KEEP_LAST_RELIABLE, number=number, depth=DEPTH
+                    )
                 clients.append(client)
             time.sleep(2 * SETTLE_S)
             seen.append((step, target.memory_mb(), target.threads()))

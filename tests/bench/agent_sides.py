@@ -38,6 +38,8 @@ HERE = Path(__file__).resolve().parent
 TYPE = "std_msgs/msg/String"
 KEEP_ALL_RELIABLE, KEEP_ALL_BEST_EFFORT = 1, 0
 """EndpointQosFlags without the bit of KEEP_LAST."""
+KEEP_LAST_RELIABLE, DEPTH = 3, 10
+"""EndpointQosFlags and depth of the default QoS of ROS 2."""
 WRITER, READER = 5, 6
 """Kinds of objects."""
 FLAGS = ["-std=gnu99", "-O2", "-Wall", "-Wextra", "-Werror"]
@@ -148,17 +150,21 @@ class LoadClient(XrceClient):
         flags: int = KEEP_ALL_RELIABLE,
         number: int = 1,
         ways: Sequence[int] = (WRITER, READER),
+        depth: int = 0,
     ) -> tuple[int, int]:
-        """Create a node, a topic, and with KEEP_ALL a data writer, a data reader or both; return the ids of the two."""
+        """Create a node, a topic, and a data writer, a data reader or both; return the ids of the two.
+
+        `depth` is for `flags` with KEEP_LAST; 0 for KEEP_ALL.
+        """
         ids = {kind: number << 4 | kind for kind in range(1, 7)}
         bodies = [
             (1, participant_blob(f"bench_{self.key.hex()}"), 0),
             (2, topic_blob(f"rt/{topic}", dds_type(TYPE)), ids[1]),
         ]
         if WRITER in ways:
-            bodies += [(3, b"\0\0", ids[1]), (WRITER, writer_blob(ids[2], flags, 0), ids[3])]
+            bodies += [(3, b"\0\0", ids[1]), (WRITER, writer_blob(ids[2], flags, depth), ids[3])]
         if READER in ways:
-            bodies += [(4, b"\0\0", ids[1]), (READER, reader_blob(ids[2], flags, 0), ids[4])]
+            bodies += [(4, b"\0\0", ids[1]), (READER, reader_blob(ids[2], flags, depth), ids[4])]
         for kind, body, parent in bodies:
             status = self.create(ids[kind], Format.BINARY, body, parent, self.domain)
             assert status in (0, 1), f"{kind}: status {status:#04x}"
@@ -237,8 +243,10 @@ def load_command(
 
 __all__ = [
     "BEST_EFFORT",
+    "DEPTH",
     "KEEP_ALL_BEST_EFFORT",
     "KEEP_ALL_RELIABLE",
+    "KEEP_LAST_RELIABLE",
     "READER",
     "RELIABLE",
     "TYPE",
