@@ -125,6 +125,12 @@ class Agent:
             if int.from_bytes(client.session.link.key, "big") in keys:
                 self._guarded(partial(self._admission.expel, client, reason))
 
+    def release_to_other(self, address: Hashable) -> None:
+        """Remove the client at an address, where one of another worker is in session now. Never raises."""
+        client = self.clients.at(address)
+        if client is not None:
+            self._guarded(partial(self._admission.dismiss, client, "replaced by another at its address"))
+
     def client_states(self) -> tuple[ClientState, ...]:
         """Return the view of all clients, also of those that have left; empty unless the agent is `watched`."""
         return self._states.snapshot() if self._states is not None else ()

@@ -69,7 +69,10 @@ class EventLog:
         verbosity: int = 0,
         clock: Callable[[], float] = time.time,
         bytes_per_second: int = BYTES_PER_SECOND,
+        worker: int | None = None,
     ) -> None:
+        """`worker`: number of the process in each line, if the agent has several."""
+        self._worker: dict[str, Json] = {} if worker is None else {"worker": worker}
         self._out = out
         self._json = as_json
         self._limit = Level.INFO + verbosity
@@ -131,9 +134,10 @@ class EventLog:
         if self._json:
             time_s = round(self._clock(), 6)
             head: dict[str, Json] = {"time": time_s, "level": level.name.lower(), "event": event}
-            line = json.dumps({**head, **fields, "message": message})
+            line = json.dumps({**head, **self._worker, **fields, "message": message})
         else:
             line = message if level is Level.INFO else f"{level.name.lower()}: {message}"
+            line = f"worker {self._worker['worker']}: {line}" if self._worker else line
         if level <= Level.INFO:
             self._bytes -= len(line)
         self.line(line)

@@ -72,6 +72,11 @@ class Preconfigured:
         self._by_key = {c.key: tuple(_creation(item) for item in c.objects) for c in clients}
         self._adopted = {c.key for c in clients if c.adopt and c.key is not None}
 
+    @property
+    def adopts(self) -> bool:
+        """Whether clients are adopted that have not opened their session with this agent."""
+        return bool(self._adopted)
+
     def objects(self, key: bytes) -> tuple[PreconfiguredCreation, ...]:
         """Return the objects of the client `key`, parents first."""
         found = self._by_key.get(key)

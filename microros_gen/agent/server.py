@@ -12,13 +12,12 @@ import os
 import select
 import signal
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence, Sized
 from contextlib import contextmanager
 from functools import partial
 from types import FrameType
 from typing import Protocol
 
-from microros_gen.agent.core import Agent
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.readiness import unwatched
 from microros_gen.agent.transport.base import Transport
@@ -29,6 +28,46 @@ TICK_S = 0.1
 Ready = Callable[[Transport], None]
 
 
+class Served(Protocol):
+    """What the loop serves: an agent, or the front of its workers. See `Agent` for the methods."""
+
+    @property
+    def clients(self) -> Sized:
+        """The clients."""
+
+    @property
+    def samples(self) -> int:
+        """Number of samples from clients."""
+
+    @property
+    def delivered(self) -> int:
+        """Number of samples to clients."""
+
+    def fileno(self) -> int:
+        """Return the descriptor that is readable when `take` has something to do."""
+
+    def due(self) -> float | None:
+        """Return when `tick` is due."""
+
+    def receive(self, data: bytes, address: Hashable, transport: Transport) -> None:
+        """Process a message."""
+
+    def take(self) -> None:
+        """Do what the descriptor is readable for."""
+
+    def tick(self) -> None:
+        """Do what is due."""
+
+    def care(self, now: float) -> None:
+        """Look after everything; called some ten times a second."""
+
+    def flush(self) -> None:
+        """Send what was collected."""
+
+    def close(self) -> None:
+        """End in order."""
+
+
 class Server:
     """A server of several transports that runs until `stop`.
 
@@ -37,7 +76,7 @@ class Server:
 
     def __init__(
         self,
-        agent: Agent,
+        agent: Served,
         transports: Sequence[Transport],
         log: EventLog,
         alive: Callable[[float], None] = unwatched,

@@ -69,6 +69,8 @@ class ClientState:
     """What waits for it: for an acknowledgement, or to be sent."""
     input_bytes: int = 0
     """Bytes from it that wait: for the rest of a message, for a missing one, or for its turn."""
+    worker: int | None = None
+    """Number of the process that serves it, if the agent has several."""
 
 
 @mutable

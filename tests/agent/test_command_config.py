@@ -41,6 +41,7 @@ NOTHING = {
     "client_timeout": None,
     "max_clients": None,
     "limits": (),
+    "workers": None,
     "references": (),
     "entities": (),
     "policy": None,

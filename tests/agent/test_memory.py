@@ -18,7 +18,7 @@ from microros_gen.agent.core import Agent
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.memory import MemoryGuard, Pressure, Relief, resident_bytes
 from microros_gen.agent.wire.constants import Format
-from microros_gen.cli.agent.start import check_memory
+from microros_gen.cli.agent.assembly import check_memory
 from microros_gen.diagnostics import UserError
 from tests.support.agent.budgets import OK, RESOURCES, ask, connect, reading
 from tests.support.agent.client import BEST_EFFORT, XrceClient, dds_type, int32_body, topic_blob, writer_blob

@@ -107,7 +107,9 @@ def test_the_json(folder: Path) -> None:
         "silences": 1,
         "denied": 0,
         "last_error": "late",
+        "worker": None,
     }
+    assert document["agent"]["workers"] == []
 
 
 def test_a_thousand_clients_are_bounded_in_time_and_size(tmp_path: Path) -> None:

@@ -79,6 +79,7 @@ class AgentFile:
     parameter_server: bool = True
     parameter_file: str | None = None
     limits: tuple[tuple[str, float], ...] = ()
+    workers: int | None = None
     references: tuple[NamedPath, ...] = ()
     entities: tuple[NamedPath, ...] = ()
     policy: NamedPath | None = None

@@ -18,6 +18,7 @@ from microros_gen.agent.configuration.model import (
     SocketChoice,
     TransportChoice,
 )
+from microros_gen.agent.workers.count import worker_count
 from microros_gen.diagnostics import Diagnostics, Source, reads
 from microros_gen.documents.schema import load_schema, validate
 from microros_gen.documents.tree_values import (
@@ -61,6 +62,7 @@ def parse_agent_file(source: Source, diagnostics: Diagnostics) -> AgentFile:
         parameter_server=bool_of(child(tree, "parameter_server")) is not False,
         parameter_file=text_of(child(tree, "parameter_file")),
         limits=_numbers(child(tree, "limits")),
+        workers=_workers(child(tree, "workers")),
         references=_paths(child(tree, "references")),
         entities=_paths(child(tree, "entities")),
         policy=_path(child(tree, "policy")),
@@ -106,6 +108,10 @@ def _place(node: YamlNode | None) -> NamedPath | None:
         if node is None
         else NamedPath(str(node.text) if isinstance(node, ScalarNode) else "", span_of(node))
     )
+
+
+def _workers(node: YamlNode | None) -> int | None:
+    return worker_count(str(node.text)) if isinstance(node, ScalarNode) else None
 
 
 def _numbers(node: YamlNode | None) -> tuple[tuple[str, float], ...]:

@@ -39,6 +39,10 @@ def _agent(status: AgentStatus) -> dict[str, Any]:
         "clients_max": status.clients_max,
         "samples": {"from_clients": status.from_clients, "to_clients": status.to_clients},
         "faults": dict(sorted(status.faults.items())),
+        "workers": [
+            {"number": each.number, "pid": each.pid, "ready": each.ready, "restarts": each.restarts}
+            for each in status.workers
+        ],
     }
 
 
@@ -69,6 +73,7 @@ def client_data(state: ClientState) -> dict[str, Any]:
         "silences": state.silences,
         "denied": state.denied,
         "last_error": state.last_error,
+        "worker": state.worker,
     }
 
 

@@ -57,6 +57,14 @@ _AGENT: tuple[tuple[_Family, Callable[[AgentStatus], Samples]], ...] = (
         lambda s: [((("transport", f"{t.kind} {t.address}"),), int(t.ready)) for t in s.transports],
     ),
     (
+        _Family("worker_ready", "gauge", "Whether a worker process serves (1) or not (0)."),
+        lambda s: [((("worker", str(w.number)),), int(w.ready)) for w in s.workers],
+    ),
+    (
+        _Family("worker_restarts_total", "counter", "How often a worker process was started again."),
+        lambda s: [((("worker", str(w.number)),), w.restarts) for w in s.workers],
+    ),
+    (
         _Family("clients", "gauge", "Number of clients that have not left, and of refused ones, by state."),
         lambda s: [
             ((("state", p.name.lower()),), sum(c.presence is p for c in s.clients))

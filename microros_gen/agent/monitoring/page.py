@@ -56,12 +56,15 @@ function show(data) {
   agent.textContent = "Process " + about.pid + ", microros-gen " + about.version + ", up "
     + Math.floor(about.uptime_s) + " s; "
     + about.transports.map((t) => t.kind + " " + t.address + (t.ready ? "" : " (not ready)")).join(", ")
+    + (about.workers.length ? "; " + about.workers.length + " workers" : "")
+    + about.workers.map((w) => w.ready ? "" : " (" + w.number + " not ready)").join("")
     + "; samples: " + about.samples.from_clients + " from clients, " + about.samples.to_clients + " to clients";
   for (const client of data.clients) {
     const row = made.insertRow();
     row.className = client.state;
     row.id = "client-" + client.key;
     for (const name of ["name", "key", "state", "transport", "address"]) cell(row, name, client[name]);
+    if (client.worker !== null) row.cells[3].textContent += ", worker " + client.worker;
     const trip = client.round_trip_s;
     cell(row, "number", trip === null ? "" : (trip * 1000).toFixed(1) + " ms");
     traffic(row, client.received);

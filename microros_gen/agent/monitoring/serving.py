@@ -66,9 +66,8 @@ def _health(board: StatusBoard, needs_transports: bool) -> Answer:
     status = board.ask()
     if status is None:
         return Answer(_TEXT, NO_RESPONSE, 503)
-    late = [f"{each.kind} {each.address} is not ready" for each in status.transports if not each.ready]
-    if needs_transports and late:
-        return Answer(_TEXT, "".join(f"{line}\n" for line in late).encode(), 503)
+    if needs_transports and status.late:
+        return Answer(_TEXT, "".join(f"{line}\n" for line in status.late).encode(), 503)
     return Answer(_TEXT, b"ok\n")
 
 

@@ -25,6 +25,7 @@ _CLIENT = {
     "sent": _DIRECTION,
     "queue": dict.fromkeys(("fill", "messages", "bytes", "input_bytes"), _NUMBER),
     "nodes": [_TEXT],
+    "worker": _OPTIONAL,
 }
 _AGENT = {
     "pid": _NUMBER,
@@ -36,6 +37,7 @@ _AGENT = {
     "clients_max": _NUMBER,
     "samples": {"from_clients": _NUMBER, "to_clients": _NUMBER},
     "faults": _NUMBERS,
+    "workers": [{"number": _NUMBER, "pid": _NUMBER, "ready": _BOOL, "restarts": _NUMBER}],
 }
 _DOCUMENT: Mapping[str, Any] = MappingProxyType({"version": _NUMBER, "agent": _AGENT, "clients": [_CLIENT]})
 

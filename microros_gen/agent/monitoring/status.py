@@ -27,6 +27,16 @@ class TransportState:
 
 
 @dataclass(frozen=True)
+class WorkerState:
+    """A worker process: its number, its process (0: none runs), whether it serves, how often it was started again."""
+
+    number: int
+    pid: int
+    ready: bool
+    restarts: int
+
+
+@dataclass(frozen=True)
 class AgentStatus:
     """An agent and its clients. Counts are those since it started."""
 
@@ -48,13 +58,27 @@ class AgentStatus:
     clients: tuple[ClientState, ...]
     faults: Mapping[str, int] = field(default_factory=dict)
     """Number of faults in input by kind, as in the log."""
+    workers: tuple[WorkerState, ...] = ()
+    """Those of an agent with several processes."""
+
+    @property
+    def late(self) -> list[str]:
+        """A line for each transport and worker that is not ready."""
+        transports = [f"{each.kind} {each.address}" for each in self.transports if not each.ready]
+        workers = [f"worker {each.number}" for each in self.workers if not each.ready]
+        return [f"{name} is not ready" for name in (*transports, *workers)]
 
 
 class StatusBoard:
     """Hands the status from the agent's thread to others, at most four times a second."""
 
-    def __init__(self, take: Callable[[], AgentStatus], clock: Callable[[], float] = time.monotonic) -> None:
-        """`take` is called in the agent's thread; `clock` returns seconds of a monotonic clock in any thread."""
+    def __init__(
+        self, take: Callable[[], AgentStatus | None], clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        """`take` is called in the agent's thread, and again later if it returns None.
+
+        `clock` returns seconds of a monotonic clock in any thread.
+        """
         self._take = take
         self._clock = clock
         self._changed = threading.Condition()
@@ -66,8 +90,10 @@ class StatusBoard:
         """Take the status if it is wanted; called in the agent's thread, some ten times a second."""
         if not self._is_wanted:
             return
-        self._is_wanted = False
         status = self._take()
+        if status is None:
+            return
+        self._is_wanted = False
         with self._changed:
             self._latest, self._taken_at = status, self._clock()
             self._changed.notify_all()

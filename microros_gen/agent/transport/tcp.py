@@ -217,7 +217,7 @@ class Tcp:
             except BlockingIOError:
                 done = 0
             except OSError as error:
-                self._drop(address, error.strerror or str(error))
+                self.drop(address, error.strerror or str(error))
                 return
             if done == len(frame):
                 return
@@ -246,7 +246,7 @@ class Tcp:
     def close(self) -> None:
         """See Transport."""
         for connection in list(self._connections.values()):
-            self._drop(connection, "the agent stops")
+            self.drop(connection, "the agent stops")
         self._listener.close()
         self._epoll.close()
 
@@ -256,10 +256,10 @@ class Tcp:
         except BlockingIOError:
             return
         except OSError as error:
-            self._drop(connection, error.strerror or str(error))
+            self.drop(connection, error.strerror or str(error))
             return
         if not data:
-            self._drop(connection, "it hung up")
+            self.drop(connection, "it hung up")
             return
         connection.last_received = self._now
         for message in connection.decoder.feed(data):
@@ -281,7 +281,7 @@ class Tcp:
             if connection.outbox.write(connection.descriptor):
                 connection.stuck_since = self._now
         except OSError as error:
-            self._drop(connection, error.strerror or str(error))
+            self.drop(connection, error.strerror or str(error))
             return
         if not connection.outbox:
             connection.stuck_since = None
@@ -380,9 +380,10 @@ class Tcp:
     def _fail(self, connection: Connection, kind: str, why: str) -> None:
         text = "{transport}: {peer} closed: {why}"
         self._log.count(kind, text, transport=self.label, peer=connection.peer, why=why)
-        self._drop(connection, why)
+        self.drop(connection, why)
 
-    def _drop(self, connection: Connection, why: str) -> None:
+    def drop(self, connection: Connection, why: str) -> None:
+        """Close a connection; `why` is for the log."""
         if connection.closed:
             return
         self._epoll.unregister(connection.descriptor)
@@ -391,9 +392,8 @@ class Tcp:
         connection.socket.close()
         connection.outbox.clear()
         connection.holder.clear()
-        text = "{transport}: {peer} ended: {why}"
         fields = {"transport": self.label, "peer": connection.peer, "why": why}
-        self._log.emit(Level.DEBUG, "connection_closed", text, **fields)
+        self._log.emit(Level.DEBUG, "connection_closed", "{transport}: {peer} ended: {why}", **fields)
 
     def _watch(self, connection: Connection, writing: bool) -> None:
         events = select.EPOLLIN | (select.EPOLLOUT if writing else 0)

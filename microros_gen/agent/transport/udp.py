@@ -60,14 +60,15 @@ class Udp:
         port: int,
         fair: Fairness | None = None,
         strangers: Account | None = None,
+        bound: socket.socket | None = None,
     ) -> None:
-        """Bind to `host` and `port` (0: a free one). Raises UserError if that is not possible.
+        """Bind to `host` and `port` (0: a free one), or take a socket that is. UserError: that is not possible.
 
         `fair` orders the clients, the account `strangers` is charged for senders without a session; both are the
         agent's.
         """
         self._fair = fair or Fairness()
-        self._socket = open_socket(protocol, host, port)
+        self._socket = bound or open_socket(protocol, host, port)
         self.protocol = protocol
         self.host, self.port = self._socket.getsockname()[:2]
         self._everybody = Queue(self._socket, strangers or Account())
@@ -98,6 +99,11 @@ class Udp:
     def forgeable(self) -> bool:
         """See Transport: the sender's address of a datagram is not verified."""
         return True
+
+    @property
+    def waits(self) -> bool:
+        """Whether datagrams have arrived."""
+        return bool(self._strays) or bool(self._epoll.poll(0, 1))
 
     def fileno(self) -> int:
         """See Transport."""
@@ -184,6 +190,11 @@ class Udp:
     def proved_key(self, address: Hashable) -> bytes:
         """See Transport: anyone can send any key."""
         return b""
+
+    @property
+    def descriptor(self) -> int:
+        """The descriptor of the socket that gets messages from all who have no other one."""
+        return self._socket.fileno()
 
     def close(self) -> None:
         """See Transport."""

@@ -11,6 +11,7 @@ from microros_gen.agent.core import Agent
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.state_node import NODE, StateNode, StatePublisher, States
+from microros_gen.agent.workers.front import Front
 from microros_gen.cli.agent.background import in_background
 from microros_gen.cli.agent.options import AgentOptions
 from microros_gen.cli.ros_node import node_of
@@ -19,7 +20,9 @@ from microros_gen.ros.peer import Peer
 
 
 @contextmanager
-def client_state_node(options: AgentOptions, limits: Limits, agent: Agent, log: EventLog) -> Iterator[None]:
+def client_state_node(
+    options: AgentOptions, limits: Limits, agent: Agent | Front, log: EventLog
+) -> Iterator[None]:
     """Publish from a thread while the block runs, where the options ask for it.
 
     The node has its own context, in the domain of the options, otherwise of ROS_DOMAIN_ID. Raises UserError if it
@@ -31,7 +34,9 @@ def client_state_node(options: AgentOptions, limits: Limits, agent: Agent, log: 
     with _peer(options.domain) as peer:
         publishers: list[Callable[[States, float], object]] = []
         if options.client_state:
-            publishers.append(StatePublisher(peer, agent.latest_client_states, 2 * limits.clients))
+            publishers.append(
+                StatePublisher(peer, agent.latest_client_states, 2 * limits.clients * options.workers)
+            )
         if options.diagnostics:
             publishers.append(DiagnosticsPublisher(peer, limits.client_timeout_s))
         node = StateNode(

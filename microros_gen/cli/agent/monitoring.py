@@ -17,8 +17,9 @@ from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.monitoring import metrics
 from microros_gen.agent.monitoring.serving import StatusSocket, metrics_routes, page_routes, status_routes
 from microros_gen.agent.monitoring.sockets import SocketError, default_path
-from microros_gen.agent.monitoring.status import AgentStatus, StatusBoard, TransportState
+from microros_gen.agent.monitoring.status import AgentStatus, StatusBoard, TransportState, WorkerState
 from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.workers.front import Front
 from microros_gen.cli.agent.background import in_background
 from microros_gen.cli.agent.options import NO_SOCKET, AgentOptions
 from microros_gen.diagnostics import Diagnostic, Diagnostics, UserError
@@ -33,7 +34,7 @@ _PATHS = {"metrics": metrics.PATH.lstrip("/"), "page": ""}
 
 @contextmanager
 def monitoring(
-    options: AgentOptions, agent: Agent, transports: Sequence[Transport], log: EventLog
+    options: AgentOptions, agent: Agent | Front, transports: Sequence[Transport], log: EventLog
 ) -> Iterator[None]:
     """Answer questions in threads while the block runs, where the options ask for it. Raises UserError."""
     board = StatusBoard(_Observer(options, agent, transports, log))
@@ -123,7 +124,7 @@ class _Observer:
     """Takes the status of an agent."""
 
     def __init__(
-        self, options: AgentOptions, agent: Agent, transports: Sequence[Transport], log: EventLog
+        self, options: AgentOptions, agent: Agent | Front, transports: Sequence[Transport], log: EventLog
     ) -> None:
         self._options = options
         self._agent = agent
@@ -131,8 +132,15 @@ class _Observer:
         self._log = log
         self._started, self._started_at = time.time(), time.monotonic()
 
-    def __call__(self) -> AgentStatus:
-        """Return the status; called in the agent's thread."""
+    def __call__(self) -> AgentStatus | None:
+        """Return the status, None until all workers have answered; called in the agent's thread."""
+        workers: tuple[WorkerState, ...] = ()
+        faults = dict(self._log.counters)
+        if isinstance(self._agent, Front):
+            if not self._agent.has_new_view():
+                return None
+            workers = tuple(WorkerState(w.number, w.pid, w.ready, w.restarts) for w in self._agent.workers)
+            faults = self._agent.faults
         labels = [(*transport.label.partition(" ")[::2], transport.ready) for transport in self._transports]
         return AgentStatus(
             pid=os.getpid(),
@@ -142,9 +150,10 @@ class _Observer:
             uptime_s=time.monotonic() - self._started_at,
             domain=self._options.domain,
             transports=tuple(TransportState(*label) for label in labels),
-            clients_max=self._options.limits.clients,
+            clients_max=self._options.limits.clients * max(1, len(workers)),
             from_clients=self._agent.samples,
             to_clients=self._agent.delivered,
             clients=self._agent.client_states(),
-            faults=dict(self._log.counters),
+            faults=faults,
+            workers=workers,
         )

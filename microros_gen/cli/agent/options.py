@@ -21,6 +21,7 @@ from microros_gen.agent.configuration.parser import DISCOVERY_PORT, parse_agent_
 from microros_gen.agent.limits import Limits
 from microros_gen.cli.agent.limit_options import limits_of
 from microros_gen.cli.agent.types import ManifestOf
+from microros_gen.cli.agent.worker_count import workers_option
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Source, Span, UserError
 from microros_gen.documents.files import read_text
 from microros_gen.records import dataclass
@@ -118,6 +119,7 @@ _COMMON = (
         help="File of the values of such parameters. Default: parameters-DOMAIN.json in"
         " ~/.local/state/microros-gen (XDG_STATE_HOME).",
     ),
+    workers_option,
     click.option(
         "--client-timeout",
         type=click.FloatRange(min=0.1),
@@ -230,6 +232,7 @@ class AgentOptions:
     parameter_server: bool = True
     parameter_file: Path | None = None
     limits: Limits = DEFAULTS
+    workers: int = 1
     references: tuple[Path, ...] = ()
     entities: tuple[Path, ...] = ()
     policy: Path | None = None
@@ -279,6 +282,7 @@ class AgentOptions:
             parameter_server=file.parameter_server and not options["no_parameter_server"],
             parameter_file=options["parameter_file"] or _own_file(file, folder),
             limits=limits_of(file, options),
+            workers=options["workers"] or file.workers or 1,
             references=_paths(folder, file.references, options["references"]),
             entities=_paths(folder, file.entities, options["entities"]),
             policy=options["policy"] or (None if file.policy is None else folder / file.policy.path),

@@ -18,7 +18,8 @@ from microros_gen.parameter_server.server import NODE
 from microros_gen.parameter_server.turns import ServerInTurn
 from microros_gen.ros.errors import RosError
 
-_NOTICE = "microros_parameter_msgs/msg/Notice"
+NOTICE = "microros_parameter_msgs/msg/Notice"
+"""Type of an endpoint that only clients with such parameters have."""
 _FILE_S = 5.0
 """Between two looks whether the file is free."""
 
@@ -37,7 +38,7 @@ class ParametersOnDemand:
 
     def on_type(self, type_name: str) -> None:
         """Take the type of an endpoint of a client."""
-        if type_name == _NOTICE:
+        if type_name == NOTICE:
             self._wanted.set()
 
     @contextmanager

@@ -155,7 +155,7 @@ def _number(conversation: Conversation) -> int:
 def _as_agent(
     stack: ExitStack, players: Sequence[Player], at: str | None, baud: int, log: EventLog
 ) -> AgentSide:
-    from microros_gen.cli.agent.start import Shared, open_transports
+    from microros_gen.cli.agent.transports import Shared, open_transports
 
     places = dict.fromkeys(_place(at, player.conversation, baud) for player in players)
     choices = [_choice(place) for place in places]

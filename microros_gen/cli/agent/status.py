@@ -87,13 +87,11 @@ def _watch(place: Path, kind: str) -> None:
 
 
 def _not_ready(document: dict[str, Any]) -> list[str]:
-    """Return a line for each transport that accepts no messages."""
-    transports = document["agent"]["transports"]
-    return [
-        printable(f"{each['kind']} {each['address']} is not ready")
-        for each in transports
-        if not each["ready"]
-    ]
+    """Return a line for each transport that accepts no messages, and each worker that does not serve."""
+    agent = document["agent"]
+    names = [f"{each['kind']} {each['address']}" for each in agent["transports"] if not each["ready"]]
+    names += [f"worker {each['number']}" for each in agent["workers"] if not each["ready"]]
+    return [printable(f"{name} is not ready") for name in names]
 
 
 def _shown(document: dict[str, Any], kind: str, once: bool) -> str:

@@ -33,8 +33,20 @@ def status_table(document: Mapping[str, Any]) -> str:
         f"clients: {present} of at most {agent['clients_max']}; samples: {samples['from_clients']} from clients,"
         f" {samples['to_clients']} to clients; faults of input: {sum(agent['faults'].values())}",
     ]
+    workers = agent["workers"]
+    if workers:
+        lines.append(f"workers: {', '.join(map(_worker, workers))}")
     head = "".join(f"{line}\n" for line in lines)
-    return f"{head}\n{format_table(_HEAD, map(_row, clients))}" if clients else head
+    if not clients:
+        return head
+    rows = [(*_row(client), *((str(client["worker"]),) if workers else ())) for client in clients]
+    return f"{head}\n{format_table((*_HEAD, *(('WORKER',) if workers else ())), rows)}"
+
+
+def _worker(worker: Mapping[str, Any]) -> str:
+    process = f"process {worker['pid']}" if worker["ready"] else "not ready"
+    restarts = f", started again {worker['restarts']} times" if worker["restarts"] else ""
+    return f"{worker['number']} ({process}{restarts})"
 
 
 def _row(client: Mapping[str, Any]) -> tuple[str, ...]:

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Addresses of clients as bytes, which the front and its workers exchange.
+
+Over UDP the code of an address is the socket address, with which a worker sends by itself. Elsewhere it is a number
+that the front gave to the address, its name in the log, and its origin for the policy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from typing import Any, NamedTuple
+
+from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.transport.udp import Udp
+
+KNOWN = 16_384
+"""Addresses other than those of UDP that the front remembers; a further one replaces the one that is silent longest."""
+SHARE_BYTES = 512 << 10
+"""Maximum bytes from one address that wait for a worker, while more than `FREE_BYTES` wait for it."""
+FREE_BYTES = 64 << 10
+
+
+class RemoteAddress(NamedTuple):
+    """An address at a transport of the front."""
+
+    transport: str
+    """Its label."""
+    number: int
+    name: str
+    origin: str
+
+
+class Known:
+    """An address that the front knows: its code, and how much from it waits for its worker."""
+
+    __slots__ = ("address", "code", "drained", "waiting")
+
+    def __init__(self, code: bytes, address: Hashable) -> None:
+        self.code = code
+        self.address = address
+        self.waiting = 0
+        self.drained = -1
+        """State of the channel (`Channel.drained`) at which `waiting` began."""
+
+    def may_send(self, size: int, drained: int, waiting: int) -> bool:
+        """Return whether `size` more bytes from it may wait, of `waiting` bytes from all."""
+        if drained != self.drained:
+            self.drained, self.waiting = drained, 0
+        if waiting > FREE_BYTES and self.waiting + size > SHARE_BYTES:
+            return False
+        self.waiting += size
+        return True
+
+
+class AddressBook:
+    """The codes of addresses at one transport."""
+
+    def __init__(self, transport: Transport) -> None:
+        self._transport = transport
+        self._is_udp = isinstance(transport, Udp)
+        self._everybody = Known(b"", None)
+        self._known: dict[Hashable, Known] = {}
+        self._by_code: dict[bytes, Known] = {}
+        self._next = 0
+
+    def known(self, address: Hashable) -> Known:
+        """Return what is known of an address. All senders of UDP that have no session share what may wait."""
+        if self._is_udp:
+            self._everybody.code = udp_code(address[1])  # type: ignore[index]
+            return self._everybody
+        found = self._known.pop(address, None)
+        if found is None:
+            self._next += 1
+            name, origin = self._transport.name_of(address), str(self._transport.origin(address))
+            found = Known(_joined(str(self._next), name, origin), address)
+            self._by_code[found.code] = found
+            if len(self._known) >= KNOWN:
+                oldest = next(iter(self._known))
+                del self._by_code[self._known.pop(oldest).code]
+        self._known[address] = found
+        return found
+
+    def address(self, code: bytes) -> Hashable | None:
+        """Return the address with a code; None: it is not known any more."""
+        if self._is_udp:
+            return (self._transport, udp_peer(code))
+        found = self._by_code.get(code)
+        return found.address if found is not None else None
+
+    def forget_closed(self) -> None:
+        """Forget connections that were closed."""
+        closed = [address for address in self._known if getattr(address, "closed", False)]
+        for address in closed:
+            del self._by_code[self._known.pop(address).code]
+
+
+def udp_code(peer: Any) -> bytes:
+    """Return the code of a socket address."""
+    return _joined(*map(str, peer))
+
+
+def udp_peer(code: bytes) -> Any:
+    """Return the socket address of a code."""
+    host, *numbers = _parts(code)
+    return (host, *map(int, numbers))
+
+
+def remote_address(label: str, code: bytes) -> RemoteAddress:
+    """Return the address with a code at the transport that has this label."""
+    number, name, origin = _parts(code)
+    return RemoteAddress(label, int(number), name, origin)
+
+
+def remote_code(address: RemoteAddress) -> bytes:
+    """Return the code of such an address."""
+    return _joined(str(address.number), address.name, address.origin)
+
+
+def _joined(*parts: str) -> bytes:
+    return "\0".join(parts).encode(errors="surrogateescape")
+
+
+def _parts(code: bytes) -> list[str]:
+    return code.decode(errors="surrogateescape").split("\0")

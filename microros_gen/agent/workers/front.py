@@ -1,0 +1,346 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The front of an agent with several workers: what the main loop (`server.Server`) calls in place of an `Agent`.
+
+It has the transports, passes messages between them and the workers, starts workers that ended again, and joins what
+they report. Over UDP only messages outside of sessions pass through it: a worker opens a socket for each client in
+session.
+"""
+
+from __future__ import annotations
+
+import pickle
+import select
+import time
+from collections.abc import Callable, Hashable, Sequence
+
+from microros_gen.agent.log import EventLog, Level
+from microros_gen.agent.states import ClientState
+from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.transport.tcp import Connection, Tcp
+from microros_gen.agent.transport.udp import Udp
+from microros_gen.agent.workers.addresses import AddressBook
+from microros_gen.agent.workers.channel import WAITING_BYTES, Kind, message_frame, message_of
+from microros_gen.agent.workers.report import Orphans, Report, Totals
+from microros_gen.agent.workers.routing import Place, Router
+from microros_gen.agent.workers.worker_process import WorkerProcess
+from microros_gen.diagnostics import Diagnostic, UserError
+
+ASK_S = 1.0
+"""Seconds between two questions to all workers, which show that they run."""
+VIEW_S = 0.25
+"""Minimum seconds between two views of the clients."""
+SWEEP_S = 1.0
+"""Seconds between two looks for closed connections."""
+MOST_ROUNDS = 64
+"""Reads of a UDP socket until a new client is read by its worker: each takes up to 64 datagrams."""
+LATE_S = 5.0
+"""Seconds that workers have to end beyond the time that they give to readers."""
+
+
+class Front:
+    """Passes messages to workers and back, and looks after the workers."""
+
+    def __init__(
+        self,
+        workers: Sequence[WorkerProcess],
+        transports: Sequence[Transport],
+        log: EventLog,
+        clients: int,
+        stop_s: float,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """`transports`: in the order in which workers number them. `clients`: maximum of each worker.
+
+        `stop_s`: seconds that an ending worker gives to its readers.
+        """
+        self.workers = workers
+        self._log = log
+        self._clock = clock
+        self._stop_s = stop_s
+        self._transports = tuple(transports)
+        self._numbers = {id(transport): number for number, transport in enumerate(transports)}
+        self._books = tuple(AddressBook(transport) for transport in transports)
+        self._router = Router(len(workers))
+        self._epoll = select.epoll()
+        self._by_descriptor: dict[int, WorkerProcess] = {}
+        self._before = Totals()
+        """The counts of workers that have ended."""
+        self._orphans = Orphans(clients * len(workers))
+        self._states: tuple[ClientState, ...] = ()
+        self._ask_at = self._view_at = self._sweep_at = clock()
+        self._view_is_wanted = False
+        self._open: set[int] = set()
+        """Workers that have not answered the last question for a view."""
+        self._views = 0
+        self._awaited: int | None = None
+        """Number of views when one was asked for."""
+        self._ends = False
+        self._failure: list[Diagnostic] = []
+        self.on_care: Callable[[float], None] | None = None
+        """See Agent."""
+        self.on_type: Callable[[str], object] = _ignore
+        """Called with the type of each endpoint of a client that workers report."""
+
+    # What the main loop calls
+
+    @property
+    def clients(self) -> tuple[ClientState, ...]:
+        """The last view of the clients."""
+        return self._states
+
+    @property
+    def samples(self) -> int:
+        """See Agent: the sum of all workers."""
+        return self._before.samples + sum(worker.report.samples for worker in self.workers)
+
+    @property
+    def delivered(self) -> int:
+        """See Agent: the sum of all workers."""
+        return self._before.delivered + sum(worker.report.delivered for worker in self.workers)
+
+    @property
+    def faults(self) -> dict[str, int]:
+        """The number of faults of input by kind, of the front and all workers."""
+        found = self._before.faults + self._log.counters
+        for worker in self.workers:
+            found.update(worker.report.faults)
+        return dict(found)
+
+    def fileno(self) -> int:
+        """See Agent: readable when a worker has sent something."""
+        return self._epoll.fileno()
+
+    def due(self) -> float | None:
+        """See Agent: what it does is done by `care`."""
+        return None
+
+    def tick(self) -> None:
+        """See Agent."""
+
+    def flush(self) -> None:
+        """See Agent."""
+        for worker in self.workers:
+            if worker.channel is not None:
+                worker.channel.flush()
+
+    def receive(self, data: bytes, address: Hashable, transport: Transport) -> None:
+        """Pass a message on. Never raises."""
+        number = self._numbers[id(transport)]
+        known = self._books[number].known(address)
+        worker = self.workers[self._router.worker_for(data, (number, known.code))]
+        channel = worker.channel
+        if channel is None or not worker.ready:
+            text = "a message from {peer} is lost: worker {worker} does not run"
+            self._log.count("worker_down", text, peer=transport.name_of(address), worker=worker.number)
+            return
+        if not known.may_send(len(data), channel.drained, channel.waiting) or channel.waiting > WAITING_BYTES:
+            text = "a message from {peer} is lost: worker {worker} has too much to do"
+            self._log.count("worker_full", text, peer=transport.name_of(address), worker=worker.number)
+            return
+        channel.send(Kind.MESSAGE, message_frame(number, known.code, data))
+
+    def take(self) -> None:
+        """Do what workers have sent. Never raises."""
+        for descriptor, _ in self._epoll.poll(0):
+            worker = self._by_descriptor.get(descriptor)
+            if worker is None or worker.channel is None:
+                continue
+            channel = worker.channel
+            for kind, content in channel.receive():
+                self._do(worker, kind, content)
+            if channel.closed:
+                self._lost(worker, descriptor)
+
+    def care(self, now: float) -> None:
+        """Look after the workers, and ask them. Never raises."""
+        for worker in self.workers:
+            worker.look(now)
+            if worker.is_due(now) and not self._ends:
+                self._start(worker)
+        if now >= self._sweep_at:
+            self._sweep_at = now + SWEEP_S
+            for book in self._books:
+                book.forget_closed()
+        if now >= self._ask_at:
+            self._ask_at = now + ASK_S
+            for worker in self.workers:
+                worker.ask(now, states=False)
+        if self._view_is_wanted and not self._open and now >= self._view_at:
+            self._view_is_wanted = False
+            self._view_at = now + VIEW_S
+            self._open = {worker.number for worker in self.workers if worker.ready}
+            for worker in self.workers:
+                worker.ask(now, states=True)
+            self._complete()
+        if self.on_care is not None:
+            self.on_care(now)
+
+    def close(self) -> None:
+        """Let the workers end in order, and pass on what they still send. Never raises."""
+        self._ends = True
+        for worker in self.workers:
+            if worker.channel is not None:
+                worker.channel.send(Kind.STOP)
+        self.flush()
+        end = self._clock() + self._stop_s + LATE_S
+        while any(worker.channel is not None for worker in self.workers) and self._clock() < end:
+            self._epoll.poll(0.05)
+            self.take()
+            for transport in self._transports:
+                transport.flush()
+        for worker in self.workers:
+            if worker.channel is not None:
+                text = "worker {worker} did not end in time: it is ended"
+                self._log.emit(Level.WARNING, "worker_stuck", text, worker=worker.number, seconds=LATE_S)
+            worker.kill()
+        for kind, count in self._before.faults.items():
+            self._log.counters[kind] += count
+        self._epoll.close()
+
+    # Start, and what the front asks
+
+    def start(self, wait_s: float) -> None:
+        """Start all workers; return when each serves. Raises UserError if one does not within `wait_s`."""
+        for worker in self.workers:
+            self._start(worker)
+        end = self._clock() + wait_s
+        while not all(worker.ready for worker in self.workers):
+            self._epoll.poll(0.05)
+            self.take()
+            late = next((worker for worker in self.workers if worker.pid == 0), None)
+            if self._failure:
+                raise UserError(self._failure)
+            if late is not None or self._clock() > end:
+                number = (late or next(w for w in self.workers if not w.ready)).number
+                hint = "Its log is above; without --workers the agent is one process"
+                raise UserError([Diagnostic(f"worker {number} does not start", hint=hint, id="MG-9841")])
+
+    def reload(self) -> None:
+        """Let all workers read their files again."""
+        for worker in self.workers:
+            if worker.channel is not None:
+                worker.channel.send(Kind.RELOAD)
+
+    def has_new_view(self) -> bool:
+        """Ask for a view of the clients with the first call, and return whether it is there; then begin again."""
+        if self._awaited is None:
+            self._awaited = self._views
+            self._view_is_wanted = True
+        if self._views == self._awaited:
+            return False
+        self._awaited = None
+        return True
+
+    def client_states(self) -> tuple[ClientState, ...]:
+        """See Agent: the last view."""
+        return self._states
+
+    def latest_client_states(self) -> tuple[ClientState, ...]:
+        """See Agent: the last view, and another one is taken soon. May be called in any thread."""
+        self._view_is_wanted = True
+        return self._states
+
+    # Workers
+
+    def _start(self, worker: WorkerProcess) -> None:
+        channel = worker.start()
+        self._by_descriptor[channel.fileno()] = worker
+        self._epoll.register(channel.fileno(), select.EPOLLIN)
+
+    def _lost(self, worker: WorkerProcess, descriptor: int) -> None:
+        """Let a worker that has ended be started again, and its clients find out."""
+        del self._by_descriptor[descriptor]  # the epoll has forgotten the descriptor that was closed
+        number, now = worker.number, self._clock()
+        self._before.add(worker.report)
+        was_ready, report = worker.ready, worker.report
+        how = worker.ended(now)
+        worker.report = Report()
+        self._open.discard(number)
+        if not self._ends:
+            self._orphans.add(report.clients or (), number, now)
+            if was_ready:
+                text = (
+                    "worker {worker} ended ({how}) and is started again; its clients must open new sessions"
+                )
+                self._log.emit(Level.ERROR, "worker_ended", text, worker=number, how=how)
+        for transport, code in self._router.forget(number - 1):
+            self._hang_up(transport, code)
+        self._complete()
+
+    def _hang_up(self, number: int, code: bytes) -> None:
+        transport, address = self._transports[number], self._books[number].address(code)
+        if isinstance(transport, Tcp) and isinstance(address, Connection) and not address.closed:
+            transport.drop(address, "its worker ended")
+
+    def _do(self, worker: WorkerProcess, kind: Kind, content: bytes) -> None:
+        if kind is Kind.MESSAGE:
+            number, code, data = message_of(content)
+            address = self._books[number].address(code)
+            if address is not None:
+                self._transports[number].send(data, address)
+        elif kind is Kind.BACK:
+            self._again(content)
+        elif kind in (Kind.CLAIMED, Kind.RELEASED):
+            self._note(worker, kind, content)
+        elif kind is Kind.STATUS:
+            self._answered(worker, Report.decode(content))
+        elif kind is Kind.TYPE:
+            self.on_type(content.decode())
+        elif kind is Kind.FAILED:
+            self._failure = pickle.loads(content)
+        elif kind is Kind.READY:
+            worker.ready = True
+            if worker.restarts:
+                text = "worker {worker} serves again (process {pid})"
+                self._log.emit(Level.INFO, "worker_back", text, worker=worker.number, pid=worker.pid)
+
+    def _again(self, content: bytes) -> None:
+        number, code, data = message_of(content)
+        address = self._books[number].address(code)
+        if address is not None:
+            self.receive(data, address, self._transports[number])
+
+    def _note(self, worker: WorkerProcess, kind: Kind, content: bytes) -> None:
+        number, code, _ = message_of(content)
+        place: Place = (number, code)
+        if kind is Kind.RELEASED:
+            self._router.release(place, worker.number - 1)
+            return
+        before = self._router.claim(place, worker.number - 1)
+        other = self.workers[before].channel if before is not None else None
+        if other is not None:
+            other.send(Kind.LEFT, content)
+        transport = self._transports[number]
+        if isinstance(transport, Udp) and worker.channel is not None:
+            # What its client sent before the worker had a socket for it comes first.
+            for _ in range(MOST_ROUNDS):
+                if not transport.waits:
+                    break
+                transport.pump(self.receive)
+            worker.channel.send(Kind.DIRECT, content)
+
+    # Reports
+
+    def _answered(self, worker: WorkerProcess, report: Report) -> None:
+        if report.clients is None:
+            report = Report(report.samples, report.delivered, report.faults, worker.report.clients)
+        elif worker.number in self._open:
+            self._open.discard(worker.number)
+            worker.answered(report)
+            self._complete()
+            return
+        worker.answered(report)
+
+    def _complete(self) -> None:
+        """Take the view when all workers have answered."""
+        if self._open:
+            return
+        states = [worker.report.clients or () for worker in self.workers]
+        self._states = self._orphans.with_those_of(states, self._clock())
+        self._views += 1
+        if self.on_care is not None:
+            self.on_care(self._clock())
+
+
+def _ignore(_value: object) -> None:
+    """Do nothing."""

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A worker of an agent with several: the program that its front starts (`workers.py`)."""
+
+from __future__ import annotations
+
+import gc
+import pickle
+import signal
+import socket
+import sys
+import time
+from collections.abc import Callable, Hashable
+
+from microros_gen.agent.budgets import Budgets
+from microros_gen.agent.core import Agent
+from microros_gen.agent.fairness import Account, Fairness
+from microros_gen.agent.input_pool import InputPool
+from microros_gen.agent.log import EventLog
+from microros_gen.agent.own_time import Waited
+from microros_gen.agent.ros.rclpy_bridge import open_bridge
+from microros_gen.agent.ros.reports import graph_reporter
+from microros_gen.agent.server import Server
+from microros_gen.agent.trace import TracedTransport
+from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.workers.channel import Channel, Kind
+from microros_gen.agent.workers.link import FrontLink
+from microros_gen.agent.workers.remote import FrontTransport, RemoteTransport, WorkerUdp
+from microros_gen.cli.agent.assembly import make_agent
+from microros_gen.cli.agent.files import read_files
+from microros_gen.cli.agent.options import AgentOptions
+from microros_gen.cli.agent.parameters import NOTICE
+from microros_gen.cli.agent.policy import reloading
+from microros_gen.cli.agent.transports import Shared
+from microros_gen.diagnostics import UserError
+from microros_gen.records import dataclass
+
+
+@dataclass(frozen=True)
+class WorkerStart:
+    """What a worker gets on its standard input."""
+
+    options: AgentOptions
+    number: int
+    transports: tuple[FrontTransport, ...]
+
+
+FINISH_S = 2.0
+"""Seconds in which the front takes the last messages."""
+
+
+def main() -> None:
+    """Serve until the front says stop, or ends."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_IGN)  # the front passes on what they mean
+    channel = Channel(socket.socket(fileno=int(sys.argv[1])))
+    start: WorkerStart = pickle.load(sys.stdin.buffer)
+    try:
+        _serve(start, channel)
+    except UserError as error:
+        channel.send(Kind.FAILED, pickle.dumps(list(error.diagnostics)))
+    channel.finish(FINISH_S)
+
+
+def _serve(start: WorkerStart, channel: Channel) -> None:
+    options, limits = start.options, start.options.limits
+    log = EventLog(
+        sys.stderr,
+        options.log_format == "json",
+        options.verbose,
+        bytes_per_second=limits.log_bytes_per_second,
+        worker=start.number,
+    )
+    files = read_files(options)
+    budgets = Budgets(limits)
+    pool = InputPool(limits.input_bytes, limits.clients)
+    shared = Shared(pool, budgets.output, Fairness(waited=Waited()), Account())
+
+    def on_type(name: str) -> None:
+        if name == NOTICE:
+            channel.send(Kind.TYPE, name.encode())
+
+    bridge = open_bridge(
+        limits.domains, options.domain, files.hashes, graph_reporter(log), limits.request_wait_s, on_type
+    )
+    agent = make_agent(options, files, bridge, log, shared, budgets)
+    own: list[WorkerUdp | RemoteTransport] = [
+        WorkerUdp(number, front, channel, shared.strangers)
+        if front.descriptor >= 0
+        else RemoteTransport(number, front, channel, log)
+        for number, front in enumerate(start.transports)
+    ]
+    for transport in own:
+        if isinstance(transport, WorkerUdp):
+            transport.outside = _outside(agent)
+    transports: list[Transport] = list(own)
+    if options.verbose > 0:
+        transports = [TracedTransport(transport, log) for transport in own]
+    reload = reloading(options, agent, log)
+    link = FrontLink(channel, start.number, agent, own, transports, log, reload)
+    server = Server(agent, [link, *transports], log)
+    link.stop = server.stop
+    gc.collect()
+    gc.freeze()
+    channel.send(Kind.READY)
+    server.run(lambda _: None, time.monotonic)
+    link.report(states=False)
+
+
+def _outside(agent: Agent) -> Callable[[bytes, Hashable], bool]:
+    client_at = agent.clients.at
+
+    def outside(data: bytes, address: Hashable) -> bool:
+        client = client_at(address)
+        return client is None or not data or data[0] != client.session.link.session
+
+    return outside
+
+
+if __name__ == "__main__":
+    main()

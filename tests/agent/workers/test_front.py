@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The front with workers without ROS: what it passes on, and workers that end, hang, or do not start."""
+
+from __future__ import annotations
+
+import io
+import os
+import signal
+import sys
+import time
+from collections.abc import Callable, Hashable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from microros_gen.agent.fairness import Account
+from microros_gen.agent.log import EventLog
+from microros_gen.agent.transport.base import Origin, Receive
+from microros_gen.agent.workers.front import Front
+from microros_gen.agent.workers.worker_process import STEADY_S, STUCK_LOOKS, STUCK_S, WorkerProcess
+from microros_gen.diagnostics import UserError
+from tests.support.agent import small_worker
+from tests.support.patience import deadline, seconds
+
+COMMAND = [sys.executable, str(Path(small_worker.__file__))]
+
+
+class Line:
+    """A transport whose clients are numbers."""
+
+    label = "serial /dev/test"
+    ready = True
+    forgeable = False
+
+    def __init__(self) -> None:
+        self.sent: list[tuple[Hashable, bytes]] = []
+
+    def fileno(self) -> int:
+        return -1
+
+    def pump(self, receive: Receive) -> None:
+        """Deliver nothing: tests do."""
+
+    def tick(self, now: float) -> None:
+        """Need nothing."""
+
+    def claim(self, address: Hashable, account: Account) -> None:
+        """Need nothing."""
+
+    def release(self, address: Hashable, moved: bool = False) -> None:
+        """Need nothing."""
+
+    def send(self, data: bytes, address: Hashable) -> None:
+        self.sent.append((address, data))
+
+    def flush(self) -> None:
+        """Collect nothing."""
+
+    def name_of(self, address: Hashable) -> str:
+        return f"client {address}"
+
+    def origin(self, address: Hashable) -> Origin:
+        return "/dev/test"
+
+    def proved_key(self, address: Hashable) -> bytes:
+        return b""
+
+    def close(self) -> None:
+        """Have nothing."""
+
+
+class Bench:
+    """A front, its line, its log, and its time."""
+
+    def __init__(self, workers: int, start: bytes, command: list[str]) -> None:
+        self.text = io.StringIO()
+        self.log = EventLog(self.text)
+        self.line = Line()
+        self.now = 1000.0
+        self.workers = [WorkerProcess(n, command, (), start, self.log) for n in range(1, workers + 1)]
+        self.front = Front(self.workers, [self.line], self.log, 16, 0.5)
+
+    def say(self, word: bytes, key: int, address: int = 1) -> None:
+        """Let the client at an address send a message that has its key in its header."""
+        self.front.receive(b"\1\1\1\1" + key.to_bytes(4, "big") + bytes(4) + word, address, self.line)
+
+    def until(self, seen: Callable[[], object]) -> None:
+        end = deadline(10)
+        while not seen():
+            assert time.monotonic() < end, self.text.getvalue()
+            self.front.flush()
+            self.front.take()
+            self.front.care(time.monotonic())
+            time.sleep(0.002)
+
+
+@contextmanager
+def bench(workers: int = 2, start: bytes = b"", command: list[str] = COMMAND) -> Iterator[Bench]:
+    made = Bench(workers, start, command)
+    try:
+        made.front.start(seconds(20))
+        yield made
+    finally:
+        made.front.close()
+    assert all(worker.pid == 0 for worker in made.workers)
+
+
+def test_answers_go_to_the_senders() -> None:
+    with bench() as made:
+        for address in range(20):
+            made.say(b"echo %d" % address, address, address)
+        made.until(lambda: len(made.line.sent) == 20)
+        assert sorted((a, d.split()[-1]) for a, d in made.line.sent) == sorted(
+            (address, b"%d" % address) for address in range(20)
+        )
+        made.until(lambda: made.front.samples == 20)
+
+
+def test_a_worker_that_ends_is_started_again_and_counts_go_on() -> None:
+    with bench() as made:
+        made.say(b"echo", 1)
+        made.say(b"echo", 2)
+        made.until(lambda: made.front.samples == 2)
+        first = made.workers[1].pid
+        made.say(b"fall", 1)
+        made.until(lambda: "worker 2 ended (status 3)" in made.text.getvalue())
+        made.say(b"echo", 1)
+        assert made.log.counters["worker_down"] == 1
+        made.until(lambda: made.workers[1].ready)
+        assert made.workers[1].pid != first
+        assert "worker 2 serves again" in made.text.getvalue()
+        made.line.sent.clear()
+        made.say(b"echo", 1)
+        made.say(b"echo", 2)
+        made.until(lambda: len(made.line.sent) == 2)
+        made.until(lambda: made.front.samples == 4)
+
+
+def test_one_that_ends_again_and_again_is_started_less_and_less_often() -> None:
+    log = EventLog(io.StringIO())
+    worker = WorkerProcess(1, [sys.executable, "-c", ""], (), b"", log)
+    pauses = []
+    for _ in range(9):
+        worker.start()
+        now = time.monotonic()
+        assert worker.ended(now) == "status 0"
+        pauses.append(next(p for p in (0.5, 1, 2, 4, 8, 16, 30) if worker.is_due(now + p)))
+    assert pauses == [0.5, 1, 2, 4, 8, 16, 30, 30, 30]
+    worker.start()
+    later = time.monotonic() + 2 * STEADY_S
+    assert worker.ended(later) == "status 0"
+    assert worker.is_due(later), "it had served for long"
+    worker.kill()
+
+
+def test_one_that_does_not_answer_is_ended_and_started_again() -> None:
+    with bench(1) as made:
+        worker = made.workers[0]
+        hung = worker.pid
+        made.say(b"hang", 0)
+        made.front.flush()
+        worker.ask(0.0, states=False)
+        for _ in range(STUCK_LOOKS - 1):
+            worker.look(STUCK_S + 1)
+        assert "has not answered" not in made.text.getvalue()
+        worker.look(STUCK_S + 1)
+        assert "worker 1 has not answered" in made.text.getvalue()
+        made.until(lambda: worker.ready and worker.pid not in (0, hung))
+
+
+def test_one_that_answers_late_is_left_alone() -> None:
+    """As when the whole machine stood still: the answer is there at the next look."""
+    with bench(1) as made:
+        worker = made.workers[0]
+        worker.ask(0.0, states=False)
+        worker.look(STUCK_S + 1)
+        made.until(lambda: worker._asked_at is None)
+        for _ in range(STUCK_LOOKS):
+            worker.look(STUCK_S + 1)
+        assert "has not answered" not in made.text.getvalue()
+
+
+def test_a_view_waits_for_all_workers_and_not_for_one_that_ended() -> None:
+    with bench() as made:
+        assert not made.front.has_new_view()
+        made.until(made.front.has_new_view)
+        made.say(b"hang", 1)
+        made.until(lambda: made.front.samples == 0)
+        assert not made.front.has_new_view()
+        made.until(lambda: made.front._open == {2})
+        assert not made.front.has_new_view()
+        os.kill(made.workers[1].pid, signal.SIGKILL)
+        made.until(made.front.has_new_view)
+
+
+def test_a_fault_that_a_worker_finds_is_that_of_the_agent() -> None:
+    with pytest.raises(UserError) as raised, bench(start=b"refuse"):
+        pass
+    assert [each.id for each in raised.value.diagnostics] == ["MG-9703"]
+
+
+def test_a_worker_that_does_not_start() -> None:
+    with pytest.raises(UserError) as raised, bench(command=[sys.executable, "-c", ""]):
+        pass
+    (found,) = raised.value.diagnostics
+    assert (found.id, found.message[-15:]) == ("MG-9841", " does not start")

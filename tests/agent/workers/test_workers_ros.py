@@ -1,0 +1,320 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`--workers`: clients of all transports, in processes, with rclpy; one that is killed, one that hangs, and the end."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from microros_gen.agent.monitoring.asking import ask, ask_status
+from microros_gen.agent.monitoring.document import PATH
+from microros_gen.agent.wire.session_messages import Info
+from tests.support.agent.client import BEST_EFFORT, XrceClient, connected, int32_body
+from tests.support.agent.observer import observing
+from tests.support.agent.process import AgentProcess, own_domain, running_agent
+from tests.support.agent.ros_client import INT32
+from tests.support.agent.serial_link import SerialLink
+from tests.support.agent.tcp_link import TcpLink
+from tests.support.patience import deadline
+
+pytestmark = [pytest.mark.ros, pytest.mark.system]
+
+
+class Running:
+    """An agent with two workers, and its status."""
+
+    def __init__(self, agent: AgentProcess, place: Path) -> None:
+        self.agent = agent
+        self.port = agent.port
+        self.place = place
+
+    def status(self) -> dict[str, Any]:
+        return ask_status(self.place, PATH)
+
+    def until(self, seen: Callable[[dict[str, Any]], object]) -> dict[str, Any]:
+        """Ask until the status is as it should be; return it."""
+        end = deadline(15)
+        while True:
+            status = self.status()
+            if seen(status):
+                return status
+            assert time.monotonic() < end, json.dumps(status)
+            time.sleep(0.1)
+
+    def client(self, key: str, **wanted: Any) -> dict[str, Any]:
+        """Ask until the client with a key has these values; return it."""
+
+        def seen(status: dict[str, Any]) -> bool:
+            found = clients(status).get(key, {})
+            return bool(found) and all(found[name] == value for name, value in wanted.items())
+
+        return clients(self.until(seen))[key]
+
+    def logged(self, part: str) -> str:
+        """Return the last word of the line of the log that contains `part`, whether it was waited for or not."""
+        line = next((line for line in self.agent.log if part in line), None) or self.agent.wait_for(part)
+        return line.rpartition(" ")[2]
+
+    def pid(self, worker: int) -> int:
+        found: int = self.status()["agent"]["workers"][worker - 1]["pid"]
+        return found
+
+
+@contextmanager
+def running(*options: str) -> Iterator[Running]:
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder) / "status"
+        with running_agent(own_domain(), "--workers", "2", "--status-socket", str(place), *options) as agent:
+            yield Running(agent, place)
+
+
+@pytest.fixture(scope="module")
+def shared() -> Iterator[Running]:
+    with running() as agent:
+        yield agent
+
+
+def clients(status: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """Return the clients by key; each is there once."""
+    found = {client["key"]: client for client in status["clients"]}
+    assert len(found) == len(status["clients"])
+    return found
+
+
+def ended(pid: int) -> bool:
+    """Return whether a process of another parent has ended, so that it is at most a zombie."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(") ")[2][0] == "Z"
+    except FileNotFoundError:
+        return True
+
+
+def test_clients_of_every_transport_in_two_workers() -> None:
+    """Each key is served by its worker, over whichever transport, and rclpy sees every sample in its order."""
+    domain = own_domain()
+    with ExitStack() as stack:
+        running_one = stack.enter_context(running("tcp4", "--port", "0", "pty", "--diagnostics"))
+        agent = running_one.agent
+        tcp = int(running_one.logged("ready: tcp4").rpartition(":")[2])
+        device = running_one.logged("ready: serial")
+        observer = stack.enter_context(observing(domain))
+        observer.subscribe("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", reliable=True)
+        links: list[int | TcpLink | SerialLink] = [
+            agent.port,
+            agent.port,
+            TcpLink("127.0.0.1", tcp),
+            TcpLink("127.0.0.1", tcp),
+            SerialLink(device),
+        ]
+        opened = [stack.enter_context(XrceClient(link, key=key)) for key, link in enumerate(links, 1)]  # type: ignore[arg-type]
+        writers = []
+        for key, client in enumerate(opened, 1):
+            assert client.connect() == 0
+            writers.append(client.publisher(f"node{key}", f"numbers{key}", INT32, domain))
+            observer.subscribe(f"/numbers{key}", INT32, reliable=True)
+            client.wait_until_subscribed(writers[-1], int32_body(-1), observer, f"/numbers{key}")
+        for value in range(100):
+            for client, writer in zip(opened, writers, strict=True):
+                client.write(writer, int32_body(value))
+        for client in opened:
+            client.drain()
+        numbers = {f"/numbers{key}": [] for key in range(1, 6)}  # type: dict[str, list[int]]
+        diagnosed: set[str] = set()
+        end = deadline(15)
+        while (any(len(n) < 100 for n in numbers.values()) or len(diagnosed) < 5) and time.monotonic() < end:
+            for topic, sample in observer.ask(do="samples"):
+                if topic == "/diagnostics":
+                    diagnosed = diagnosed | {status["hardware_id"] for status in sample["status"]}
+                elif sample["data"] >= 0:
+                    numbers[topic].append(sample["data"])
+            time.sleep(0.05)
+        assert numbers == {topic: list(range(100)) for topic in numbers}
+        assert diagnosed == {f"{key:08X}" for key in range(1, 6)}
+        known = clients(running_one.until(lambda s: len(s["clients"]) == 5))
+        assert {key: client["worker"] for key, client in known.items()} == {
+            f"{key:08X}": key % 2 + 1 for key in range(1, 6)
+        }
+        assert known["00000003"]["transport"].startswith("tcp4")
+        assert known["00000005"]["transport"].startswith("serial")
+        assert known["00000001"]["nodes"] == ["/node1"]
+
+
+def test_a_client_that_moves_keeps_its_worker_and_its_session(shared: Running) -> None:
+    """The header of its messages has the key: the front passes them on from whichever address."""
+    with XrceClient(shared.port, key=0x11, session=0x01) as client:
+        assert client.connect() == 0
+        client.publisher("moves", "moves", INT32, own_domain())
+        for _ in range(3):
+            before = client.socket
+            client.socket = moved = connected(shared.port)
+            before.close()
+            assert client.ping() == 1
+        place = ":".join(map(str, moved.getsockname()))
+        known = shared.client("00000011", address=place)
+        assert (known["worker"], known["sessions"], known["nodes"]) == (2, 1, ["/moves"])
+
+
+def test_another_key_at_an_address_has_its_own_worker(shared: Running) -> None:
+    """The worker of the first key had its own socket for the address: it returns what is not of its session."""
+    with XrceClient(shared.port, key=0x21) as first:
+        assert first.connect() == 0
+        first.publisher("first", "first", INT32, own_domain())
+        shared.client("00000021", worker=2)
+        second = XrceClient(shared.port, key=0x22, session=0x82)
+        second.socket.close()
+        second.socket = first.socket
+        assert second.connect() == 0
+        writer = second.publisher("second", "second", INT32, own_domain())
+        for value in range(100):
+            second.write(writer, int32_body(value))
+        second.drain()
+        shared.client("00000021", state="gone")
+        shared.client("00000022", state="connected", worker=1)
+
+
+def test_no_sample_is_lost_or_overtaken_while_clients_connect_and_leave(shared: Running) -> None:
+    """Between bind and connect a socket of one worker gets datagrams of clients of the other one."""
+    domain = own_domain()
+    with ExitStack() as stack:
+        steady = [stack.enter_context(XrceClient(shared.port, key=0x30 + n)) for n in range(4)]
+        writers = []
+        for number, client in enumerate(steady):
+            assert client.connect() == 0
+            writers.append(client.publisher(f"steady{number}", f"steady{number}", INT32, domain))
+        for round_ in range(30):
+            visitor = XrceClient(shared.port, key=0x40 + round_)
+            assert visitor.connect() == 0
+            for client, writer in zip(steady, writers, strict=True):
+                client.write(writer, int32_body(round_), BEST_EFFORT)
+            assert (
+                visitor.create(0x11, 1, b"", 0) != 0 or visitor.ping() == 1
+            )  # its first message opens the session
+            for client, writer in zip(steady, writers, strict=True):
+                client.write(writer, int32_body(round_), BEST_EFFORT)
+            visitor.leave()
+            visitor.socket.close()
+        for client in steady:
+            assert client.ping() == 1
+        for number in range(4):
+            assert shared.client(f"{0x30 + number:08X}", nodes=[f"/steady{number}"])["lost"] == 0
+
+
+def test_a_killed_worker_is_started_again_and_only_its_clients_notice() -> None:
+    domain = own_domain()
+    with ExitStack() as stack:
+        agent = stack.enter_context(running("--metrics", "0", "tcp4", "--port", "0"))
+        page = agent.logged("metrics: ")
+        tcp = int(agent.logged("ready: tcp4").rpartition(":")[2])
+        even, odd = (stack.enter_context(XrceClient(agent.port, key=key)) for key in (2, 3))
+        over_tcp = stack.enter_context(XrceClient(TcpLink("127.0.0.1", tcp), key=4))  # type: ignore[arg-type]
+        for number, client in enumerate((even, odd, over_tcp)):
+            assert client.connect() == 0
+            client.publisher(f"killed{number}", f"killed{number}", INT32, domain)
+        before = agent.until(lambda s: len(s["clients"]) == 3)
+        killed, kept = agent.pid(1), agent.pid(2)
+        os.kill(killed, signal.SIGKILL)
+        agent.agent.wait_for("worker 1 ended (signal SIGKILL)")
+        agent.client("00000002", state="silent", last_error="worker 1 ended")
+        agent.client("00000003", state="connected")
+        assert odd.ping() == 1
+        agent.agent.wait_for("worker 1 serves again")
+        with pytest.raises(ConnectionError):
+            over_tcp.take(Info)
+        assert even.ping() == 0, "the new worker knows no session"
+        assert even.connect() == 0
+        writer = even.publisher("again", "again", INT32, domain)
+        even.write(writer, int32_body(1))
+        even.drain()
+        agent.client("00000002", state="connected", nodes=["/again"])
+        again = agent.status()
+        assert [worker["restarts"] for worker in again["agent"]["workers"]] == [1, 0]
+        assert agent.pid(1) != killed
+        assert agent.pid(2) == kept
+        assert again["agent"]["samples"]["from_clients"] >= before["agent"]["samples"]["from_clients"] + 1
+        _, metrics = ask_url(page)
+        assert 'microros_agent_worker_restarts_total{worker="1"} 1' in metrics
+        assert 'microros_agent_worker_ready{worker="2"} 1' in metrics
+
+
+def ask_url(url: str) -> tuple[int, str]:
+    from urllib.request import urlopen
+
+    with urlopen(url) as answer:
+        return answer.status, answer.read().decode()
+
+
+def test_a_stopped_worker_makes_the_agent_unhealthy() -> None:
+    with running() as agent:
+        assert ask(agent.place, "/readyz") == (200, b"ok\n")
+        pid = agent.pid(2)
+        os.kill(pid, signal.SIGSTOP)
+        time.sleep(0.3)  # longer than a status is fresh
+        assert ask(agent.place, "/healthz")[0] == 503
+        os.kill(pid, signal.SIGCONT)
+        agent.until(lambda s: all(worker["ready"] for worker in s["agent"]["workers"]))
+
+
+def test_the_end_is_orderly_and_leaves_no_process() -> None:
+    """Both kinds of signals to the whole group, as a terminal and a service manager send them."""
+    domain = own_domain()
+    with running() as agent, XrceClient(agent.port, key=5) as client:
+        pids = [agent.pid(1), agent.pid(2)]
+        assert client.connect() == 0
+        writer = client.publisher("last", "last", INT32, domain)
+        client.write(writer, int32_body(1))
+        client.drain()
+        for pid in pids:
+            os.kill(pid, signal.SIGTERM)
+            os.kill(pid, signal.SIGINT)
+        assert client.ping() == 1, "a worker ends when its front says so"
+        assert agent.agent.stop() == 0
+        log = agent.agent.rest()
+        assert any("agent stopped: 1 samples in" in line and not line.startswith("worker") for line in log)
+        assert not any("ended (" in line for line in log)
+        assert all(map(ended, pids))
+
+
+def test_workers_end_with_a_front_that_is_killed() -> None:
+    with running() as agent:
+        pids = [agent.pid(1), agent.pid(2)]
+        agent.agent.process.kill()
+        end = deadline(10)
+        while not all(map(ended, pids)):
+            assert time.monotonic() < end
+            time.sleep(0.05)
+
+
+def test_a_policy_holds_in_all_workers_and_is_read_again(tmp_path: Path) -> None:
+    policy = tmp_path / "policy.yaml"
+    policy.write_text("version: 1\nclients:\n  - name: some\n    keys: ['0x00000002', '0x00000003']\n")
+    with running("--policy", str(policy)) as agent:
+        for key, status in ((2, 0), (3, 0), (4, 0x83), (5, 0x83)):
+            with XrceClient(agent.port, key=key) as client:
+                assert client.connect() == status
+        policy.write_text("version: 1\nclients:\n  - name: some\n    keys: ['0x00000004', '0x00000005']\n")
+        agent.agent.process.send_signal(signal.SIGHUP)
+        for _ in range(2):
+            agent.agent.wait_for(": policy: 1 rules")
+        for key, status in ((2, 0x83), (3, 0x83), (4, 0), (5, 0)):
+            with XrceClient(agent.port, key=key) as client:
+                assert client.connect() == status
+
+
+def test_what_needs_one_process_is_refused(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "microros_gen", "agent", "udp4", "--port", "0", "--workers", "2"]
+    refused = subprocess.run(
+        [*command, "--record", str(tmp_path / "a.pcapng")], capture_output=True, text=True, check=False
+    )
+    assert refused.returncode == 2
+    assert "[MG-9840]" in refused.stderr
