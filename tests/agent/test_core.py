@@ -12,7 +12,7 @@ import pytest
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.wire.constants import Format
 from microros_gen.agent.wire.data_messages import WriteData
-from microros_gen.agent.wire.entity_messages import Create, Fragment, Heartbeat
+from microros_gen.agent.wire.entity_messages import Create, Fragment, Heartbeat, Reset
 from microros_gen.agent.wire.message import split
 from microros_gen.agent.wire.submessages import Submessage, encode
 from tests.support.agent import captured
@@ -528,7 +528,7 @@ def test_a_fault_of_the_program_is_reported_and_survived(monkeypatch: pytest.Mon
     def broken(*_arguments: object) -> None:
         raise KeyError("broken")
 
-    monkeypatch.setattr(bench.agent._operations, "run", broken)
+    monkeypatch.setattr(bench.agent._operations, "_handlers", {Reset: broken})
     assert bench.say("81 00 00 00 0c 01 00 00") == []
     assert "internal error: KeyError('broken') at test_core.py:" in bench.text.getvalue()
     assert bench.say("81 01 04 00" + WRITE) == []

@@ -16,7 +16,7 @@ import pytest
 from microros_gen.agent.fairness import MEMORY_S, REFUSED, START_S, Account, Accounts, Fairness
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.ros.bridge import BusyError, GraphReport
-from microros_gen.agent.ros.endpoints import FULL_S, RawWriter
+from microros_gen.agent.ros.endpoints import FULL_S, RawWriter, Ros
 from microros_gen.agent.ros.graph import Comparison, Endpoint, TopicTypes
 from microros_gen.agent.ros.wakeups import Wakeups
 from microros_gen.agent.transport.sockets import TCP4, UDP4
@@ -26,6 +26,7 @@ from microros_gen.agent.wire.entity_messages import Heartbeat
 from microros_gen.agent.wire.message import Header, join
 from microros_gen.agent.wire.submessages import encode
 from microros_gen.diagnostics import UserError
+from microros_gen.ros.layout import Allocator
 from tests.support.agent.captured import CREATE_CLIENT_KEYED
 from tests.support.agent.fakes import Bench
 from tests.support.patience import deadline, seconds
@@ -142,7 +143,9 @@ def test_a_writer_that_is_full_is_not_asked_for_each_sample() -> None:
     """S5: each time the agent would wait a millisecond in DDS."""
     handle = FullHandle()
     endpoint = Endpoint("/n", "publisher", "/t [x]", "/t", "x", None)
-    writer = RawWriter(handle, SimpleNamespace(libraries=None), NoEvents(), (endpoint,), keeps_all=True)  # type: ignore[arg-type]
+    types = SimpleNamespace(libraries=SimpleNamespace(default_allocator=Allocator))
+    ros = Ros(types, lambda _report: None, 0.0)  # type: ignore[arg-type]
+    writer = RawWriter(handle, ros, NoEvents(), (endpoint,), keeps_all=True)  # type: ignore[arg-type]
     began = time.monotonic()
     for _ in range(3_750):
         with pytest.raises(BusyError):

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import select
 import socket
 import statistics
 import time
@@ -12,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.agent.fairness import Account, B, Fairness
+from microros_gen.agent.fairness import Account
 from microros_gen.agent.limits import CLIENT_OBJECT_BYTES, Limits, limits_with
 from microros_gen.agent.liveliness import Verdict, is_well, judge
 from microros_gen.agent.memory import TIGHT_PART
@@ -29,21 +30,24 @@ SENDERS = 2 * READY + 40
 MB = 1_000_000
 
 
-class Watched(Fairness):
-    """Notes how many clients are ordered at one time."""
+class Watched:
+    """An epoll descriptor that notes how many sockets it hands out at one time: those are ordered."""
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, epoll: select.epoll) -> None:
+        self._epoll = epoll
+        self.register, self.close = epoll.register, epoll.close
         self.sizes: list[int] = []
 
-    def order(self, items: list[B]) -> None:
-        self.sizes.append(len(items))
-        super().order(items)
+    def poll(self, timeout: float, most: int) -> list[tuple[int, int]]:
+        found = self._epoll.poll(timeout, most)
+        self.sizes.append(len(found))
+        return found
 
 
 def test_of_many_clients_with_input_some_are_ordered_at_a_time_and_all_are_read() -> None:
-    fair = Watched()
-    udp = Udp(PROTOCOLS["udp4"], "127.0.0.1", 0, fair)
+    udp = Udp(PROTOCOLS["udp4"], "127.0.0.1", 0)
+    watched = Watched(udp._epoll)
+    udp._epoll = watched  # type: ignore[assignment]
     senders = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(SENDERS)]
     read: Counter[Hashable] = Counter()
 
@@ -62,7 +66,7 @@ def test_of_many_clients_with_input_some_are_ordered_at_a_time_and_all_are_read(
             udp.pump(receive)  # which ends early where the system gives the processor to others
         assert len(read) == SENDERS
         assert set(read.values()) == {3}
-        assert max(fair.sizes) == READY
+        assert max(watched.sizes) == READY
     finally:
         udp.close()
         for sender in senders:

@@ -23,6 +23,7 @@ from microros_gen.agent.seal.keys import read_keys
 from microros_gen.agent.seal.noise import NAME
 from microros_gen.agent.seal.session import FIRST, LABEL, RECORD, Kind
 from microros_gen.agent.transport.base import Receive, SealedAddress, Transport
+from microros_gen.agent.transport.observed import ObservedTransport
 from microros_gen.agent.transport.outbox import SealedRecord
 from microros_gen.agent.transport.sealed import SealedTransport
 from microros_gen.agent.transport.sockets import UDP4
@@ -39,11 +40,11 @@ SAMPLE = b"\x81\x01\x00\x00\x09\x01\x04\x00" + bytes(4)
 """A best-effort sample of the agent."""
 
 
-class Datagrams(Udp):
+class Datagrams(ObservedTransport):
     """UDP whose datagrams the test delivers and takes."""
 
     def __init__(self) -> None:
-        super().__init__(UDP4, "127.0.0.1", 0)
+        super().__init__(Udp(UDP4, "127.0.0.1", 0))
         self.arriving: list[bytes] = []
         self.sent: list[tuple[bytes, Hashable]] = []
 
@@ -52,6 +53,9 @@ class Datagrams(Udp):
             receive(self.arriving.pop(0), (self, PEER), self)
 
     def send(self, data: bytes, address: Hashable) -> None:
+        self._observe(data, address, inbound=False)
+
+    def _observe(self, data: bytes, address: Hashable, inbound: bool) -> None:
         self.sent.append((data, address))
 
 

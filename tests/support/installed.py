@@ -13,7 +13,7 @@ from tests.support.environments import clean_environ, install, with_dependencies
 from tests.support.paths import ROOT
 
 # What the wheel is made from, and what a fresh clone has; folders that git does not know are not in it.
-SOURCES = ("pyproject.toml", "README.md", "LICENSE", "microros_gen", "profiles", "cmake")
+SOURCES = ("pyproject.toml", "hatch_build.py", "README.md", "LICENSE", "microros_gen", "profiles", "cmake")
 
 
 @dataclass(frozen=True)

@@ -30,6 +30,7 @@ def _agent(status: AgentStatus) -> dict[str, Any]:
     return {
         "pid": status.pid,
         "version": status.version,
+        "core": status.core,
         "started": round(status.started, 3),
         "uptime_s": round(status.uptime_s, 3),
         "domain": status.domain,

@@ -30,6 +30,7 @@ _CLIENT = {
 _AGENT = {
     "pid": _NUMBER,
     "version": _TEXT,
+    "core": _TEXT,
     "started": _NUMBER,
     "uptime_s": _NUMBER,
     "domain": _OPTIONAL,

@@ -42,6 +42,8 @@ class AgentStatus:
 
     pid: int
     version: str
+    core: str
+    """`python` or `compiled` (see `core_kind`)."""
     started: float
     """When it started, in seconds since 1970."""
     now: float

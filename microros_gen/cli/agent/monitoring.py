@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from microros_gen import __version__
+from microros_gen.agent.compiled import core_kind
 from microros_gen.agent.configuration.model import NamedPath
 from microros_gen.agent.core import Agent
 from microros_gen.agent.log import EventLog, Level
@@ -145,6 +146,7 @@ class _Observer:
         return AgentStatus(
             pid=os.getpid(),
             version=__version__,
+            core=core_kind(),
             started=self._started,
             now=time.time(),
             uptime_s=time.monotonic() - self._started_at,

@@ -27,8 +27,9 @@ def status_table(document: Mapping[str, Any]) -> str:
         for each in agent["transports"]
     )
     samples = agent["samples"]
+    core = ", compiled core" if agent["core"] == "compiled" else ""
     lines = [
-        f"agent {agent['pid']} (microros-gen {agent['version']}), up {_time(agent['uptime_s'])}",
+        f"agent {agent['pid']} (microros-gen {agent['version']}{core}), up {_time(agent['uptime_s'])}",
         f"transports: {printable(places)}",
         f"clients: {present} of at most {agent['clients_max']}; samples: {samples['from_clients']} from clients,"
         f" {samples['to_clients']} to clients; faults of input: {sum(agent['faults'].values())}",

@@ -25,6 +25,7 @@ CLIENT = ClientState(
 STATUS = AgentStatus(
     pid=77,
     version="1.2.3",
+    core="python",
     started=1_700_000_000.0,
     now=1_700_000_090.5,
     uptime_s=90.5,
