@@ -18,7 +18,7 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 VARIABLE = "MICROROS_GEN_COMPILED"
-TOOLS = ["mypy[mypyc]>=1.15,<3"]
+TOOLS = ["mypy[mypyc]>=1.17,<3"]
 """What a compiled core is built with, besides a C compiler and the headers of Python."""
 PACKAGE = "microros_gen/agent"
 CORE = (

@@ -3,14 +3,14 @@
 
 Clients pay for the agent's time, waiting for DDS included: who makes the agent wait takes time from the others. They do
 not pay for the load of the machine. Linux counts how long a thread was ready to run and did not (the second number of
-/proc/thread-self/schedstat, in ns). Asking takes some microseconds, so it is only done while that number grows, once
+/proc/thread-self/schedstat, in ns). Asking takes a system call, so it is only done while that number grows, once
 for each round of the main loop and after long work.
 """
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
-from pathlib import Path
 
 LONG_S = 0.0005
 """Seconds of work from which on it may have been interrupted: the system lets another program run for longer."""
@@ -18,6 +18,9 @@ LOOK_S = 0.1
 """Seconds between two checks whether the machine is busy."""
 BUSY = 0.02
 """Part of the time for which the thread waits for a processor when the machine is busy."""
+
+SCHEDSTAT_BYTES = 64
+"""More than three numbers of 64 bits need."""
 
 
 class OwnTime:
@@ -50,16 +53,25 @@ class OwnTime:
 
 
 class Waited:
-    """The seconds for which the calling thread was ready to run and did not, since its start; 0 if unknown."""
+    """The seconds for which a thread was ready to run and did not, since its start; 0 if unknown.
+
+    The thread is that of the first call; all calls are in it.
+    """
 
     def __init__(self) -> None:
+        self._descriptor = -1
         self._last = 0.0
+
+    def __del__(self) -> None:
+        if self._descriptor >= 0:
+            os.close(self._descriptor)
 
     def __call__(self) -> float:
         """Ask the system. Where it does not count this time, the load of the machine is charged, too."""
         try:
-            numbers = Path("/proc/thread-self/schedstat").read_bytes().split()
-            self._last = int(numbers[1]) / 1e9
+            if self._descriptor < 0:
+                self._descriptor = os.open("/proc/thread-self/schedstat", os.O_RDONLY | os.O_CLOEXEC)
+            self._last = int(os.pread(self._descriptor, SCHEDSTAT_BYTES, 0).split()[1]) / 1e9
         except (OSError, ValueError, IndexError):
             return self._last
         return self._last

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import os
 import time
-from pathlib import Path
 
 import pytest
 
@@ -112,12 +111,12 @@ def test_the_system_counts_while_another_thread_has_the_processor() -> None:
 def test_a_system_that_does_not_count_charges_as_before(
     monkeypatch: pytest.MonkeyPatch, content: bytes | None
 ) -> None:
-    def read(path: Path) -> bytes:
+    def read(descriptor: int, _size: int, _offset: int) -> bytes:
         if content is None:
-            raise FileNotFoundError(path)
+            raise FileNotFoundError(descriptor)
         return content
 
-    monkeypatch.setattr(Path, "read_bytes", read)
+    monkeypatch.setattr(os, "pread", read)
     own = OwnTime(Waited())
     for second in range(5):
         own.begin(float(second))
