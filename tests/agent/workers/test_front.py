@@ -97,44 +97,44 @@ class Bench:
 
 @contextmanager
 def bench(workers: int = 2, start: bytes = b"", command: list[str] = COMMAND) -> Iterator[Bench]:
-    made = Bench(workers, start, command)
+    rig = Bench(workers, start, command)
     try:
-        made.front.start(seconds(20))
-        yield made
+        rig.front.start(seconds(20))
+        yield rig
     finally:
-        made.front.close()
-    assert all(worker.pid == 0 for worker in made.workers)
+        rig.front.close()
+    assert all(worker.pid == 0 for worker in rig.workers)
 
 
 def test_answers_go_to_the_senders() -> None:
-    with bench() as made:
+    with bench() as rig:
         for address in range(20):
-            made.say(b"echo %d" % address, address, address)
-        made.until(lambda: len(made.line.sent) == 20)
-        assert sorted((a, d.split()[-1]) for a, d in made.line.sent) == sorted(
+            rig.say(b"echo %d" % address, address, address)
+        rig.until(lambda: len(rig.line.sent) == 20)
+        assert sorted((a, d.split()[-1]) for a, d in rig.line.sent) == sorted(
             (address, b"%d" % address) for address in range(20)
         )
-        made.until(lambda: made.front.samples == 20)
+        rig.until(lambda: rig.front.samples == 20)
 
 
 def test_a_worker_that_ends_is_started_again_and_counts_go_on() -> None:
-    with bench() as made:
-        made.say(b"echo", 1)
-        made.say(b"echo", 2)
-        made.until(lambda: made.front.samples == 2)
-        first = made.workers[1].pid
-        made.say(b"fall", 1)
-        made.until(lambda: "worker 2 ended (status 3)" in made.text.getvalue())
-        made.say(b"echo", 1)
-        assert made.log.counters["worker_down"] == 1
-        made.until(lambda: made.workers[1].ready)
-        assert made.workers[1].pid != first
-        assert "worker 2 serves again" in made.text.getvalue()
-        made.line.sent.clear()
-        made.say(b"echo", 1)
-        made.say(b"echo", 2)
-        made.until(lambda: len(made.line.sent) == 2)
-        made.until(lambda: made.front.samples == 4)
+    with bench() as rig:
+        rig.say(b"echo", 1)
+        rig.say(b"echo", 2)
+        rig.until(lambda: rig.front.samples == 2)
+        first = rig.workers[1].pid
+        rig.say(b"fall", 1)
+        rig.until(lambda: "worker 2 ended (status 3)" in rig.text.getvalue())
+        rig.say(b"echo", 1)
+        assert rig.log.counters["worker_down"] == 1
+        rig.until(lambda: rig.workers[1].ready)
+        assert rig.workers[1].pid != first
+        assert "worker 2 serves again" in rig.text.getvalue()
+        rig.line.sent.clear()
+        rig.say(b"echo", 1)
+        rig.say(b"echo", 2)
+        rig.until(lambda: len(rig.line.sent) == 2)
+        rig.until(lambda: rig.front.samples == 4)
 
 
 def test_one_that_ends_again_and_again_is_started_less_and_less_often() -> None:
@@ -155,43 +155,43 @@ def test_one_that_ends_again_and_again_is_started_less_and_less_often() -> None:
 
 
 def test_one_that_does_not_answer_is_ended_and_started_again() -> None:
-    with bench(1) as made:
-        worker = made.workers[0]
+    with bench(1) as rig:
+        worker = rig.workers[0]
         hung = worker.pid
-        made.say(b"hang", 0)
-        made.front.flush()
+        rig.say(b"hang", 0)
+        rig.front.flush()
         worker.ask(0.0, states=False)
         for _ in range(STUCK_LOOKS - 1):
             worker.look(STUCK_S + 1)
-        assert "has not answered" not in made.text.getvalue()
+        assert "has not answered" not in rig.text.getvalue()
         worker.look(STUCK_S + 1)
-        assert "worker 1 has not answered" in made.text.getvalue()
-        made.until(lambda: worker.ready and worker.pid not in (0, hung))
+        assert "worker 1 has not answered" in rig.text.getvalue()
+        rig.until(lambda: worker.ready and worker.pid not in (0, hung))
 
 
 def test_one_that_answers_late_is_left_alone() -> None:
     """As when the whole machine stood still: the answer is there at the next look."""
-    with bench(1) as made:
-        worker = made.workers[0]
+    with bench(1) as rig:
+        worker = rig.workers[0]
         worker.ask(0.0, states=False)
         worker.look(STUCK_S + 1)
-        made.until(lambda: worker._asked_at is None)
+        rig.until(lambda: worker._asked_at is None)
         for _ in range(STUCK_LOOKS):
             worker.look(STUCK_S + 1)
-        assert "has not answered" not in made.text.getvalue()
+        assert "has not answered" not in rig.text.getvalue()
 
 
 def test_a_view_waits_for_all_workers_and_not_for_one_that_ended() -> None:
-    with bench() as made:
-        assert not made.front.has_new_view()
-        made.until(made.front.has_new_view)
-        made.say(b"hang", 1)
-        made.until(lambda: made.front.samples == 0)
-        assert not made.front.has_new_view()
-        made.until(lambda: made.front._open == {2})
-        assert not made.front.has_new_view()
-        os.kill(made.workers[1].pid, signal.SIGKILL)
-        made.until(made.front.has_new_view)
+    with bench() as rig:
+        assert not rig.front.has_new_view()
+        rig.until(rig.front.has_new_view)
+        rig.say(b"hang", 1)
+        rig.until(lambda: rig.front.samples == 0)
+        assert not rig.front.has_new_view()
+        rig.until(lambda: rig.front._open == {2})
+        assert not rig.front.has_new_view()
+        os.kill(rig.workers[1].pid, signal.SIGKILL)
+        rig.until(rig.front.has_new_view)
 
 
 def test_a_fault_that_a_worker_finds_is_that_of_the_agent() -> None:
