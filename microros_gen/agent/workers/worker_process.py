@@ -24,6 +24,10 @@ STUCK_LOOKS = 20
 """Number of looks at which that must be so: the front itself may have been stopped meanwhile."""
 
 
+ENDS_S = 0.5
+"""Seconds from the end of a channel to that of its process; then it is killed."""
+
+
 class WorkerProcess:
     """One worker, which is started, asked, and started again."""
 
@@ -133,7 +137,7 @@ class WorkerProcess:
         if process is None:
             return ""
         try:
-            status = process.wait(0.2)  # it has closed its end, so it ends now
+            status = process.wait(ENDS_S)  # it has closed its end, so it ends now
         except subprocess.TimeoutExpired:
             process.kill()
             status = process.wait()

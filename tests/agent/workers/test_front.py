@@ -143,11 +143,13 @@ def test_one_that_ends_again_and_again_is_started_less_and_less_often() -> None:
     pauses = []
     for _ in range(9):
         worker.start()
+        os.waitid(os.P_PID, worker.pid, os.WEXITED | os.WNOWAIT)
         now = time.monotonic()
         assert worker.ended(now) == "status 0"
         pauses.append(next(p for p in (0.5, 1, 2, 4, 8, 16, 30) if worker.is_due(now + p)))
     assert pauses == [0.5, 1, 2, 4, 8, 16, 30, 30, 30]
     worker.start()
+    os.waitid(os.P_PID, worker.pid, os.WEXITED | os.WNOWAIT)
     later = time.monotonic() + 2 * STEADY_S
     assert worker.ended(later) == "status 0"
     assert worker.is_due(later), "it had served for long"
