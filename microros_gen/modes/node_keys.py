@@ -87,16 +87,16 @@ def check_published(
     """Report names of statuses that a node does not publish; `published` None: it is not known what it publishes."""
     prefix = f"{owner}:"
     for named in names:
-        if named.name.lstrip("/").startswith(prefix):
-            own = named.name.lstrip("/").removeprefix(prefix).strip() or "*"
-            message = (
-                f"nothing publishes the status '{named.name}' of '{owner}': its own name is left out here"
-            )
-            diagnostics.error(message, named.span, f"Write '{own}'", id="MG-9832")
-        elif published is not None and not any(is_named(name, (named.name,)) for name in published or ()):
-            hint = nearest(named.name, published or ()) or f"Known: {', '.join(published or ())}"
-            message = f"nothing publishes the status '{named.name}' of '{owner}'"
-            diagnostics.error(message, named.span, hint, id="MG-9832")
+        name = named.name.lstrip("/")
+        message = f"nothing publishes the status '{named.name}' of '{owner}'"
+        if name.startswith(prefix):
+            message += ": its own name is left out here"
+            hint = f"Write '{name.removeprefix(prefix).strip() or '*'}'"
+        elif published is None or any(is_named(each, (named.name,)) for each in published):
+            continue
+        else:
+            hint = nearest(named.name, published) or f"Known: {', '.join(published)}"
+        diagnostics.error(message, named.span, hint, id="MG-9832")
 
 
 def _check_repeated(own: Named, others: Sequence[Named], diagnostics: Diagnostics) -> None:

@@ -13,7 +13,7 @@ from microros_gen.modes.model import ACTIVE, DEFAULT, INACTIVE, STATES, UNCONFIG
 from microros_gen.records import dataclass
 
 _BEFORE_MODE = re.compile(r"[^\w.]+")
-"""What is written in place of the dot between `active` and a mode."""
+"""Other characters than the dot between `active` and a mode."""
 
 
 @dataclass(frozen=True)

@@ -42,10 +42,8 @@ def _value(name: str, entry: Entry, diagnostics: Diagnostics) -> Value | None:
         template = _TEMPLATE.fullmatch(node.text)
         if template:
             return Value(None, "", node.span, entry.key_span, template[1])
-        if _is_misspelt(name, node, diagnostics):
-            return None
         kind = _type_of(node.value)
-        if kind and node.value is not None:
+        if kind and node.value is not None and not _meant(node):
             return Value(node.value, kind, node.span, entry.key_span)
     elif isinstance(node, SequenceNode):
         values = [item.value if isinstance(item, ScalarNode) else None for item in node.items]
@@ -55,18 +53,18 @@ def _value(name: str, entry: Entry, diagnostics: Diagnostics) -> Value | None:
             return Value(scalars, f"{kinds.pop()}[]", node.span, entry.key_span)
     message = f"the parameter '{name}' has no value of a type of ROS 2"
     hint = "Write true, 1, 1.0, a text, or a list with values of one of these types"
+    meant = _meant(node) if isinstance(node, ScalarNode) else ""
+    if meant:
+        message, hint = f"the parameter '{name}' has no value: this is no template", f"Write {meant}"
     diagnostics.error(message, node.span, hint, id="MG-8822")
     return None
 
 
-def _is_misspelt(name: str, node: ScalarNode, diagnostics: Diagnostics) -> bool:
-    """Return whether a text is meant to be a template and is none, which is reported."""
+def _meant(node: ScalarNode) -> str:
+    """Return the template that a text is meant to be; empty: it is a text."""
     like = _LIKE_TEMPLATE.fullmatch(node.text)
-    if like is None or nearest(like[1], ("parent",)) is None:
-        return False
-    message = f"the parameter '{name}' has no value of a type of ROS 2: '{node.text}' is no template"
-    diagnostics.error(message, node.span, f"Write $(parent {like[2] or 'NAME'})", id="MG-8822")
-    return True
+    is_close = like is not None and nearest(like[1], ("parent",)) is not None
+    return f"$(parent {like[2] or 'NAME'})" if like is not None and is_close else ""
 
 
 def type_of(value: Scalar | tuple[Scalar, ...] | None) -> str:

@@ -203,10 +203,10 @@ CASES = [
             f"          limit: {text}",
             "MG-8822",
             text,
-            f"'{text}' is no template. Write {right}",
+            f"this is no template. Write {right}",
         )
         for text, right in (
-            ("$(parrent limit)", "$(parent limit)"),
+            ("$(parents limit)", "$(parent limit)"),
             ("$( parent limit )", "$(parent limit)"),
             ("$(parent)", "$(parent NAME)"),
         )
@@ -400,7 +400,7 @@ def test_a_hierarchy_has_a_bound() -> None:
 
 
 def test_a_system_without_modes_is_reported_once() -> None:
-    """Its rules name modes, and none is proposed where there is none."""
+    """Its rules name modes, which are no further mistakes."""
     text = ARM[: ARM.index("    modes:")] + ARM[ARM.index("    rules:") :]
     _, diagnostics = parsed(text)
     assert [(d.id, d.hint) for d in diagnostics] == [("MG-1009", "Add `modes: …`")]

@@ -278,7 +278,7 @@ def naming_in_c(name: str, package: Path) -> set[str]:
 
 @pytest.mark.parametrize("name", C_NAMES)
 def test_no_c_file_of_others_uses_what_it_has(name: str, tmp_path: Path) -> None:
-    """Others call hooks, which stand for nothing where the component is not selected."""
+    """Others call hooks, which do nothing where the component is not selected."""
     assert naming_in_c(name, PACKAGE) == set()
     (tmp_path / "components" / "other").mkdir(parents=True)
     (tmp_path / "components" / "other" / "a.c").write_text(

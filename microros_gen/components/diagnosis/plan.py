@@ -16,6 +16,7 @@ from microros_gen.components.diagnosis.tables import (
     CheckRow,
     CounterRow,
     Status,
+    check_counts,
     largest,
     node_prefix,
     statuses_of,
@@ -26,10 +27,6 @@ from microros_gen.records import dataclass
 from microros_gen.selection.contribution import Counter
 
 TYPE = TypeName("diagnostic_msgs", "msg", "DiagnosticArray")
-MOST_STATUSES = 64
-"""A bit says of each whether it is to be sent; those of 30 tasks and of the library take 40 at most."""
-MOST_ROWS = 255
-"""Positions of counters are bytes."""
 READS_SLICES = True
 """Counters of components can be those of each element of their slices."""
 _PORT = "microros/port_diagnosis.h"
@@ -210,7 +207,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> DiagnosisPlan:
     ]
     checks = [*_own_checks(declared, cpu, has["stack_peak"], supply)]
     statuses, rows_in_order, checks_in_order = statuses_of(application, declared, rows, checks, diagnostics)
-    _check_count(context, declared, len(statuses), len(rows), diagnostics)
+    check_counts(statuses, rows, declared.timers, _place(context, declared), diagnostics)
     size = largest(statuses, rows_in_order, checks_in_order, declared.hardware_id, _RESETS)
     _check_size(context, size, declared, diagnostics)
     missing = [
@@ -273,19 +270,6 @@ def _place(context: PlanContext, declared: DiagnosisDecl) -> Span | None:
     """Return the place of the settings, or of what selects the component; None: a profile does."""
     changes = (change.span for change in context.application.components if change.name == "diagnosis")
     return declared.span or next(changes, None)
-
-
-def _check_count(
-    context: PlanContext, declared: DiagnosisDecl, statuses: int, rows: int, diagnostics: Diagnostics
-) -> None:
-    """Report more statuses or counters than there are numbers for; checks and callbacks have a status each."""
-    for count, what, most in ((statuses, "statuses", MOST_STATUSES), (rows, "counters", MOST_ROWS)):
-        if count > most:
-            message = f"a device has {count} {what}, {most} at most"
-            hint = f"Remove {count - most} of its checks, callbacks or tasks"
-            if what == "counters" and declared.timers:
-                hint = "Remove `timers: true`"
-            diagnostics.error(message, _place(context, declared), hint, id="MG-7095")
 
 
 def _check_size(context: PlanContext, size: int, declared: DiagnosisDecl, diagnostics: Diagnostics) -> None:

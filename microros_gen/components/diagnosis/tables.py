@@ -8,11 +8,15 @@ from dataclasses import replace
 
 from microros_gen.application.diagnosis_decl import CheckDecl, DiagnosisDecl
 from microros_gen.application.model import Application, NodeDecl
-from microros_gen.diagnostics import Diagnostics
+from microros_gen.diagnostics import Diagnostics, Span
 from microros_gen.records import dataclass
 from microros_gen.typesupport.views.text import string
 
 NO_CHECK = 255
+MOST_STATUSES = 64
+"""A bit says of each whether it is to be sent; those of 30 tasks and of the library take 40 at most."""
+MOST_ROWS = 255
+"""Positions of counters are bytes."""
 _STAMP = 8
 _LONGEST_NUMBER = 11
 _COUNT = 4
@@ -153,6 +157,23 @@ def _check_names(
         if f"{prefixes[check.node]}{check.name}" in taken:
             message = f"the check '{check.name}' is named like a status of the library"
             diagnostics.error(message, check.span, "Choose another name", id="MG-7099")
+
+
+def check_counts(
+    statuses: Sequence[Status],
+    rows: Sequence[CounterRow],
+    has_timers: bool,
+    span: Span | None,
+    diagnostics: Diagnostics,
+) -> None:
+    """Report more statuses or counters than there are numbers for; `has_timers`: each timer has a counter."""
+    for count, what, most in ((len(statuses), "statuses", MOST_STATUSES), (len(rows), "counters", MOST_ROWS)):
+        if count > most:
+            message = f"a device has {count} {what}, {most} at most"
+            hint = f"Remove {count - most} of its checks, callbacks or tasks"
+            if what == "counters" and has_timers:
+                hint = "Remove `timers: true`"
+            diagnostics.error(message, span, hint, id="MG-7095")
 
 
 def _of(check: CheckDecl) -> CheckRow:

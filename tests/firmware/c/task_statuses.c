@@ -27,7 +27,7 @@ static uint8_t self = PORT_TASK_NONE;
 
 void switch_stack(uint32_t ** from, uint32_t * to);
 
-/* Saves registers on the present stack, its top in *from, and goes on with the stack `to`. */
+/* Saves registers on the present stack, its top in *from, and continues with the stack `to`. */
 __asm(".pushsection .text.switch_stack, \"ax\"\n"
       ".global switch_stack\n"
       ".type switch_stack, %function\n"
