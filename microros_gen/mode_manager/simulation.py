@@ -314,6 +314,7 @@ class _Play:
     def _repair(self, name: str, node: SimulatedNode) -> None:
         """Let a node follow again. One that cannot go on by itself, or has left, is started again."""
         node.refuses, node.reason, node.delay_s = (lambda _: False), "", ANSWER_S
+        node.busy_until = 0.0  # responses that it still owes delay no others
         has_left = self.world.manager.leaves[name].link is Link.ABSENT
         if has_left or node.state not in (*_REPAIRED, ERROR):
             self.world.leave(name)

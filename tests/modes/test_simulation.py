@@ -129,6 +129,23 @@ def test_a_failed_node_stays_until_it_is_repaired() -> None:
     assert ends(repaired) == ["arm active.QUICK", "gripper active.FIRM", "joint active.RUSH"]
 
 
+def test_a_slow_node_responds_at_once_after_its_repair() -> None:
+    """Without the responses that it still owed: of 30 seconds each, one after another."""
+    script = """\
+- {at: 0 s, request: arm, target: active}
+- {at: 3 s, delay: joint, time: 30 s}
+- {at: 3 s, request: arm, target: active.QUICK}
+- {at: 80 s, repair: joint}
+- {at: 90 s, change: gripper, parameters: {force: 2.0}}
+"""
+    assert ends(script) == ["arm active.QUICK", "gripper active.FIRM", "joint active.RUSH"]
+    lines = played(ARM, script)
+    after = lines[next(i for i, line in enumerate(lines) if "repair joint" in line) :]
+    assert next(i for i, line in enumerate(after) if "status joint active.RUSH" in line) < next(
+        i for i, line in enumerate(after) if line.startswith("90 s")
+    )
+
+
 def test_a_node_that_cannot_go_on_is_started_again_by_a_repair() -> None:
     """Finalized, or away: it returns unconfigured with its default parameters, and gets its target."""
     for fault in ("fail: gripper, state: finalized", "fail: gripper, state: unknown", "leave: gripper"):
