@@ -31,12 +31,16 @@ class Samples:
                 self._sizes[name] = max(self._sizes.get(name, 0), size)
 
     def size(self, decoder: str) -> int | None:
-        """Return the bytes of the largest sample that a generated decoder gets; None: unknown."""
+        """Return the bytes of the largest sample that a generated decoder gets, or any where its type has no endpoint.
+
+        None: unknown.
+        """
         match = _DECODER.match(decoder)
         if match is None:
             return None
         name = match[3] if match[2] == "msg" else re.sub(r"_(?:Request|Response|Event)$", "", match[3])
-        return self._sizes.get(f"{match[1]}/{match[2]}/{name}")
+        largest = max(self._sizes.values(), default=None)
+        return self._sizes.get(f"{match[1]}/{match[2]}/{name}", largest)
 
 
 def _rows(manifest: Mapping[str, Any]) -> Iterator[tuple[str, int]]:
