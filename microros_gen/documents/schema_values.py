@@ -10,7 +10,7 @@ from microros_gen.diagnostics import nearest
 from microros_gen.documents.yaml_tree import ScalarNode
 
 _NUMBER = re.compile(r"0x[0-9a-fA-F]+|[-+]?[0-9]+([.][0-9]+)?")
-_WITH_UNIT = re.compile(r"(?P<number>[0-9]+(?:[.][0-9]+)?) *(?P<unit>[A-Za-zµ]*)")
+_WITH_UNIT = re.compile(r"(?P<number>[0-9]{1,12}(?:[.][0-9]{1,12})?) *(?P<unit>[A-Za-zµ]*)")
 _BYTES = {
     **dict.fromkeys(("b", "byte", "bytes"), "B"),
     **dict.fromkeys(("k", "kb"), "kB"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from difflib import get_close_matches
 from typing import Any
 
 from microros_gen.diagnostics import nearest
@@ -35,6 +36,8 @@ _QOS_PROFILES = {
     "system_default": "{depth: 10}",
 }
 """What people write for `qos:` (names of rmw_qos_profile_…, policies) → the same as a mapping."""
+_MISSPELLED = 0.8
+"""Likeness of two words from which on one is taken for the other, though it is a key of another place."""
 _KINDS_OF_TYPE = ("msg", "srv", "action")
 _WORDS = re.compile(r"\^\(([a-z_|]+)\)\$")
 """A pattern of words, one of which may stand in place of a list."""
@@ -68,6 +71,8 @@ def describe_unknown_key(
         hint = f"Write {corrected}" if corrected else nearest(key, schema.get("properties", {}))
         return f"the keys of {where} must be {schema['x-keys']}; '{key}' is not", hint
     known = [k for k, value in schema.get("properties", {}).items() if "x-reserved" not in value]
+    if get_close_matches(key, known, cutoff=_MISSPELLED):
+        return f"unknown key '{key}' in {where}", nearest(key, known)
     owners = [f"`{owner}`" for owner in _owners(key, root, root, "", frozenset()) if owner and owner != label]
     if owners:
         return (

@@ -206,14 +206,15 @@ references: refs.xml
         " microros-gen",
         "3:5: error: unknown key 'upd4' in 'transports[0]'. Did you mean 'udp4'?",
         "4:12: error: unknown key 'prot' in 'transports[1].udp4'. Did you mean 'port'?",
-        "5:18: error: 'transports[2].tcp4.port' must be a whole number between 0 and 65535; it is 70000",
+        "5:18: error: 'transports[2].tcp4.port' must be a whole number between 0 and 65535; it is 70000. Write 65535"
+        " or less",
         "6:13: error: missing key 'device' in 'transports[3].serial'. Add `device: …`",
         "7:5: error: 'transports[4]' must be one transport with its settings, as `udp4: {port: 8888}`; it is a mapping",
         "8:1: error: unknown key 'limit' in the file. Did you mean 'limits'?",
         "9:10: error: unknown key 'clent_timeout_s' in 'limits'. Did you mean 'client_timeout_s'?",
         "9:39: error: 'limits.clients' must be a whole number between 1 and 65535; it is the text 'many'",
-        "9:54: error: 'limits.domains' must be a whole number between 1 and 233; it is 0",
-        "10:9: error: 'domain' must be a whole number between 0 and 232; it is 300",
+        "9:54: error: 'limits.domains' must be a whole number between 1 and 233; it is 0. Write 1 or more",
+        "10:9: error: 'domain' must be a whole number between 0 and 232; it is 300. Write 232 or less",
         "11:15: error: 'log.format' must be text or json; it is the text 'jsn'. Did you mean 'json'?",
         "12:13: error: 'references' must be a list; it is the text 'refs.xml'. Write it as a list: [refs.xml]",
     ]

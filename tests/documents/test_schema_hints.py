@@ -26,6 +26,7 @@ HINTS = {
     "on_full: block": "it is the text 'block'. Write block 20 ms",
     "on_full: block 1sec": "it is the text 'block 1sec'. Write block 1 s",
     "on_full: block 5": "it is the text 'block 5'. Write block 5 ms",
+    f"on_full: block {'9' * 400} ms": "Write block 20 ms",
     "on_full: drop oldest": "it is the text 'drop oldest'. Did you mean 'drop_oldest'?",
     "memory: {arena: 2 KB}": "it is the text '2 KB'. Write 2 kB",
     "memory: {arena: 2048 bytes}": "it is the text '2048 bytes'. Write 2048 B",
@@ -41,6 +42,7 @@ HINTS = {
     "nodes: [{name: probe, publishers: [count]}]": "Write {topic: count, …}",
     "nodes:": "it is empty. Add an item, or remove the key",
     "session:": "it is empty. Add a `key: value`, or remove the key",
+    "limit: 3": "unknown key 'limit' in the file. Did you mean 'limits'?",
     "rtos: freertos": "unknown key 'rtos' in the file. It is a key of `target`",
     "executors: 2": "unknown key 'executors' in the file. It is a key of `pools` and `nodes[]`",
 }

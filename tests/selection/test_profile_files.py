@@ -184,7 +184,7 @@ ERRORS = {
     ),
     "not YAML": (
         {"x": "profile: x\ncomponents: [+clock\n"},
-        "x.yaml:3:1: error: not valid YAML: a list in [ ] is not closed or lacks a comma. Add ',' or ']'",
+        "x.yaml:2:13: error: not valid YAML: a list in [ ] is not closed or lacks a comma. Add ',' or ']'",
     ),
     "drops from nothing": (
         {"x": "profile: x\ncomponents: [+node, -clock]\n"},
