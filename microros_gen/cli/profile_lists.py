@@ -21,7 +21,7 @@ from microros_gen.selection.extension import INSTALLED
 from microros_gen.selection.find_profiles import load_builtin_profiles, load_middleware, load_profiles
 from microros_gen.selection.model import Selection
 from microros_gen.selection.outside import component_names, with_outside
-from microros_gen.selection.profiles import axes_of, resolve_profiles
+from microros_gen.selection.profiles import resolve_profiles
 from microros_gen.selection.resolve import resolve_selection
 
 
@@ -91,7 +91,7 @@ def list_profiles(profiles: Mapping[str, Profile], catalogue: Catalogue, kind: s
 
 def _parts(profile: Profile) -> list[str]:
     names = [change.name for change in profile.components]
-    return [*names, *(f"{axis}: {value.name}" for axis, value in axes_of(profile).items())]
+    return [*names, *(f"{axis}: {value.name}" for axis, value in profile.axes.items())]
 
 
 def _summary(profile: Profile) -> str:
@@ -112,7 +112,7 @@ def _data(profile: Profile, ready: bool) -> dict[str, object]:
         "summary": profile.summary,
         "status": "ready" if ready else "planned",
         "components": [change.name for change in profile.components],
-        "axes": {axis: value.name for axis, value in axes_of(profile).items()},
+        "axes": {axis: value.name for axis, value in profile.axes.items()},
         **({"from": origin} if (origin := _origin(profile)) else {}),
     }
 

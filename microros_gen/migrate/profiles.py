@@ -9,7 +9,6 @@ from microros_gen.application.kinds import KINDS
 from microros_gen.records import dataclass
 from microros_gen.selection.component import Profile
 from microros_gen.selection.find_profiles import load_builtin_profiles
-from microros_gen.selection.profiles import axes_of
 
 _NODE = "node"
 
@@ -43,4 +42,4 @@ def profiles_of(kinds: Collection[str]) -> Proposed:
 
 def _is_plain(profile: Profile, component: str) -> bool:
     components = {change.name for change in profile.components}
-    return components == {_NODE, component} and not profile.extends and not axes_of(profile)
+    return components == {_NODE, component} and not profile.extends and not profile.axes

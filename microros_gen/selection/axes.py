@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from microros_gen.application.model import Application
@@ -46,12 +46,11 @@ def choose_axes(
     `target_transport` is what the target has where neither application nor profile choose (`Target.transport`).
     Profiles that disagree are an error that names both places, unless the application decides.
     """
-    chosen = _application_axes(application)
     choices: dict[str, AxisChoice] = {}
     for axis, about in middleware.axes.items():
         own = tuple(
             _choice(axis, value)
-            for value in chosen.get(axis, ())
+            for value in _of_application(getattr(application, axis))
             if _known(axis, value, about.values, diagnostics)
         )
         default = AxisChoice(axis, about.default, "default")
@@ -62,17 +61,14 @@ def choose_axes(
     return choices
 
 
-def _application_axes(application: Application) -> dict[str, tuple[Named, ...]]:
-    transport = application.transport
-    single = {
-        "entities": application.entities,
-        "liveliness": application.liveliness,
-        "clock": application.clock,
-    }
-    if transport.type_span is not None or transport.type != Transport().type:
-        single["transport"] = Named(transport.type, transport.type_span or transport.span)
-    chosen = {axis: (value,) for axis, value in single.items() if value is not None}
-    return {**chosen, "logging": tuple(Named(writer.to, writer.span) for writer in application.logging)}
+def _of_application(value: object) -> Iterator[Named]:
+    """Yield what a key of the application file chooses: a name, writers of log messages, or a transport."""
+    if isinstance(value, Named):
+        yield value
+    elif isinstance(value, tuple):
+        yield from (Named(writer.to, writer.span) for writer in value)
+    elif isinstance(value, Transport) and (value.type_span is not None or value.type != Transport().type):
+        yield Named(value.type, value.type_span or value.span)
 
 
 def _known(axis: str, value: Named, values: Iterable[str], diagnostics: Diagnostics) -> bool:

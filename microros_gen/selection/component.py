@@ -127,7 +127,7 @@ class Component:
 
 @dataclass(frozen=True)
 class Profile:
-    """A micro-ROS profile: components, and defaults for the axes (None: no opinion).
+    """A micro-ROS profile: components, and defaults for the axes on which it has an opinion.
 
     `nodes` are those of its example; None: those of the profiles that it extends. `order`: see `in_lists`.
     """
@@ -136,13 +136,9 @@ class Profile:
     summary: str
     extends: tuple[Named, ...] = ()
     components: tuple[ComponentChange, ...] = ()
-    entities: Named | None = None
-    liveliness: Named | None = None
-    transport: Named | None = None
+    axes: Mapping[str, Named] = field(default_factory=dict)
     builtin: bool = False
     span: Span | None = None
-    logging: Named | None = None
-    clock: Named | None = None
     nodes: tuple[NodeDecl, ...] | None = None
     order: int | None = None
 
@@ -166,7 +162,7 @@ class ResolvedProfile:
     `requested` is where the user asks for it; None: on the command line.
 
     `adds` and `drops` hold each component once, with the place that decided it. `axes` maps an axis
-    (`entities`, `transport`, `liveliness`, `logging`, `clock`) to the value chosen and its place. `nodes` are those of
+    to the value chosen and its place. `nodes` are those of
     its example.
     """
 

@@ -41,17 +41,18 @@ def with_implied(
         return replace(application, nodes=nodes)
     # A component that is not ready is refused already: its endpoints would only be a second error.
     if all(chosen.component.ready for chosen in selection.components):
-        _refuse([*(e for e in once if e.kind != "subscription"), *each], application, diagnostics)
+        _refuse([*(e for e in once if e.kind != "subscription"), *each], selection, diagnostics)
     return replace(application, implied=once)
 
 
-def _refuse(endpoints: Sequence[EndpointDecl], application: Application, diagnostics: Diagnostics) -> None:
+def _refuse(endpoints: Sequence[EndpointDecl], selection: Selection, diagnostics: Diagnostics) -> None:
     """Report endpoints that need a declared node: in one message, since one line fixes all of them."""
     if not endpoints:
         return
     first, others = endpoints[0], len(endpoints) - 1
     more = f" (and {others} more)" if others else ""
-    places = (application.spans.get(key) for key in ("components", "logging", "profiles"))
+    openers = (c for c in selection.components if first.topic in [i.name for i in c.component.implies])
+    places = (cause.span for opener in openers for cause in opener.causes)
     diagnostics.error(
         f"the {first.kind} '{first.topic}'{more}, which a component opens by itself, needs a declared node",
         next((place for place in places if place is not None), None),

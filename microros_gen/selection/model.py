@@ -31,7 +31,7 @@ class ChosenComponent:
 
 @dataclass(frozen=True)
 class ChosenAxis:
-    """The value of an axis (`entities`, `transport`, `liveliness`, `logging`, `clock`) and who chose it."""
+    """The value of an axis and who chose it."""
 
     axis: str
     value: str

@@ -57,17 +57,14 @@ def _profile(node: MappingNode, start: Span, diagnostics: Diagnostics, builtin: 
     check_keys(node, _PROFILE_KEYS, ("profile",), diagnostics)
     changes = read_names(node, "components", diagnostics)
     axes = {axis: read_choice(node, axis, values, diagnostics) for axis, values in AXES.items()}
+    chosen = {axis: value for axis, value in axes.items() if value is not None}
     named = node.entries.get("profile")
     return Profile(
         name=read_text(node, "profile", diagnostics),
         summary=read_text(node, "summary", diagnostics),
         extends=read_names(node, "extends", diagnostics),
         components=tuple(component_change(c.name, c.span) for c in changes),
-        entities=axes["entities"],
-        liveliness=axes["liveliness"],
-        transport=axes["transport"],
-        logging=axes["logging"],
-        clock=axes["clock"],
+        axes=MappingProxyType(chosen),
         builtin=builtin,
         span=named.value.span if named else start,
         nodes=_nodes(node, diagnostics, builtin),

@@ -29,18 +29,6 @@ def resolve_profiles(profiles: ProfileSet, diagnostics: Diagnostics) -> tuple[Re
     return tuple(sorted(found.values(), key=in_lists))
 
 
-def axes_of(profile: Profile) -> dict[str, Named]:
-    """Return the axes that `profile` itself chooses."""
-    chosen = {
-        "entities": profile.entities,
-        "transport": profile.transport,
-        "liveliness": profile.liveliness,
-        "logging": profile.logging,
-        "clock": profile.clock,
-    }
-    return {axis: value for axis, value in chosen.items() if value is not None}
-
-
 def unique_changes(
     changes: tuple[ComponentChange, ...], diagnostics: Diagnostics
 ) -> dict[str, ComponentChange]:
@@ -139,7 +127,7 @@ class _Folder:
 
     def _axes(self, profile: Profile, bases: list[ResolvedProfile]) -> dict[str, Named]:
         chosen: dict[str, Named] = {}
-        own = axes_of(profile)
+        own = profile.axes
         for base in bases:
             for axis, value in base.axes.items():
                 first = chosen.setdefault(axis, value)

@@ -102,6 +102,28 @@ C_NAMES = {
     "diagnosis": r"\b(?:rcl|rclc|xrce)_diagnosis\w*",
 }
 """How functions, types and headers of a component are called. Hooks that it fills are named by those who call them."""
+LOGGING_SHARED = (
+    "application/application.schema.json",
+    "application/model.py",
+    "application/parser.py",
+    "selection/profile.schema.json",
+    "selection/profile_file.py",
+    "selection/xrce.py",
+)
+"""The same for `logging`: the key of applications and profiles, and the list of D1.4."""
+OBSERVED = (
+    *(
+        "parameter_client",
+        "parameter_messages",
+        "parameter_storage",
+        "parameters_held",
+        "graph",
+        "graph_events",
+    ),
+    *("graph_topic", "logging_console", "logging_float", "logging_ring", "logging_rosout", "logging_wide"),
+    *("logger_services", "diagnosis"),
+)
+"""The other components of parameters, graph and logging."""
 _OTHER_FILES = {
     "application/modes.py",
     "application/parameter_clients.py",
@@ -285,6 +307,16 @@ def test_no_c_file_of_others_uses_what_it_has(name: str, tmp_path: Path) -> None
         "x = rclc_modes_y; rcl_lifecycle_y(); rcl_diagnosis_y();"
     )
     assert naming_in_c(name, tmp_path) == {"components/other/a.c"}
+
+
+def test_log_messages_are_known_to_at_most_six_shared_files() -> None:
+    assert shared_files("logging", PACKAGE) <= set(LOGGING_SHARED)
+    assert len(LOGGING_SHARED) <= 6
+
+
+@pytest.mark.parametrize("name", OBSERVED)
+def test_a_component_of_parameters_graph_and_logging_is_known_to_at_most_six(name: str) -> None:
+    assert len(shared_files(name, PACKAGE)) <= 6
 
 
 def test_a_file_that_names_a_component_is_found(tmp_path: Path) -> None:
