@@ -215,7 +215,7 @@ def _has_no_read_side(found: Symbols, reliable_answers: bool) -> None:
 def _creates_as_the_application_says(application: str, names: frozenset[str]) -> None:
     """A preconfigured client has no code for CREATE, DELETE and STATUS; the others have one way to describe."""
     creates = "entities: preconfigured" not in application
-    wanted = {"xrce_creation_send", "xrce_describe", "xrce_entities_on_status", "xrce_session_leave"}
+    wanted = {"xrce_describe", "xrce_entities_on_status", "xrce_session_leave"}
     assert names & wanted == (wanted if creates else set())
     statics = re.compile(r"^(xrce_creation_|entities_(put|send|begin|refuse|renew)|leave_|session_leave)")
     assert bool([n for n in names if statics.search(n)]) == creates

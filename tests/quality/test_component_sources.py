@@ -137,7 +137,8 @@ def needed(component: Component) -> set[str]:
                 found.add(need)
                 waiting.append(need)
     parts = component.contributes
-    conditions = [part.when for part in (*parts.hooks, *parts.handlers, *parts.state, *parts.replaces)]
+    conditional = (*parts.hooks, *parts.handlers, *parts.state, *parts.replaces, *parts.variants)
+    conditions = [part.when for part in conditional]
     conditions += [source.when for source in component.sources]
     names = [path for when in conditions for path, _ in when if path.startswith("component.")]
     return found | {name.partition(".")[2] for name in names} | declaring(component)

@@ -247,7 +247,7 @@ def test_no_symbol_that_is_not_selected(name: str, tmp_path: Path) -> None:
 
 def _creates_as_the_plan_says(plan: RuntimePlan, names: set[str], content: bytes) -> None:
     """No way to describe entities but the selected one, and none at all where they are preconfigured."""
-    creation = {"xrce_creation_send", "xrce_describe", "xrce_entities_on_status", "xrce_session_leave"}
+    creation = {"xrce_describe", "xrce_entities_on_status", "xrce_session_leave"}
     assert names & creation == (set() if plan.creation.entities == "preconfigured" else creation)
     assert any("reliable_input" in name for name in names) == (plan.input.reliable_slots > 0)
     for word, way in (

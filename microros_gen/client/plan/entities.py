@@ -82,6 +82,21 @@ class EntitiesPlan:
         return 1 + max((len(node.logger_name) for node in self.nodes.declared), default=0)
 
     @property
+    def services_by_place(self) -> bool:
+        """Whether components open services by themselves, whose places are known."""
+        return self.declared and self.services.implied > 0
+
+    @property
+    def publishers_by_place(self) -> bool:
+        """Whether components open publishers by themselves, whose places are known; none has its own limits."""
+        return self.declared and self.publishers.implied > 0 and not self.limited_headers
+
+    @property
+    def opens_by_place(self) -> bool:
+        """Whether components open publishers or services by themselves, whose places are known."""
+        return self.services_by_place or self.publishers_by_place
+
+    @property
     def serves(self) -> bool:
         """Whether there are places of services or of clients."""
         return self.services.any or self.clients.any

@@ -6,7 +6,7 @@
  * back the application's messages until STATUS arrives.
  */
 #include "microros/xrce_client.h"
-#include "microros/xrce_creation.h"
+#include "microros/xrce_creation_stream.h"
 #include "microros/xrce_wire.h"
 
 #include <string.h>

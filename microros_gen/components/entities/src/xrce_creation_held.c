@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* creation: reliable: the stream holds back the application's messages until STATUS arrives. */
 #include "microros/xrce_client.h"
-#include "microros/xrce_creation.h"
+#include "microros/xrce_creation_stream.h"
 
 bool xrce_creation_begin(xrce_client_t * client, uint32_t now)
 {

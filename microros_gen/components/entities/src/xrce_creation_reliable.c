@@ -6,7 +6,7 @@
  * requests precede all stored messages of the stream.
  */
 #include "microros/xrce_client.h"
-#include "microros/xrce_creation.h"
+#include "microros/xrce_creation_stream.h"
 #include "microros/xrce_wire.h"
 
 uint8_t * xrce_creation_room(xrce_client_t * client)

@@ -4,6 +4,7 @@
 #include "microros/lock.h"
 #include "microros/port.h"
 #include "microros/xrce_client.h"
+#include "microros/xrce_creation_stream.h"
 #include "microros/xrce_wire.h"
 
 static const uint16_t no_place = 0xffffu;
@@ -341,11 +342,10 @@ uint8_t xrce_entities_await(xrce_client_t * client, uint16_t place, uint32_t tim
   const uint32_t start = port_time_ms();
 
   client->entities.refused_place = no_place;
-  for (;;) {
-    xrce_session_pump(client);
-    if (entities_is_done(client, place)) {
-      return XRCE_DONE;
-    }
+  if (xrce_turn_is_mine()) {
+    xrce_entities_step(client, start); /* so that the first pump may already find the answer */
+  }
+  while (!entities_is_done(client, place)) {
     if (client->entities.refused_place == place) {
       return client->entities.refused_status;
     }
@@ -353,5 +353,7 @@ uint8_t xrce_entities_await(xrce_client_t * client, uint16_t place, uint32_t tim
       return XRCE_SILENT;
     }
     microros_pause();
+    xrce_session_pump(client);
   }
+  return XRCE_DONE;
 }

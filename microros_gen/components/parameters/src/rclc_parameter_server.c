@@ -3,6 +3,7 @@
 #include "microros/executor_handles.h"
 #include "microros/rclc_parameters.h"
 #include "microros/rmw_parameters.h"
+#include "microros/rmw_publisher.h"
 #include "microros/rmw_service.h"
 #if MICROROS_PARAMETERS_HELD
 #include "microros/rclc_parameter_held.h"
@@ -12,15 +13,17 @@
 #include <stddef.h>
 #include <string.h>
 
+/* As in rmw_qos_profile_parameters and rmw_qos_profile_parameter_events. */
+enum { SERVER_DEPTH = 1000 };
+
 typedef struct server_service_t {
   const rosidl_service_type_support_t * type;
-  const char * name;
   rclc_service_callback_with_context_t callback;
 } server_service_t;
 
 #if MICROROS_PARAMETERS_HELD
 static const server_service_t server_offers[RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES] = {
-  {&rclc_parameter_exchange_type, "~/exchange_parameters", rclc_parameter_exchange},
+  {&rclc_parameter_exchange_type, rclc_parameter_exchange},
 };
 #else
 /* Replies are written from the store, by the encoders of their types. */
@@ -46,25 +49,42 @@ static void server_set_all(const void * request, void * response, void * context
 }
 
 static const server_service_t server_offers[RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES] = {
-  {&rclc_parameter_describe_type, "~/describe_parameters", server_reply},
-  {&rclc_parameter_get_types_type, "~/get_parameter_types", server_reply},
-  {&rclc_parameter_get_type, "~/get_parameters", server_reply},
-  {&rclc_parameter_list_type, "~/list_parameters", server_reply},
-  {&rclc_parameter_set_type, "~/set_parameters", server_set_each},
-  {&rclc_parameter_set_atomically_type, "~/set_parameters_atomically", server_set_all},
+  {&rclc_parameter_describe_type, server_reply}, {&rclc_parameter_get_types_type, server_reply},
+  {&rclc_parameter_get_type, server_reply},      {&rclc_parameter_list_type, server_reply},
+  {&rclc_parameter_set_type, server_set_each},   {&rclc_parameter_set_atomically_type, server_set_all},
+};
+#endif
+
+#if !MICROROS_SERVICES_BY_PLACE
+static const char * const server_names[RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES] = {
+#if MICROROS_PARAMETERS_HELD
+  "~/exchange_parameters",
+#else
+  "~/describe_parameters", "~/get_parameter_types", "~/get_parameters",
+  "~/list_parameters",     "~/set_parameters",      "~/set_parameters_atomically",
+#endif
 };
 #endif
 
 /* The names of the services are constants, so they are not checked as those of an application. */
 static rcl_ret_t server_open(rclc_parameter_server_t * server, const rcl_node_t * node)
 {
+#if MICROROS_SERVICES_BY_PLACE
+  uint16_t at = 0;
+#endif
+
   if (!rcl_node_is_valid(node)) {
     return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
   }
   for (uint32_t i = 0; i < (uint32_t)RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES; ++i) {
+#if MICROROS_SERVICES_BY_PLACE
+    const rcl_ret_t result = rmw_replier_open_by_place(
+      node->impl, server_offers[i].type, (uint16_t)SERVER_DEPTH, &at, &server->services[i].impl);
+#else
     const rcl_ret_t result = rmw_replier_open(
-      node->impl, server_offers[i].type, server_offers[i].name, &rmw_qos_profile_parameters,
+      node->impl, server_offers[i].type, server_names[i], &rmw_qos_profile_parameters,
       &server->services[i].impl);
+#endif
 
     if (result != RCL_RET_OK) {
       return result;
@@ -80,10 +100,15 @@ static rcl_ret_t server_open(rclc_parameter_server_t * server, const rcl_node_t 
   if (!server->notify_changed_over_dds) {
     return RCL_RET_OK;
   }
+#if MICROROS_PUBLISHERS_BY_PLACE
+  return rmw_publisher_open_by_place(
+    node->impl, &rclc_parameter_event_type, (uint16_t)SERVER_DEPTH, &server->event_publisher.impl);
+#else
   /* The profile of the services equals rmw_qos_profile_parameter_events, of which it saves a copy. */
   return rclc_publisher_init(
     &server->event_publisher, node, &rclc_parameter_event_type, "/parameter_events",
     &rmw_qos_profile_parameters);
+#endif
 #endif
 }
 

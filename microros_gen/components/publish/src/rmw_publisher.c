@@ -9,6 +9,7 @@
 #include "microros/rmw_node.h"
 #include "microros/rmw_peer_publish.h"
 #include "microros/rmw_publish_parts.h"
+#include "microros/rmw_publisher_places.h"
 #include "microros/rmw_qos.h"
 #include "microros/xrce_drops.h"
 #include "microros/xrce_routes.h"
@@ -39,16 +40,7 @@ static bool publisher_fits(const xrce_endpoint_t * writer)
   return false;
 }
 
-static rmw_publisher_t * publisher_prepare(xrce_endpoint_t * writer)
-{
-  static rmw_publisher_t publishers[MICROROS_PUBLISHERS_MAX]; /* indexed by place */
-  rmw_publisher_t * publisher = &publishers[writer->index];
-
-  publisher->implementation_identifier = rmw_implementation_identifier;
-  publisher->data = writer;
-  publisher->topic_name = writer->name;
-  return publisher;
-}
+rmw_publisher_t rmw_publishers[MICROROS_PUBLISHERS_MAX];
 
 rmw_ret_t rmw_publisher_open(
   const rmw_node_t * node, const rosidl_message_type_support_t * type_support, const char * topic,
@@ -74,7 +66,7 @@ rmw_ret_t rmw_publisher_open(
     rmw_publish_parts_clear(writer);
     result = rmw_place_open(writer->client, publisher_place(writer), writer->name);
     if (result == RMW_RET_OK) {
-      *publisher = publisher_prepare(writer);
+      *publisher = rmw_publisher_prepare(writer);
     }
   }
   microros_unlock();

@@ -7,6 +7,7 @@
 #include "microros/rmw_local_service.h"
 #include "microros/rmw_node.h"
 #include "microros/rmw_peer_service.h"
+#include "microros/rmw_replier_places.h"
 #include "microros/rmw_service.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_wire.h"
@@ -41,11 +42,12 @@ static void replier_put_u32(uint8_t * at, uint32_t value)
   xrce_put_le16(&at[2], (uint16_t)(value >> 16));
 }
 
+rmw_service_t rmw_repliers[MICROROS_SERVICES_MAX];
+
 static rmw_ret_t replier_open(
   const rmw_node_t * node, const rosidl_service_type_support_t * type_support, const char * name,
   const rmw_qos_profile_t * qos, rmw_service_t ** service)
 {
-  static rmw_service_t services[MICROROS_SERVICES_MAX]; /* indexed by place */
   const microros_service_type_t * type = type_support->data;
   const xrce_service_t opened = {type, type->response};
   const rmw_section_t section = {
@@ -60,12 +62,7 @@ static rmw_ret_t replier_open(
   const rmw_ret_t result = rmw_service_open(&wanted, &opened, &section, node, name, qos);
 
   if (result == RMW_RET_OK) {
-    xrce_endpoint_t * endpoint = &wanted.client->endpoints[wanted.index];
-
-    *service = &services[wanted.index - section.first];
-    (*service)->implementation_identifier = rmw_implementation_identifier;
-    (*service)->data = endpoint;
-    (*service)->service_name = endpoint->name;
+    *service = rmw_replier_prepare(&wanted.client->endpoints[wanted.index]);
   }
   return result;
 }

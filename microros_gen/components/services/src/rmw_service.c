@@ -4,6 +4,7 @@
 #include "microros/epoch.h"
 #include "microros/error.h"
 #include "microros/port.h"
+#include "microros/rmw_declared.h"
 #include "microros/rmw_decode.h"
 #include "microros/rmw_encode.h"
 #include "microros/rmw_qos.h"
@@ -27,13 +28,24 @@ static bool service_fits(const microros_message_type_t * sent, bool replies)
   return false;
 }
 
+/* Fills in the place of `wanted` and waits for its object. */
+static rmw_ret_t service_start(const xrce_endpoint_t * wanted, const xrce_service_t * service)
+{
+  xrce_service_t * place = xrce_service_of(wanted);
+
+  place->type = service->type;
+  place->sent = rmw_service_sent(wanted->index, service->sent);
+  return service_fits(place->sent, MICROROS_NODES_MAX + wanted->index < XRCE_REQUESTERS_AT)
+           ? rmw_receiver_start(wanted)
+           : RMW_RET_ERROR;
+}
+
 rmw_ret_t rmw_service_open(
   xrce_endpoint_t * wanted, const xrce_service_t * service, const rmw_section_t * section,
   const rmw_node_t * node, const char * name, const rmw_qos_profile_t * qos)
 {
   const rmw_name_t full = rmw_name_of_topic(name, node->name, node->namespace_);
   const char * refused = rmw_qos_to_xrce(qos, &wanted->qos, &wanted->depth);
-  xrce_service_t * place;
 
   if (refused != NULL) {
     microros_error_set(microros_error_service_qos, name, refused, 0, 0);
@@ -43,13 +55,25 @@ rmw_ret_t rmw_service_open(
   if (!rmw_receiver_take(wanted, section, &full, name)) {
     return RMW_RET_ERROR;
   }
-  place = xrce_service_of(wanted);
-  place->type = service->type;
-  place->sent = rmw_service_sent(wanted->index, service->sent);
-  return service_fits(place->sent, MICROROS_NODES_MAX + wanted->index < XRCE_REQUESTERS_AT)
-           ? rmw_receiver_start(wanted)
-           : RMW_RET_ERROR;
+  return service_start(wanted, service);
 }
+
+#if MICROROS_SERVICES_BY_PLACE
+rmw_ret_t rmw_service_open_by_place(xrce_endpoint_t * wanted, const xrce_service_t * service, uint16_t * at)
+{
+  if (*at < (uint16_t)(XRCE_REPLIERS_AT - MICROROS_NODES_MAX)) {
+    *at = (uint16_t)(XRCE_REPLIERS_AT - MICROROS_NODES_MAX);
+  }
+  if (!rmw_declared_take(
+        wanted, at, (uint16_t)(XRCE_REQUESTERS_AT - MICROROS_NODES_MAX), service->type->dds_type_name)) {
+    microros_error_set(
+      wanted->name != NULL ? microros_error_service_open : microros_error_service_undeclared, wanted->name,
+      service->type->dds_type_name, 0, 0);
+    return RMW_RET_ERROR;
+  }
+  return service_start(wanted, service);
+}
+#endif
 
 rmw_ret_t rmw_service_report(
   const xrce_endpoint_t * endpoint, xrce_write_t outcome, const cdr_fault_t * fault)

@@ -58,6 +58,7 @@
 #define MICROROS_HANDLES_MAX 2u /* of each executor */
 #define MICROROS_GUARD_CONDITIONS_MAX 0u
 #define MICROROS_WAIT_SETS_MAX 1u
+#define MICROROS_SERVICES_BY_PLACE 0u /* components open theirs without a name */
 #define MICROROS_REQUESTS_MAX 2u /* outstanding, of all clients */
 
 /* memory */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * CREATE and DELETE. At most one request is outstanding; the objects of a released place are deleted in
- * the background. xrce_entities.c decides when to send a request, xrce_creation_*.c on which stream; the
+ * the background. xrce_entities.c decides when to send a request, xrce_creation_stream.h on which stream; the
  * components entities_binary, entities_xml and entities_reference describe objects.
  */
 #ifndef MICROROS_XRCE_CREATION_H
@@ -51,23 +51,6 @@ void xrce_entities_on_status(xrce_client_t * client, const uint8_t * submessage,
 
 /* Returns the endpoint of a place. */
 const xrce_endpoint_t * xrce_entities_endpoint(const xrce_client_t * client, uint16_t place);
-
-/*
- * Stream of the requests, implemented by one of xrce_creation_*.c. Returns whether a new request can be
- * sent now; if not, nothing changes.
- */
-bool xrce_creation_begin(xrce_client_t * client, uint32_t now);
-
-/* Returns the buffer for the one submessage of a request. */
-uint8_t * xrce_creation_room(xrce_client_t * client);
-
-/*
- * Sends the first `size` bytes of the buffer. Until STATUS arrives, the request is repeated with the same
- * bytes. */
-void xrce_creation_send(xrce_client_t * client, size_t size);
-
-/* Called when the STATUS of the request arrived. */
-void xrce_creation_end(xrce_client_t * client);
 
 /* Representations of an object (OMG DDS-XRCE 1.0, 7.7.3). */
 enum { XRCE_FORMAT_REFERENCE = 0x01, XRCE_FORMAT_XML = 0x02, XRCE_FORMAT_BINARY = 0x03 };
