@@ -196,7 +196,7 @@ PROFILE_CASES: dict[str, tuple[str, Any, str, str]] = {
 
 
 def profile_value(profile: Profile, key: str) -> Any:
-    value = getattr(profile, "name" if key == "profile" else key)
+    value = profile.axes[key] if key in AXES else getattr(profile, "name" if key == "profile" else key)
     if key == "extends":
         return [named.name for named in value]
     if key == "components":
