@@ -13,7 +13,6 @@ from jsonschema import Draft202012Validator
 from microros_gen.application.parser import SCHEMA as APPLICATION_SCHEMA
 from microros_gen.application.parser import parse_application
 from microros_gen.diagnostics import Diagnostics, Source
-from microros_gen.documents.named import Named
 from microros_gen.documents.schema import load_schema
 from microros_gen.documents.yaml_tree import parse_yaml, to_data
 from microros_gen.selection.component import Profile
@@ -196,14 +195,16 @@ PROFILE_CASES: dict[str, tuple[str, Any, str, str]] = {
 
 
 def profile_value(profile: Profile, key: str) -> Any:
-    value = profile.axes[key] if key in AXES else getattr(profile, "name" if key == "profile" else key)
+    if key in AXES:
+        return profile.axes[key].name
+    value = getattr(profile, "name" if key == "profile" else key)
     if key == "extends":
         return [named.name for named in value]
     if key == "components":
         return [(change.name, change.add) for change in value]
     if key == "nodes":
         return [(n.name, [e.topic for e in n.endpoints], [t.name for t in n.timers]) for n in value]
-    return value.name if isinstance(value, Named) else value
+    return value
 
 
 def test_every_key_of_the_profile_schema_has_its_cases() -> None:
