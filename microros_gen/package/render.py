@@ -69,12 +69,23 @@ def plan_request(package: PackageDescription, request: Request, general: bool = 
                 f"the target of the application file has no effect: the package {package.name} has its own"
             )
             found.warning(message, named, "Remove `target: {name: …}`, or use `generate`", id="MG-9206")
+    _warn_about_budgets(package, request, found)
     resolved = compiler.resolve(request)
     _check_transport(package, resolved, found)
     found.check()
     planned = compiler.plan(resolved)
     found.extend(planned.warnings)
     return PackagePlan(package, replace(planned, warnings=tuple(found)), general)
+
+
+def _warn_about_budgets(package: PackageDescription, request: Request, found: Diagnostics) -> None:
+    """Warn that nothing is compiled here that could exceed a budget of the application."""
+    memory = request.application.memory
+    if memory.has_budget:
+        place = memory.ram_span or memory.flash_span or memory.stack_span
+        message = f"the package {package.name} does not check the budgets of `memory:`, since nothing is compiled"
+        hint = f"Check them in a build: microros-gen build -c {request.config or 'FILE'}"
+        found.warning(message, place, hint, id="MG-9210")
 
 
 def _check_transport(package: PackageDescription, resolved: Resolved, found: Diagnostics) -> None:

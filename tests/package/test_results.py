@@ -132,3 +132,13 @@ def test_an_archive_replaces_no_folder(run: Runner, folder: Path) -> None:
     assert done.status == 2
     assert "the archive robot.tar.gz is a folder. Choose another output folder with -o" in done.err
     assert not (folder / "robot").exists()
+
+
+def test_budgets_are_said_not_to_be_checked(run: Runner, folder: Path) -> None:
+    """They are those of a compiled library or image, and a package has sources."""
+    (folder / "microros.yaml").write_text(OWN + "memory: {flash_budget: 16 KiB}\n")
+    result = run("package", "cmake", "-c", "microros.yaml", "-o", "out")
+    assert result.status == 0
+    assert "the package cmake does not check the budgets of `memory:`" in result.err
+    assert "microros.yaml:4" in result.err
+    assert "Check them in a build: microros-gen build -c microros.yaml [MG-9210]" in result.err
