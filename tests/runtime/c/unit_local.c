@@ -281,6 +281,7 @@ static void test_wide(void)
 static void test_serialized(void)
 {
   uint8_t bytes[] = {0, 1, 0, 0, 42, 0, 0, 0};
+  uint8_t large[12] = {0, 1, 0, 0, 42};
   uint8_t room[8] = {0};
   rcl_serialized_message_t message = {.buffer = bytes, .buffer_length = 8, .buffer_capacity = 8};
   rcl_serialized_message_t heard = {.buffer = room, .buffer_capacity = 8};
@@ -292,6 +293,11 @@ static void test_serialized(void)
   CHECK(rcl_take_serialized_message(&count_heard, &heard, &info, NULL) == RCL_RET_OK);
   CHECK(info.from_intra_process && heard.buffer_length == 8u && memcmp(room, bytes, 8) == 0);
   CHECK(is_empty(&count_heard));
+  message.buffer = large;
+  message.buffer_length = sizeof(large); /* more than any message of the type */
+  CHECK(rcl_publish_serialized_message(&count, &message, NULL) == RCL_RET_ERROR);
+  rcl_reset_error();
+  message.buffer = bytes;
   message.buffer_length = 6; /* the number ends early */
   CHECK(rcl_publish_serialized_message(&count, &message, NULL) == RCL_RET_ERROR);
   rcl_reset_error();

@@ -91,6 +91,10 @@ bool rmw_local_publish_body(
   if (!local_may(writer, route)) {
     return route->only;
   }
+  if (size > writer->type->max_encoded_size) {
+    *result = microros_error_named(RMW_RET_ERROR, microros_error_local_capacity, writer->name);
+    return true;
+  }
   for (const uint8_t * at = route->queues; at != &route->queues[route->count]; ++at) {
     const rmw_local_queue_t * queue = &rmw_local_queues[*at];
     rmw_local_state_t * state = &rmw_local_states[*at];

@@ -96,6 +96,7 @@ static rmw_ret_t shared_spread(
     rmw_ret_t other;
 
     if (shared_may_write(writer, next, &place, &other)) {
+      /* at most 4 * MICROROS_SHARED_WORDS bytes */
       (void)memcpy(shared_body(next, place), shared_body(ring, count), size);
       rmw_shared_commit(next, place, size);
     }
@@ -136,7 +137,7 @@ rmw_ret_t rmw_shared_publish_body(const xrce_endpoint_t * writer, const uint8_t 
   if (size > writer->type->max_encoded_size) {
     return microros_error_named(RMW_RET_ERROR, microros_error_shared_large, writer->name);
   }
-  (void)memcpy(shared_body(ring, count), body, size);
+  (void)memcpy(shared_body(ring, count), body, size); /* at most 4 * MICROROS_SHARED_WORDS bytes */
   rmw_shared_commit(ring, count, (uint32_t)size);
   return shared_spread(writer, ring, count, result);
 }

@@ -70,7 +70,7 @@ static size_t peer_put_body(
     *result = RMW_RET_ERROR;
     return 0;
   }
-  (void)memcpy(at, sample->body, size);
+  (void)memcpy(at, sample->body, size); /* at most MICROROS_PEER_SLOT_SIZE + MICROROS_PEER_MTU bytes */
   return size;
 }
 

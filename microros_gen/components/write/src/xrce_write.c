@@ -120,6 +120,7 @@ xrce_write_t xrce_write_body(xrce_endpoint_t * writer, const uint8_t * body, siz
   if (outcome != XRCE_WRITTEN) {
     return outcome;
   }
+  /* at most MICROROS_RELIABLE_SLOT_SIZE + MICROROS_MTU or MICROROS_MTU bytes */
   (void)memcpy(&room[WRITE_BODY_OFFSET], body, size);
   return write_end(writer, room, size);
 }
