@@ -88,8 +88,8 @@ class EntitiesPlan:
 
     @property
     def publishers_by_place(self) -> bool:
-        """Whether components open publishers by themselves, whose places are known; none has its own limits."""
-        return self.declared and self.publishers.implied > 0 and not self.limited_headers
+        """Whether components open publishers by themselves, whose places are known."""
+        return self.declared and self.publishers.implied > 0
 
     @property
     def opens_by_place(self) -> bool:

@@ -40,8 +40,8 @@ static uint32_t diagnosis_seen[MICROROS_DIAGNOSIS_ROWS]; /* as reported often en
 static uint32_t diagnosis_until_ms[MICROROS_DIAGNOSIS_STATUSES];
 static uint8_t diagnosis_reported[MICROROS_DIAGNOSIS_STATUSES];
 
-/* Takes the present counters whose change is a warning as reported. Others are not read: the lock is held, and that of a
- * stack reads the stack. */
+/* Takes the present counters whose change is a warning as reported. Others are not read: the lock is held, and for the
+ * one of a stack, the stack itself is read. */
 static void diagnosis_begin(const xrce_client_t * client)
 {
   for (uint8_t row = 0; row < (uint8_t)MICROROS_DIAGNOSIS_ROWS; ++row) {
@@ -113,7 +113,7 @@ const rcl_diagnosis_row_t * rcl_diagnosis_changed(const xrce_client_t * client, 
 }
 
 /* Notes what a message reports of counters whose change is a warning. Returns whether one differs from the message before.
- * The others are not read a second time: that of a stack reads the stack, with the lock held. */
+ * The others are not read a second time: to count that of a stack, the stack itself is read, with the lock held. */
 static bool diagnosis_note(const xrce_client_t * client, const rcl_diagnosis_status_t * about)
 {
   bool has_changed = false;

@@ -344,6 +344,11 @@ uint8_t xrce_entities_await(xrce_client_t * client, uint16_t place, uint32_t tim
   client->entities.refused_place = no_place;
   if (xrce_turn_is_mine()) {
     xrce_entities_step(client, start); /* so that the first pump may already find the answer */
+  } else {
+    xrce_turn_request(client);
+  }
+  if (timeout_ms == 0u) {
+    xrce_session_pump(client); /* the only one: an earlier request may be answered */
   }
   while (!entities_is_done(client, place)) {
     if (client->entities.refused_place == place) {

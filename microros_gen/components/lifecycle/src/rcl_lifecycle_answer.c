@@ -21,10 +21,10 @@ void rcl_lifecycle_answer_for(rcl_lifecycle_state_machine_t * state_machine)
 {
   const rcl_node_t * node = state_machine->com_interface.node_handle;
 
+  rmw_lifecycle_use(node->impl, rcl_lifecycle_write_graph); /* first: an answer needs it */
   microros_lock();
   answer_machines[rmw_node_index(node->impl)] = state_machine;
   microros_unlock();
-  rmw_lifecycle_use(node->impl, rcl_lifecycle_write_graph);
 }
 
 void rcl_lifecycle_answer_no_longer(const rcl_lifecycle_state_machine_t * state_machine)

@@ -8,7 +8,7 @@
 #if MICROROS_PARAMETERS_HELD
 #include "microros/rclc_parameter_held.h"
 #endif
-#include "rclc/publisher.h"
+#include "rcl/publisher.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -55,36 +55,17 @@ static const server_service_t server_offers[RCLC_EXECUTOR_PARAMETER_SERVER_HANDL
 };
 #endif
 
-#if !MICROROS_SERVICES_BY_PLACE
-static const char * const server_names[RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES] = {
-#if MICROROS_PARAMETERS_HELD
-  "~/exchange_parameters",
-#else
-  "~/describe_parameters", "~/get_parameter_types", "~/get_parameters",
-  "~/list_parameters",     "~/set_parameters",      "~/set_parameters_atomically",
-#endif
-};
-#endif
-
-/* The names of the services are constants, so they are not checked as those of an application. */
+/* The plan has the places of the services and of the publisher, in this order: none is looked for by its name. */
 static rcl_ret_t server_open(rclc_parameter_server_t * server, const rcl_node_t * node)
 {
-#if MICROROS_SERVICES_BY_PLACE
   uint16_t at = 0;
-#endif
 
   if (!rcl_node_is_valid(node)) {
     return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
   }
   for (uint32_t i = 0; i < (uint32_t)RCLC_EXECUTOR_PARAMETER_SERVER_HANDLES; ++i) {
-#if MICROROS_SERVICES_BY_PLACE
     const rcl_ret_t result = rmw_replier_open_by_place(
       node->impl, server_offers[i].type, (uint16_t)SERVER_DEPTH, &at, &server->services[i].impl);
-#else
-    const rcl_ret_t result = rmw_replier_open(
-      node->impl, server_offers[i].type, server_names[i], &rmw_qos_profile_parameters,
-      &server->services[i].impl);
-#endif
 
     if (result != RCL_RET_OK) {
       return result;
@@ -100,15 +81,8 @@ static rcl_ret_t server_open(rclc_parameter_server_t * server, const rcl_node_t 
   if (!server->notify_changed_over_dds) {
     return RCL_RET_OK;
   }
-#if MICROROS_PUBLISHERS_BY_PLACE
   return rmw_publisher_open_by_place(
     node->impl, &rclc_parameter_event_type, (uint16_t)SERVER_DEPTH, &server->event_publisher.impl);
-#else
-  /* The profile of the services equals rmw_qos_profile_parameter_events, of which it saves a copy. */
-  return rclc_publisher_init(
-    &server->event_publisher, node, &rclc_parameter_event_type, "/parameter_events",
-    &rmw_qos_profile_parameters);
-#endif
 #endif
 }
 

@@ -40,7 +40,7 @@ static bool publisher_fits(const xrce_endpoint_t * writer)
   return false;
 }
 
-rmw_publisher_t rmw_publishers[MICROROS_PUBLISHERS_MAX];
+rmw_publisher_t rmw_publishers[MICROROS_PUBLISHERS_MAX]; /* indexed by place */
 
 rmw_ret_t rmw_publisher_open(
   const rmw_node_t * node, const rosidl_message_type_support_t * type_support, const char * topic,

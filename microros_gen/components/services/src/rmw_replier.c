@@ -42,7 +42,7 @@ static void replier_put_u32(uint8_t * at, uint32_t value)
   xrce_put_le16(&at[2], (uint16_t)(value >> 16));
 }
 
-rmw_service_t rmw_repliers[MICROROS_SERVICES_MAX];
+rmw_service_t rmw_repliers[MICROROS_SERVICES_MAX]; /* indexed by place */
 
 static rmw_ret_t replier_open(
   const rmw_node_t * node, const rosidl_service_type_support_t * type_support, const char * name,

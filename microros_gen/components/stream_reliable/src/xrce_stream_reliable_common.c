@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the stream does alike with each kind of storage. */
+/* What the stream does with every kind of storage. */
 #include "microros/xrce_mark.h"
 #include "microros/xrce_stream_reliable.h"
 #include "microros/xrce_wire.h"

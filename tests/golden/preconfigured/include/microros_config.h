@@ -48,7 +48,6 @@
 #define MICROROS_SERVICES_MAX 0u
 #define MICROROS_CLIENTS_MAX 0u
 #define MICROROS_NODE_LOGGER_NAME_SIZE 6u
-#define MICROROS_PUBLISHERS_BY_PLACE 0u /* components open theirs without a name */
 
 /* memory */
 #define MICROROS_ARENA_SIZE 0u

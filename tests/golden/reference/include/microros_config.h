@@ -58,7 +58,6 @@
 #define MICROROS_HANDLES_MAX 2u /* of each executor */
 #define MICROROS_GUARD_CONDITIONS_MAX 0u
 #define MICROROS_WAIT_SETS_MAX 1u
-#define MICROROS_PUBLISHERS_BY_PLACE 0u /* components open theirs without a name */
 
 /* memory */
 #define MICROROS_ARENA_SIZE 0u

@@ -50,7 +50,6 @@
 #define MICROROS_NODE_LOGGER_NAME_SIZE 6u
 #define MICROROS_ROS_CLOCKS_MAX 1u
 #define MICROROS_JUMP_CALLBACKS_MAX 1u
-#define MICROROS_PUBLISHERS_BY_PLACE 0u /* components open theirs without a name */
 
 /* memory */
 #define MICROROS_ARENA_SIZE 0u

@@ -102,7 +102,7 @@ void cdr_get_string(cdr_in_t * in, rosidl_runtime_c__String * text, uint32_t bou
  */
 void cdr_get_wstring(cdr_in_t * in, rosidl_runtime_c__U16String * text, uint32_t bound, const char * field);
 
-/** Reads `count` consecutive strings. */
+/** Reads `count` consecutive strings, up to the first that is refused; those after it keep what they had. */
 void cdr_get_strings(
   cdr_in_t * in, rosidl_runtime_c__String * texts, size_t count, uint32_t bound, const char * field);
 void cdr_get_wstrings(

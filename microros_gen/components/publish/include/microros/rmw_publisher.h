@@ -25,7 +25,7 @@ rmw_ret_t rmw_publisher_open(
   const rmw_qos_profile_t * qos, rmw_publisher_t ** publisher);
 
 /*
- * For a component that opens its publishers by itself, if MICROROS_PUBLISHERS_BY_PLACE: the same with the first publisher of
+ * For a component that opens its publishers by itself, where nodes are declared: the same with the first publisher of
  * this type that the plan has for the node, reliable and volatile. */
 rmw_ret_t rmw_publisher_open_by_place(
   const rmw_node_t * node, const rosidl_message_type_support_t * type_support, uint16_t depth,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Whether a message is complete, for all that receives messages. Internal. */
+/* Whether a message is complete, for everything that receives messages. Internal. */
 #ifndef MICROROS_XRCE_WHOLE_H
 #define MICROROS_XRCE_WHOLE_H
 
@@ -16,6 +16,7 @@ static inline bool xrce_is_whole(const uint8_t * message, size_t size)
 {
   size_t at = XRCE_MESSAGE_HEADER;
 
+  /* The sum stands for the larger of both: a message comes from the agent or from a link. */
   /* at most (MICROROS_INPUT_SIZE + MICROROS_PEER_LARGEST) / 4 or MICROROS_INPUT_SIZE / 4 rounds */
   while (at + XRCE_SUBMESSAGE_HEADER <= size) {
     const size_t length = xrce_get_le16(&message[at + 2u]);
