@@ -248,10 +248,15 @@ class Sources:
         return most
 
     def _product(self, outer: Length, inner: Length) -> Length:
-        """Return the rounds of a loop that the compiler made of two, one of which is in the other."""
+        """Return the rounds of a loop that the compiler made of two, one of which is in the other.
+
+        Of an element that is refused, all rounds of the fixed loop are possible, for fewer bytes than it has.
+        """
         if not outer.rate or not inner.rate:
+            fixed = outer if inner.rate else inner
+            last = fixed.count if fixed.count > 1 and (outer.rate or inner.rate) else 0
             rate = outer.count * inner.rate + outer.rate * inner.count
-            return Length(outer.count * inner.count, rate=rate, apart=outer.apart or inner.apart)
+            return Length(outer.count * inner.count + last, rate=rate, apart=outer.apart or inner.apart)
         return Length(outer.of(self.body).count).times(inner, 0)
 
     @property
