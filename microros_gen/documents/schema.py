@@ -70,7 +70,7 @@ def _report(tree: YamlNode, difference: Difference, root: Schema, diagnostics: D
     elif keyword == "uniqueItems" and isinstance(node, SequenceNode):
         _report_twins(node, label, diagnostics)
     else:
-        message, hint = describe_mismatch(node, label, schema)
+        message, hint = describe_mismatch(node, label, schema, root)
         diagnostics.error(message, node.span, hint, id="MG-1005")
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from typing import Any
 
 from microros_gen.diagnostics import nearest
@@ -26,6 +27,13 @@ _TIMES = {
 }
 _RATES = {**dict.fromkeys(("hz", "hertz"), "Hz"), **dict.fromkeys(("khz", "kilohertz"), "kHz")}
 _PER_SECOND = {"s": 1, "ms": 1000, "us": 1_000_000}
+_VOLTS = {"v": 1000, "mv": 1}
+_NO_FACTORS: dict[str, int] = {}
+_LONGEST_BLOCK_MS = 60_000
+_LARGEST = 1e15
+"""From here on a number is not written out."""
+_MOST = 10**12
+"""A time or rate has at most 12 digits before its point."""
 
 
 def value_hint(node: ScalarNode, schema: dict[str, Any]) -> str | None:
@@ -35,26 +43,60 @@ def value_hint(node: ScalarNode, schema: dict[str, Any]) -> str | None:
         return _FORMS[form](node.text)
     kinds = schema.get("type", [])
     numeric = {"integer", "number"} & {*([kinds] if isinstance(kinds, str) else kinds)}
-    return _number(node, schema) if numeric else None
+    return _number(node, schema, is_whole="number" not in numeric) if numeric else None
 
 
-def _number(node: ScalarNode, schema: dict[str, Any]) -> str | None:
+def _number(node: ScalarNode, schema: dict[str, Any], *, is_whole: bool) -> str | None:
     """Return what to write instead of a scalar that is no number, or one out of the range of `schema`."""
-    if isinstance(node.value, str):
-        if not node.plain and _NUMBER.fullmatch(node.text):
-            return "Remove the quotes"
-        found = _WITH_UNIT.fullmatch(node.text)
-        unit = _BYTES.get(found["unit"].lower()) if found else None
-        return f"Write {round(float(found['number']) * _FACTORS[unit])}" if found and unit else None
-    if isinstance(node.value, bool) or not isinstance(node.value, (int, float)):
+    value = node.value
+    factors = _VOLTS if schema.get("x-format") == "millivolts" else _NO_FACTORS
+    if isinstance(value, bool) or not isinstance(value, (int, float, str)):
         return None
+    if isinstance(value, str):
+        is_quoted = not node.plain and _NUMBER.fullmatch(node.text) is not None
+        number = _value_of(node.text) if is_quoted else _with_unit(node.text, factors)
+        if number is None:
+            return None
+    else:
+        is_quoted, number = False, value
+        if isinstance(value, float) and not value.is_integer() and factors:
+            number = round(value * factors["v"]) if abs(value) < _LARGEST else value
+    return _in_range(number, schema) or _as_number(number, value, is_quoted=is_quoted, is_whole=is_whole)
+
+
+def _as_number(number: float, value: object, *, is_quoted: bool, is_whole: bool) -> str | None:
+    """Return how a number is written that is in the range."""
+    if not abs(number) < _LARGEST or (is_whole and isinstance(number, float) and not number.is_integer()):
+        return "Write a whole number" if is_whole else None
+    if is_quoted:
+        return "Remove the quotes"
+    return f"Write {int(number)}" if number != value and float(number).is_integer() else None
+
+
+def _in_range(number: float, schema: dict[str, Any]) -> str | None:
+    """Return the hint for a number that is out of the range of a schema."""
     low, high = schema.get("minimum"), schema.get("maximum")
-    if low is not None and node.value < low:
+    if low is not None and number < low:
         return f"Write {low} or more"
-    if high is not None and node.value > high:
-        return f"Write {high} or less"
-    whole = isinstance(node.value, float) and abs(node.value) < 1e15
-    return f"Write {int(node.value)}" if whole else None
+    return f"Write {high} or less" if high is not None and number > high else None
+
+
+def _value_of(text: str) -> float:
+    """Return the number that a text is."""
+    if text.startswith("0x"):
+        return int(text, 16)
+    number = float(text)
+    return int(number) if number.is_integer() else number
+
+
+def _with_unit(text: str, factors: Mapping[str, int]) -> int | None:
+    """Return the whole number that a text with a unit means; `factors`: other units than those of sizes."""
+    found = _WITH_UNIT.fullmatch(text)
+    if found is None:
+        return None
+    unit = found["unit"].lower()
+    factor = factors.get(unit) if factors else _FACTORS.get(_BYTES.get(unit, ""))
+    return round(float(found["number"]) * factor) if factor is not None else None
 
 
 def _time(text: str) -> str | None:
@@ -62,11 +104,13 @@ def _time(text: str) -> str | None:
     if found is None:
         return None
     number, unit = found["number"], found["unit"].lower()
+    if not float(number):
+        return "Write a time above 0 such as 20 ms"
     if unit in _TIMES:
         return f"Write {number} {_TIMES[unit]}"
-    if unit in _RATES and float(number) > 0:
-        milliseconds = 1000 / float(number) / (1000 if _RATES[unit] == "kHz" else 1)
-        return f"Write {_decimal(milliseconds)} ms, the period of {number} {_RATES[unit]}"
+    if unit in _RATES:
+        milliseconds = _decimal(1000 / float(number) / (1000 if _RATES[unit] == "kHz" else 1))
+        return f"Write {milliseconds} ms, the period of {number} {_RATES[unit]}" if milliseconds else None
     return f"Add the unit: {number} ms or {number} s" if not unit else None
 
 
@@ -76,7 +120,8 @@ def _rate(text: str) -> str | None:
         return "Remove the key" if found is not None else None
     number, unit = found["number"], found["unit"].lower()
     if unit in _TIMES:
-        return f"Write {_decimal(_PER_SECOND[_TIMES[unit]] / float(number))} Hz"
+        rate = _decimal(_PER_SECOND[_TIMES[unit]] / float(number))
+        return f"Write {rate} Hz" if rate else None
     return f"Write {number} {_RATES[unit or 'hz']}" if unit in ("", *_RATES) else None
 
 
@@ -85,9 +130,10 @@ def _size(text: str) -> str | None:
     unit = _BYTES.get(found["unit"].lower() or "b") if found else None
     if found is None or unit is None:
         return None
-    if "." in found["number"]:
-        return f"Write {round(float(found['number']) * _FACTORS[unit])}"
-    return f"Write {found['number']} {unit}"
+    size = round(float(found["number"]) * _FACTORS[unit])
+    if not size:
+        return "Write a size above 0 such as 2 kB"
+    return f"Write {size}" if "." in found["number"] else f"Write {found['number']} {unit}"
 
 
 def _on_full(text: str) -> str | None:
@@ -96,13 +142,18 @@ def _on_full(text: str) -> str | None:
         return nearest(text, ["error", "drop_oldest", "block 20 ms"])
     found = _WITH_UNIT.fullmatch(time)
     unit = _TIMES.get(found["unit"].lower() or "ms") if found else None
-    if found is None or unit not in ("ms", "s"):
+    if found is None or unit is None:
         return "Write block 20 ms"
-    return f"Write block {round(float(found['number']))} {unit}"
+    milliseconds = round(float(found["number"]) * 1000 / _PER_SECOND[unit])
+    milliseconds = min(max(milliseconds, 1), _LONGEST_BLOCK_MS)
+    is_whole = milliseconds % 1000 == 0
+    return f"Write block {milliseconds // 1000} s" if is_whole else f"Write block {milliseconds} ms"
 
 
 def _decimal(value: float) -> str:
-    return f"{value:.6f}".rstrip("0").rstrip(".")
+    """Return a number with six decimals at most; empty: it would be 0, or has too many digits."""
+    text = f"{value:.6f}".rstrip("0").rstrip(".")
+    return text if text != "0" and value < _MOST else ""
 
 
 _FORMS = {"time": _time, "rate": _rate, "size": _size, "on_full": _on_full}

@@ -9,6 +9,7 @@ from difflib import get_close_matches
 from typing import Any
 
 from microros_gen.diagnostics import nearest
+from microros_gen.documents.schema_check import differences
 from microros_gen.documents.schema_values import value_hint
 from microros_gen.documents.yaml_tree import MappingNode, ScalarNode, SequenceNode, YamlNode
 
@@ -23,7 +24,7 @@ _TYPES = {
 _OLD_BOOLEANS = {"yes": "true", "on": "true", "y": "true", "no": "false", "off": "false", "n": "false"}
 # `pkg/Type`, and what C++, Python and IDL write
 _LOOSE_TYPE = re.compile(
-    r"([a-z][a-z0-9_]*)(?:/|::|\.)(?:(?:msg|srv|action)(?:/|::|\.))?([A-Za-z][A-Za-z0-9_]*)"
+    r"([a-z][a-z0-9_]*)(?:/|::|\.)(?:(msg|srv|action)(?:/|::|\.))?([A-Za-z][A-Za-z0-9_]*)"
 )
 _QOS_PROFILES = {
     "sensor_data": "{reliability: best_effort, depth: 5}",
@@ -39,17 +40,21 @@ _QOS_PROFILES = {
 _MISSPELLED = 0.8
 """Likeness of two words from which on one is taken for the other, though it is a key of another place."""
 _KINDS_OF_TYPE = ("msg", "srv", "action")
+_ANY_KIND = "interface"
+"""`x-format` of a package or a type of any kind."""
 _WORDS = re.compile(r"\^\(([a-z_|]+)\)\$")
 """A pattern of words, one of which may stand in place of a list."""
 _OLD_NUMBER = re.compile(r"[-+]?([0-9][0-9_]*(:[0-5]?[0-9])+|[0-9]+(_[0-9]+)+|0b[01]+)")
 
 
-def describe_mismatch(node: YamlNode, label: str, schema: dict[str, Any]) -> tuple[str, str | None]:
-    """Return message and hint for a value that is not what `schema` asks for."""
+def describe_mismatch(
+    node: YamlNode, label: str, schema: dict[str, Any], root: dict[str, Any]
+) -> tuple[str, str | None]:
+    """Return message and hint for a value that is not what `schema`, a part of `root`, asks for."""
     what = f"'{label}'" if label else "the file"
     if isinstance(node, ScalarNode) and node.value == "" and schema.get("minLength"):
         return f"{what} must not be empty", "Write a text, or remove the key"
-    hint = _hint(node, schema) if label else "Write `key: value` lines"
+    hint = _hint(node, schema, root) if label else "Write `key: value` lines"
     if isinstance(node, MappingNode) and 0 < len(node.entries) < schema.get("minProperties", 0):
         return f"{what} must be {expectation(schema)}; it has {len(node.entries)}", hint
     return f"{what} must be {expectation(schema)}; it is {found(node)}", hint
@@ -73,19 +78,34 @@ def describe_unknown_key(
     known = [k for k, value in schema.get("properties", {}).items() if "x-reserved" not in value]
     if get_close_matches(key, known, cutoff=_MISSPELLED):
         return f"unknown key '{key}' in {where}", nearest(key, known)
-    owners = [f"`{owner}`" for owner in _owners(key, root, root, "", frozenset()) if owner and owner != label]
+    place = re.sub(r"\[[0-9]+\]", "[]", label)
+    owners = {
+        owner: (up := _levels_up(place, owner), -len(keys & {*known}) if up else 0, len(owner), owner)
+        for owner, keys in _owners(key, root, root, "", frozenset())
+        if owner not in ("", place)
+    }
     if owners:
+        closest = sorted(owners, key=lambda owner: owners[owner])[:2]
         return (
             f"unknown key '{key}' in {where}",
-            f"It is a key of {' and '.join(sorted(owners, key=len)[:2])}",
+            f"It is a key of {' and '.join(f'`{owner}`' for owner in closest)}",
         )
     return f"unknown key '{key}' in {where}", nearest(key, known) or f"Known: {', '.join(known)}"
 
 
+def _levels_up(place: str, owner: str) -> int:
+    """Return how far up from a place everything begins that an owner of a key is in; 0: it is below the place."""
+    steps, others = (re.findall(r"\w+|\[.*?\]", label) for label in (place, owner))
+    common = 0
+    while common < min(len(steps), len(others)) and steps[common] == others[common]:
+        common += 1
+    return len(steps) - common
+
+
 def _owners(
     key: str, schema: dict[str, Any], root: dict[str, Any], label: str, seen: frozenset[str]
-) -> Iterator[str]:
-    """Yield the labels of all mappings of `schema` that have a key; a definition within itself is not searched."""
+) -> Iterator[tuple[str, frozenset[str]]]:
+    """Yield labels and keys of all mappings of `schema` that have a key; a definition in itself is not searched."""
     reference = schema.get("$ref", "")
     if reference in seen:
         return
@@ -93,7 +113,7 @@ def _owners(
         schema, seen = root["$defs"][reference.removeprefix("#/$defs/")], seen | {reference}
     properties = schema.get("properties", {})
     if key in properties and "x-reserved" not in properties[key]:
-        yield label
+        yield label, frozenset(properties)
     for name, part in properties.items():
         yield from _owners(key, part, root, f"{label}.{name}".lstrip("."), seen)
     if isinstance(schema.get("items"), dict):
@@ -136,11 +156,11 @@ def found(node: YamlNode) -> str:
     return str(node.text)
 
 
-def _hint(node: YamlNode, schema: dict[str, Any]) -> str | None:
+def _hint(node: YamlNode, schema: dict[str, Any], root: dict[str, Any]) -> str | None:
     kinds = schema.get("type", [])
     kinds = [kinds] if isinstance(kinds, str) else kinds
     if isinstance(node, ScalarNode):
-        return _scalar_hint(node, kinds, schema)
+        return _scalar_hint(node, kinds, schema, root)
     if isinstance(node, SequenceNode) and not node.items and "array" in kinds:
         return "Add an item, or remove the key"
     if isinstance(node, MappingNode) and "array" in kinds and "object" not in kinds:
@@ -157,7 +177,9 @@ def _empty_hint(kinds: list[str]) -> str:
     )
 
 
-def _scalar_hint(node: ScalarNode, kinds: list[str], schema: dict[str, Any]) -> str | None:
+def _scalar_hint(
+    node: ScalarNode, kinds: list[str], schema: dict[str, Any], root: dict[str, Any]
+) -> str | None:
     text = node.text
     if schema.get("x-format") == "version":
         if node.text == str(schema["const"]):
@@ -186,23 +208,32 @@ def _scalar_hint(node: ScalarNode, kinds: list[str], schema: dict[str, Any]) -> 
     if profile is not None and "reliability" in schema.get("properties", {}):
         return f"Write `qos: {profile}`"
     if kinds == ["object"]:
-        return _item_hint(text, schema)
+        return _item_hint(node, schema, root)
     corrected = _full_type(text, schema.get("x-format"))
     return f"Write {corrected}" if corrected else value_hint(node, schema)
 
 
-def _item_hint(text: str, schema: dict[str, Any]) -> str | None:
-    """Return how a mapping is written of which there is only a text, the value of its first key."""
+def _item_hint(node: ScalarNode, schema: dict[str, Any], root: dict[str, Any]) -> str | None:
+    """Return how a mapping is written of which there is only a text, a valid value of its first key."""
     first, *others = schema.get("required", [])[:2] or [None]
-    if first is None or not re.fullmatch(r"[\w/~-]+", text):
+    if first is None or not re.fullmatch(r"[\w/~-]+", node.text):
         return None
-    return f"Write {{{first}: {text}{', …' if others else ''}}}"
+    wanted = {**schema.get("properties", {}).get(first, {}), "$defs": root.get("$defs", {})}
+    if any(True for _ in differences(node.value, wanted)):
+        return None
+    return f"Write {{{first}: {node.text}{', …' if others else ''}}}"
 
 
 def _full_type(text: str, kind: str | None) -> str | None:
-    match = _LOOSE_TYPE.fullmatch(text) if kind in _KINDS_OF_TYPE else None
+    if kind not in (*_KINDS_OF_TYPE, _ANY_KIND):
+        return None
+    match = _LOOSE_TYPE.fullmatch(text)
     if match is None:
         return None
-    name = match.group(2)
+    package, written, name = match.groups()
+    if kind == _ANY_KIND:
+        kind = written or "msg"
+        if written is None and name in _KINDS_OF_TYPE:
+            return f"{package}/{name}"
     words = name if name[:1].isupper() else "".join(word[:1].upper() + word[1:] for word in name.split("_"))
-    return f"{match.group(1)}/{kind}/{words}"
+    return f"{package}/{kind}/{words}"

@@ -83,7 +83,9 @@ def _warn_about_budgets(package: PackageDescription, request: Request, found: Di
     memory = request.application.memory
     if memory.has_budget:
         place = memory.ram_span or memory.flash_span or memory.stack_span
-        message = f"the package {package.name} does not check the budgets of `memory:`, since nothing is compiled"
+        message = (
+            f"the package {package.name} does not check the budgets of `memory:`, since nothing is compiled"
+        )
         hint = f"Check them in a build: microros-gen build -c {request.config or 'FILE'}"
         found.warning(message, place, hint, id="MG-9210")
 

@@ -136,6 +136,18 @@ def test_errors_say_where_what_and_what_to_do(text: str, messages: str) -> None:
         ("string<=", "For example 'string<=10 name'"),
         ("uint8[ a", "Write 'uint8[] a'"),
         ("uint8[ 3] a", "Write 'uint8[3] a'"),
+        ("uint8[ 3 ] a", "Write 'uint8[3] a'"),
+        ("uint8[3 ] a", "Write 'uint8[3] a'"),
+        ("uint8[<= 3] a", "Write 'uint8[<=3] a'"),
+        ("uint8[ <= 3 ] a", "Write 'uint8[<=3] a'"),
+        ("string<=5[ 3] a", "Write 'string<=5[3] a'"),
+        ("string<10 a", "Write 'string<=10 a'"),
+        ("string< 10 a", "Write 'string<=10 a'"),
+        ("string<= 10 a", "Write 'string<=10 a'"),
+        ("wstring<10> a", "Write 'wstring<=10 a'"),
+        ("sequence<int32> a", "A sequence is written 'type[]', one of at most 10 elements 'type[<=10]'"),
+        ("std::list<int> a", "A sequence is written 'type[]', one of at most 10 elements 'type[<=10]'"),
+        ("Other<int> a", "expected '/' or '[' or a space, found '<'"),
         ("int32[3]a", "Write 'int32[3] a'"),
         ("// a comment", "write '# a comment'"),
         ("---", "Remove the line: only services (.srv) and actions (.action) have parts"),
@@ -157,6 +169,27 @@ def test_the_hint_can_be_pasted(text: str, hint: str) -> None:
     message, found = read(text)
     assert message is None
     assert any(line.endswith(hint) for line in found), found
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        ("unsigned char a", "uint8 a"),
+        ("unsigned short a 5", "uint16 a 5"),
+        ("unsigned int a", "uint32 a"),
+        ("unsigned long a", "uint64 a"),
+        ("unsigned long long a", "uint64 a"),
+        ("unsigned short int a", "uint16 a"),
+        ("unsigned int A=5", "uint32 A=5"),
+        ("unsigned a", "uint32"),
+    ],
+)
+def test_an_unsigned_type_of_c_is_one_mistake(text: str, hint: str) -> None:
+    message, found = read(text)
+    assert message is None
+    assert len(found) == 1, found
+    assert found[0].endswith(f"Write '{hint}'"), found
+    assert read(hint if " " in hint else f"{hint} a")[0] is not None
 
 
 def test_every_faulty_line_is_reported_in_one_run() -> None:

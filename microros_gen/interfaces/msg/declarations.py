@@ -11,7 +11,7 @@ from typing import Any
 from microros_gen.diagnostics import Diagnostics, Source, Span
 from microros_gen.interfaces.msg import names as msg_names
 from microros_gen.interfaces.msg.fault import Fault
-from microros_gen.interfaces.msg.hints import type_hint
+from microros_gen.interfaces.msg.hints import is_unsigned_of_c, type_hint
 from microros_gen.interfaces.msg.syntax import Node, Word
 from microros_gen.interfaces.msg.values import (
     InvalidValueError,
@@ -85,6 +85,10 @@ class _DeclarationError(Exception):
 
 def read_declaration(tree: Node, line: Line, package: str, diagnostics: Diagnostics) -> Declaration | None:
     """Return what `tree` declares, or None with errors in `diagnostics`; `package` is that of the file."""
+    if is_unsigned_of_c(line.text):  # two words are the type: the second one is no name
+        with _reported(diagnostics):
+            _field_type(tree.children[0], line, package)
+        return None
     if tree.data == "constant":
         return _constant(tree, line, diagnostics)
     return _field(tree, line, package, diagnostics)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 from typing import Any
 
@@ -33,6 +34,9 @@ _WORDS = {
     "_COMMA": "','",
     "$END": "the end of the line",
 }
+_SEQUENCES = ("sequence", "vector", "list")
+"""Sequences of IDL and C++: `sequence<T>`, `std::vector<T>`."""
+_BOUNDED_TEXT = re.compile(r"(w?string)(?:<=|<) *([0-9]+) *>? *")
 
 
 def parse(text: str) -> Node | None:
@@ -101,6 +105,9 @@ def _syntax_hint(text: str, column: int, expected: set[str]) -> str | None:
         return f"A comment begins with '#': write '#{text.lstrip('/')}'"
     if text.strip("-") == "":
         return "Remove the line: only services (.srv) and actions (.action) have parts"
+    corrected = _without_spaces(text, column) or _bounded_text(text)
+    if corrected is not None:
+        return f"Write '{corrected}'"
     if expected == {"BOUND"}:
         return f"For example '{before}10{rest or ' name'}'"
     if expected == {"_GAP"} and rest[:1].isalpha():
@@ -110,6 +117,22 @@ def _syntax_hint(text: str, column: int, expected: set[str]) -> str | None:
     return _extent_hint(before, rest, expected)
 
 
+def _without_spaces(text: str, column: int) -> str | None:
+    """Return a declaration without the spaces of the size that has `column`; None if it has none, or other faults."""
+    opening, closing = text.rfind("[", 0, column), text.find("]", column - 1)
+    if opening < 0 or closing < 0:
+        return None
+    corrected = f"{text[:opening]}{text[opening:closing].replace(' ', '')}{text[closing:]}"
+    return corrected if corrected != text and parse(corrected) is not None else None
+
+
+def _bounded_text(text: str) -> str | None:
+    """Return the declaration of a string whose bound is written with spaces, or as IDL has it: `string<10>`."""
+    found = _BOUNDED_TEXT.match(text)
+    corrected = f"{found[1]}<={found[2]} {text[found.end() :]}" if found is not None else ""
+    return corrected if found is not None and parse(corrected) is not None else None
+
+
 def _extent_hint(before: str, rest: str, expected: set[str]) -> str | None:
     """Return the hint for a line that leaves the grammar at a size, a bound or a default."""
     if expected == {"_GAP"} and rest.startswith("["):
@@ -117,11 +140,10 @@ def _extent_hint(before: str, rest: str, expected: set[str]) -> str | None:
     if expected == {"_OPEN"}:
         return "The default of an array is written '[1, 2]'"
     if "_AT_MOST" in expected and rest.startswith(" "):
-        sized = rest.partition("]")[1] != ""
-        return f"Write '{before}{rest.replace(' ', '', 1)}'" if sized else f"Write '{before}]{rest}'"
+        return f"Write '{before}]{rest}'"
     if "_GAP" in expected and rest.startswith("<="):
         return "Only strings have a bound here, written 'string<=10'; that of a sequence is 'type[<=10]'"
-    if "_GAP" in expected and rest.startswith("<"):
+    if "_GAP" in expected and rest.startswith("<") and before.rpartition(":")[2] in _SEQUENCES:
         return "A sequence is written 'type[]', one of at most 10 elements 'type[<=10]'"
     if "QUOTED" in expected and rest[:1] in ("'", '"'):
         return "The quote is not closed"

@@ -19,6 +19,14 @@ _OTHER_LANGUAGES = {
     },
     **{"float": "float32", "double": "float64", "str": "string", "wchar": "wstring"},
 }
+_UNSIGNED = re.compile(r"unsigned +(char|short|int|long long|long)(?: +int)?(?= )")
+_UNSIGNED_TYPES = {
+    "char": "uint8",
+    "short": "uint16",
+    "int": "uint32",
+    "long": "uint64",
+    "long long": "uint64",
+}
 _NO_TYPES = {
     "enum": "Write a constant for each value: 'uint8 FIRST=0'",
     "struct": "Write its fields into a separate .msg file",
@@ -29,8 +37,16 @@ _SCOPED = re.compile(r"([a-z][a-z0-9_]*)(?:::|[.])(?:msg(?:::|[.]))?([A-Z][A-Za-
 """A type as C++ and Python write it."""
 
 
+def is_unsigned_of_c(declaration: str) -> bool:
+    """Return whether a declaration begins with a type of C of several words, such as `unsigned char`."""
+    return _UNSIGNED.match(declaration) is not None
+
+
 def type_hint(name: str, declaration: str, primitives: Iterable[str]) -> str | None:
     """Return what to write instead of the type `name` of a declaration; None if nothing is like it."""
+    unsigned = _UNSIGNED.match(declaration) if name == "unsigned" else None
+    if unsigned is not None:
+        return f"Write '{_UNSIGNED_TYPES[unsigned[1]]}{declaration[unsigned.end() :]}'"
     if name in _OTHER_LANGUAGES:
         return f"Write '{_OTHER_LANGUAGES[name]}'"
     if name in _NO_TYPES:
