@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection
+from difflib import get_close_matches
 
 from microros_gen.diagnostics import Diagnostics, Span, nearest
 from microros_gen.documents.tree_values import text_of
@@ -65,8 +66,9 @@ def parse_status(node: YamlNode, part: Subject, diagnostics: Diagnostics) -> Sta
 
 def _meant(text: str, part: Subject) -> str | None:
     """Return a hint for a mode without its state, or with another character than a dot before it."""
-    mode = _BEFORE_MODE.split(text)[-1]
-    return f"Write {ACTIVE}.{mode}" if mode in part.modes else None
+    *before, mode = _BEFORE_MODE.split(text)
+    is_active = not before or get_close_matches(" ".join(before), STATES, n=1) == [ACTIVE]
+    return f"Write {ACTIVE}.{mode}" if mode in part.modes and is_active else None
 
 
 def _is_known(mode: str, span: Span, part: Subject, diagnostics: Diagnostics) -> bool:

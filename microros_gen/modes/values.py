@@ -64,7 +64,10 @@ def _meant(node: ScalarNode) -> str:
     """Return the template that a text is meant to be; empty: it is a text."""
     like = _LIKE_TEMPLATE.fullmatch(node.text)
     is_close = like is not None and nearest(like[1], ("parent",)) is not None
-    return f"$(parent {like[2] or 'NAME'})" if like is not None and is_close else ""
+    if like is None or not is_close:
+        return ""
+    meant = f"$(parent {like[2]})"
+    return meant if _TEMPLATE.fullmatch(meant) else "$(parent NAME)"
 
 
 def type_of(value: Scalar | tuple[Scalar, ...] | None) -> str:

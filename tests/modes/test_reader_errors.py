@@ -153,6 +153,9 @@ CASES = [
     ("base: active.DRIVE", "base: DRIVE", "MG-8814", "DRIVE", "unknown state 'DRIVE'. Write active.DRIVE"),
     ("base: active.DRIVE", "base: active DRIVE", "MG-8814", "active DRIVE", "Write active.DRIVE"),
     ("base: active.DRIVE", "base: active/DRIVE", "MG-8814", "active/DRIVE", "Write active.DRIVE"),
+    ("base: active.DRIVE", "base: Activ DRIVE", "MG-8814", "Activ DRIVE", "Write active.DRIVE"),
+    ("base: active.DRIVE", "base: inactive DRIVE", "MG-8814", "inactive DRIVE", "Did you mean 'inactive'?"),
+    ("base: active.DRIVE", "base: not-DRIVE", "MG-8814", "not-DRIVE", "Did you mean 'inactive'?"),
     (
         "base: active.DRIVE",
         "base: unconfigured",
@@ -209,6 +212,8 @@ CASES = [
             ("$(parents limit)", "$(parent limit)"),
             ("$( parent limit )", "$(parent limit)"),
             ("$(parent)", "$(parent NAME)"),
+            ("$(parent 2nd)", "$(parent NAME)"),
+            ("$( parents 2nd )", "$(parent NAME)"),
         )
     ),
     (
