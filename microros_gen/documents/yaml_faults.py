@@ -67,6 +67,8 @@ _FAULTS: tuple[tuple[str, str, str | None], ...] = (
     ),
 )
 
+_BOM = "\ufeff"
+_TRIED = 8
 _ODD_SPACE = re.compile(r" *[\u00a0\u2000-\u200b\u202f\u3000\ufeff]")
 
 
@@ -87,7 +89,7 @@ def _marked(source: Source, error: yaml.MarkedYAMLError) -> Diagnostic:
     span = Span(source, mark.line + 1, mark.column + 1) if mark else Span(source, 1, 1)
     if error.context_mark and _begins_before(source, problem, error.context_mark, span):
         span = Span(source, error.context_mark.line + 1, error.context_mark.column + 1)
-    tab, space = _tab_in_indent(source, span.line), _odd_space(source, span.line)
+    tab, space = _tab_in_indent(source, span.line), _odd_space(source, span.line, error)
     if tab:
         span, problem = tab, r"'\t'"
     if space:
@@ -109,10 +111,34 @@ def _begins_before(source: Source, problem: str, mark: yaml.Mark, span: Span) ->
     return "expected ','" in problem and span.line > mark.line + 1 and ended
 
 
-def _odd_space(source: Source, last: int) -> Span | None:
-    """Return the place of what looks like a space and is none before the text of a line up to `last`."""
-    found = ((number, _ODD_SPACE.match(source.line(number))) for number in range(1, last + 1))
-    return next((Span(source, number, match.end()) for number, match in found if match), None)
+def _odd_space(source: Source, last: int, error: yaml.MarkedYAMLError) -> Span | None:
+    """Return the place of what looks like a space before the text of a line up to `last`, and causes `error`.
+
+    It does not where the text has the same fault with an ordinary space. Only the last few such lines are tried.
+    """
+    found = []
+    for number in range(1, last + 1):
+        line = source.line(number)
+        match = _ODD_SPACE.match(line, 1 if number == 1 and line.startswith(_BOM) else 0)
+        if match:
+            found.append((number, match.end()))
+    for number, column in found[-_TRIED:]:
+        lines = source.text.splitlines(keepends=True)
+        lines[number - 1] = f"{lines[number - 1][: column - 1]} {lines[number - 1][column:]}"
+        if _fault_of("".join(lines)) != (error.problem, error.problem_mark and error.problem_mark.line):
+            return Span(source, number, column)
+    return None
+
+
+def _fault_of(text: str) -> tuple[str | None, int | None] | None:
+    """Return what PyYAML says of a text, and the line; None: it can be read."""
+    try:
+        yaml.compose(text, Loader=yaml.BaseLoader)
+    except yaml.MarkedYAMLError as error:
+        return error.problem, error.problem_mark and error.problem_mark.line
+    except (yaml.YAMLError, RecursionError):
+        return None
+    return None
 
 
 def _tab_in_indent(source: Source, line: int) -> Span | None:

@@ -97,6 +97,22 @@ FAULTS = {
         "a:\n\u00a0 - b: 1\n   c: 2\n",
         "f:2:1: error: not valid YAML: a character that looks like a space and is none. Replace",
     ),
+    "no-break space after one in a text": (
+        "t: |\n  x\n  \u00a0y\na:\n\u00a0 - b: 1\n   c: 2\n",
+        "f:5:1: error: not valid YAML: a character that looks like a space and is none. Replace",
+    ),
+    "byte order mark": (
+        "\ufeffnodes: [a\n",
+        "f:1:8: error: not valid YAML: a list in [ ] is not closed or lacks a comma. Add",
+    ),
+    "no-break space in a text": (
+        "t: |\n  x\n  \u00a0y\nnodes: [a\n",
+        "f:4:8: error: not valid YAML: a list in [ ] is not closed or lacks a comma. Add",
+    ),
+    "no-break space in a text of the same mapping": (
+        "t: |\n  \u00a0y\n- b\n",
+        "f:3:1: error: not valid YAML: a list item where a key was expected. Indent",
+    ),
     "alias": (
         "a: *x\n",
         "f:1:4: error: not valid YAML: an alias (*) to a name that no anchor (&) gives. Quote",
