@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -128,7 +129,7 @@ FOLDERS = {
     "nuttx": ("robot/Makefile", "-Iinclude", "-Ilib/imu"),
     "pico": ("CMakeLists.txt", '"src/include"', '"src/lib/imu"'),
     "platformio": ("platformio.ini", '"-Isrc/include"', '"-Isrc/lib/imu"'),
-    "stm32cube": ("microros_app.mk", "-I$(MICROROS_APP)/src/include ", "-I$(MICROROS_APP)/src/lib/imu\n"),
+    "stm32cube": ("microros_app.mk", "'-I$(MICROROS_APP)/src/include' ", "'-I$(MICROROS_APP)/src/lib/imu'\n"),
     "zephyr": ("CMakeLists.txt", '"src/include"', '"src/lib/imu"'),
 }
 
@@ -144,6 +145,23 @@ def test_the_sources_find_headers_in_other_folders(run: Runner, sources: Path, n
     file, *folders = FOLDERS[name]
     text = (sources.parent / "robot" / file).read_text()
     assert [folder for folder in folders if folder not in text] == []
+
+
+def test_make_passes_folders_with_spaces_and_dollars(run: Runner, sources: Path) -> None:
+    names = ("my inc", "a$b", "c#d")
+    for index, name in enumerate(names):
+        (sources / name).mkdir()
+        (sources / name / f"gains_{index}.h").write_text("")
+    (sources / "more.c").write_text("".join(f'#include "gains_{index}.h"\n' for index in range(len(names))))
+    assert run("init", "robot", "--platform", "stm32cube", "--from", str(sources)).status == 0
+    robot = sources.parent / "robot"
+    included = (robot / "microros_app.mk").read_text().rpartition("include $(MICROROS_APP)/")[2].strip()
+    (robot / included).parent.mkdir(parents=True, exist_ok=True)
+    (robot / included).write_text("")
+    makefile = sources.parent / "Makefile"
+    makefile.write_text("include robot/microros_app.mk\nall:\n\t@printf '%s\\n' $(C_INCLUDES)\n")
+    made = subprocess.run(["make", "-s"], cwd=makefile.parent, check=True, capture_output=True, text=True)
+    assert {f"-Irobot/src/{name}" for name in names} <= {*made.stdout.splitlines()}
 
 
 def test_the_projects_that_have_include_folders_are_all_but_sketchbooks() -> None:
