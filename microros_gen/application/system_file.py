@@ -116,7 +116,10 @@ def _check_address(text: str, span: Span | None, diagnostics: Diagnostics) -> No
         wrong, example = "no IPv4 or IPv6 address with a port", "192.168.1.20:7500"
     else:
         host = ipaddress.ip_address(address[0])
-        if not (host.is_unspecified or host.is_multicast or str(host) == "255.255.255.255"):
+        if isinstance(host, ipaddress.IPv6Address):
+            host = host.ipv4_mapped or host
+        is_reserved = host.version == 4 and host.is_reserved  # RFC 1112, 4; of IPv6 it would be `::1`, too
+        if not (host.is_unspecified or host.is_multicast or is_reserved):
             return
         wrong, example = "not the address of one board", f"192.168.1.20:{address[1]}"
     hint = f"Write the address of this board as {example}"

@@ -172,6 +172,9 @@ def test_interface_files_that_differ(tmp_path: Path) -> None:
         (SYSTEM.replace("10.0.0.2", "239.0.0.1"), "'239.0.0.1:7500' is not the address of one board"),
         (SYSTEM.replace("10.0.0.2", "[ff02::1]"), "'[ff02::1]:7500' is not the address of one board"),
         (SYSTEM.replace("10.0.0.2", "255.255.255.255"), "is not the address of one board"),
+        (SYSTEM.replace("10.0.0.2", "240.0.0.1"), "'240.0.0.1:7500' is not the address of one board"),
+        (SYSTEM.replace("10.0.0.2", "[::ffff:0.0.0.0]"), "'[::ffff:0.0.0.0]:7500' is not the address of one"),
+        (SYSTEM.replace("10.0.0.2", "[::ffff:224.0.0.1]"), "is not the address of one board"),
         (
             SYSTEM + SYSTEM[SYSTEM.index("  - {type") :].replace("7500", "7501"),
             "system.yaml:7:5: error: two links join 'sensor' and 'motor'; the first is in line 6",
