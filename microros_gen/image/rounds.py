@@ -224,8 +224,13 @@ class Sources:
 
         `ends` are the lines where it is left, `own` its lines but those of loops within it, and `inner` the lines where
         these are left; each may be of a function that was inlined. The compiler makes one loop of two where the outer
-        one begins with the inner one: then the numbers of both are multiplied.
+        one begins with the inner one: then the numbers of both are multiplied. What copies bytes at one line, in a loop
+        that no source has, is made by the compiler of a call whose comment has the number of bytes.
         """
+        own, inner = tuple(own), tuple(inner)
+        copied = [] if inner else [self.size(place) for place in own]
+        if copied and all(size is not None and size >= 0 for size in copied):
+            return Length(max(size for size in copied if size is not None))
         left, within = self._loops_of(ends), self._loops_of(inner)
         if not left:
             return "no line of a source"

@@ -78,6 +78,17 @@ def test_of_several_loops_the_largest_counts_and_one_without_a_bound_is_enough()
     assert rounds("a = 1;", 1) == "no line of a source"
 
 
+def test_a_copy_that_the_compiler_makes_a_loop_has_no_more_rounds_than_bytes() -> None:
+    text = "/* at most 4 * FIRST bytes */\nmemcpy(a, b, 16);\n"
+    assert of_lines(text, ends=[2], own=[2]) == 16
+    assert of_lines(f"for (;;) {{\n{text}}}\n", ends=[3], own=[3]) == 16, "in a loop of the source"
+    assert of_lines(text.replace("FIRST", "NONE"), ends=[2], own=[2]) == "no line of a source"
+    assert of_lines(f"{text}b();\n", ends=[2], own=[2, 3]) == "no line of a source", "more than the copy"
+    assert of_lines(text, ends=[2], own=[2], inner=[2]) == "no line of a source"
+    read = text.replace("4 * FIRST", "BYTES_READ")
+    assert of_lines(read, ends=[2], own=[2]) == "no line of a source"
+
+
 NEST = """\
 void work(int * at)
 {

@@ -179,6 +179,7 @@ uint32_t rclc_action_client_left(const rclc_action_client_t * client)
   const uint32_t response_ms = client->declared->response_timeout_ms;
   uint32_t left = UINT32_MAX;
 
+  /* at most MICROROS_REQUESTS_MAX / 3 rounds */
   for (size_t i = 0; i < client->goal_handles_memory_size; ++i) {
     const rclc_action_goal_handle_t * goal = &client->declared->goals[i];
 
@@ -200,6 +201,7 @@ bool rclc_action_client_has_due(const rclc_action_client_t * client)
   bool is_due =
     (uint8_t)rmw_client_reconnects() != client->session || rmw_action_client_drops(results) != client->drops;
 
+  /* at most MICROROS_REQUESTS_MAX / 3 rounds */
   for (size_t i = 0; i < client->goal_handles_memory_size; ++i) {
     const rclc_action_goal_handle_t * goal = &client->declared->goals[i];
 

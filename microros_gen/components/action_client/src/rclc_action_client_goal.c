@@ -10,6 +10,7 @@
 
 rclc_action_goal_handle_t * rclc_action_client_find(const rclc_action_client_t * client, const uint8_t * uuid)
 {
+  /* at most MICROROS_REQUESTS_MAX / 3 rounds */
   for (size_t i = 0; i < client->goal_handles_memory_size; ++i) {
     rclc_action_goal_handle_t * goal = &client->declared->goals[i];
 
@@ -46,7 +47,7 @@ static void goal_identify(uint8_t * uuid)
 
 rclc_action_goal_handle_t * rclc_action_client_take_place(rclc_action_client_t * client)
 {
-  for (size_t i = 0; i < client->goals_at_once; ++i) {
+  for (size_t i = 0; i < client->goals_at_once; ++i) { /* at most MICROROS_REQUESTS_MAX / 3 rounds */
     rclc_action_goal_handle_t * goal = &client->declared->goals[i];
 
     if (!goal->is_used) {

@@ -27,6 +27,7 @@ static rcl_ret_t request_goal(
   }
   goal->ros_goal_request = (void *)&request[0];
   goal->since_ms = port_time_ms();
+  /* at most UUID_SIZE bytes */
   (void)memcpy(request, goal->goal_id.uuid, UUID_SIZE); /* the first member of every request */
   result =
     rmw_requester_send(client->rcl_handle.goal_client.impl, ros_request, &goal->goal_request_sequence_number);

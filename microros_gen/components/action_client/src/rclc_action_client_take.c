@@ -31,6 +31,7 @@ static void take_session(rclc_action_client_t * client)
   }
   client->session = session;
   client->drops = drops;
+  /* at most MICROROS_REQUESTS_MAX / 3 rounds */
   for (size_t i = 0; i < client->goal_handles_memory_size; ++i) {
     rclc_action_goal_handle_t * goal = &client->declared->goals[i];
 
@@ -52,6 +53,7 @@ static void take_goal_response(rclc_action_client_t * client)
 
   rclc_action_client_note(
     client, rmw_requester_take(client->rcl_handle.goal_client.impl, &info, &accepted, &taken));
+  /* at most MICROROS_REQUESTS_MAX / 3 rounds */
   for (size_t i = 0; taken && i < client->goal_handles_memory_size; ++i) {
     rclc_action_goal_handle_t * goal = &client->declared->goals[i];
 
@@ -70,7 +72,7 @@ static void take_feedback(rclc_action_client_t * client)
 {
   const rmw_subscription_t * subscription = client->rcl_handle.feedback_subscription.impl;
 
-  while (rmw_subscription_is_ready(subscription)) {
+  while (rmw_subscription_is_ready(subscription)) { /* at most MICROROS_QUEUE_SLOTS rounds */
     uint8_t uuid[UUID_SIZE];
     const bool has_id = rmw_action_client_peek(subscription, uuid, UUID_SIZE);
     rclc_action_goal_handle_t * goal = has_id ? rclc_action_client_find(client, uuid) : NULL;
@@ -94,7 +96,7 @@ static void take_feedback(rclc_action_client_t * client)
 static bool take_is_canceling(
   const action_msgs__srv__CancelGoal_Response * response, const rclc_action_goal_handle_t * goal)
 {
-  for (size_t i = 0; i < response->goals_canceling.size; ++i) {
+  for (size_t i = 0; i < response->goals_canceling.size; ++i) { /* at most MICROROS_REQUESTS_MAX / 3 rounds */
     if (memcmp(response->goals_canceling.data[i].goal_id.uuid, goal->goal_id.uuid, UUID_SIZE) == 0) {
       return true;
     }
@@ -113,6 +115,7 @@ static void take_cancel_response(rclc_action_client_t * client)
   response.goals_canceling.capacity = client->declared->goals_max;
   rclc_action_client_note(
     client, rmw_requester_take(client->rcl_handle.cancel_client.impl, &info, &response, &taken));
+  /* at most MICROROS_REQUESTS_MAX / 3 rounds */
   for (size_t i = 0; taken && i < client->goal_handles_memory_size; ++i) {
     rclc_action_goal_handle_t * goal = &client->declared->goals[i];
 
@@ -134,6 +137,7 @@ static void take_result_response(rclc_action_client_t * client)
   rclc_action_client_note(
     client,
     rmw_requester_take(client->rcl_handle.result_client.impl, &info, client->ros_result_response, &taken));
+  /* at most MICROROS_REQUESTS_MAX / 3 rounds */
   for (size_t i = 0; taken && i < client->goal_handles_memory_size; ++i) {
     rclc_action_goal_handle_t * goal = &client->declared->goals[i];
 

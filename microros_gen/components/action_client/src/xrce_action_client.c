@@ -16,7 +16,7 @@ static xrce_request_t * action_client_find(const xrce_endpoint_t * endpoint, int
   xrce_request_t * entries = &endpoint->client->requests[queue->first - first->first];
   const uint32_t sequence = (uint32_t)((uint64_t)sequence_number & UINT32_MAX);
 
-  for (uint8_t i = 0; i < queue->slots; ++i) {
+  for (uint8_t i = 0; i < queue->slots; ++i) { /* at most MICROROS_REQUESTS_MAX rounds */
     if (entries[i].request != XRCE_REQUEST_NONE && entries[i].sequence == sequence) {
       return &entries[i];
     }

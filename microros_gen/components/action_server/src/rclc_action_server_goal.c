@@ -12,6 +12,7 @@ enum { ACTION_NS_PER_S = 1000000000, ACTION_NS_PER_MS = 1000000 };
 
 rclc_action_goal_handle_t * rclc_action_find(const rclc_action_server_t * server, const uint8_t * uuid)
 {
+  /* at most MICROROS_ACTION_SERVER_GOALS rounds */
   for (size_t i = 0; i < server->goal_handles_memory_size; ++i) {
     rclc_action_goal_handle_t * goal = &server->declared->goals[i];
 
@@ -34,7 +35,7 @@ rclc_action_goal_handle_t * rclc_action_take_place(const rclc_action_server_t * 
   const uint32_t now = port_time_ms();
   rclc_action_goal_handle_t * oldest = NULL;
 
-  for (size_t i = 0; i < server->goals_at_once; ++i) {
+  for (size_t i = 0; i < server->goals_at_once; ++i) { /* at most MICROROS_ACTION_SERVER_GOALS rounds */
     rclc_action_goal_handle_t * goal = &server->declared->goals[i];
 
     if (!goal->is_used) {
@@ -62,6 +63,7 @@ uint32_t rclc_action_expire(const rclc_action_server_t * server, bool frees)
   const uint32_t now = port_time_ms();
   uint32_t left = UINT32_MAX;
 
+  /* at most MICROROS_ACTION_SERVER_GOALS rounds */
   for (size_t i = 0; i < server->goal_handles_memory_size; ++i) {
     rclc_action_goal_handle_t * goal = &server->declared->goals[i];
     const uint32_t due = rclc_action_left(goal, server->declared->result_timeout_ms, now);

@@ -20,6 +20,7 @@ static size_t action_result_place(const rclc_action_goal_handle_t * goal)
   if (server == NULL || server->declared == NULL || !goal->is_used || rclc_action_has_ended(goal)) {
     return SIZE_MAX;
   }
+  /* at most MICROROS_ACTION_SERVER_GOALS rounds */
   for (size_t i = 0; i < server->goal_handles_memory_size; ++i) {
     if (goal == &server->declared->goals[i]) {
       return i;
@@ -106,6 +107,7 @@ rcl_ret_t rclc_action_publish_feedback(rclc_action_goal_handle_t * goal_handle, 
   place = action_result_place(goal_handle);
   server = goal_handle->action_server;
   if (place != SIZE_MAX) {
+    /* at most UUID_SIZE bytes */
     (void)memcpy(ros_feedback, goal_handle->goal_id.uuid, UUID_SIZE); /* the first member of every feedback */
   }
   microros_unlock();
@@ -122,6 +124,7 @@ bool rclc_action_has_results(const rclc_action_server_t * server)
 {
   bool awaited = false;
 
+  /* at most MICROROS_ACTION_SERVER_GOALS rounds */
   for (size_t i = 0; i < server->goal_handles_memory_size; ++i) {
     awaited = awaited || action_result_is_awaited(&server->declared->goals[i]);
   }
@@ -132,6 +135,7 @@ bool rclc_action_has_results(const rclc_action_server_t * server)
 static void action_result_drop_oldest(rclc_action_goal_handle_t * goal)
 {
   --goal->waiting;
+  /* at most (MICROROS_ACTION_RESULT_REQUESTS - 1) * 24 bytes: rmw_request_id_t has 24 */
   (void)memmove(
     goal->result_requests, &goal->result_requests[1], goal->waiting * sizeof(goal->result_requests[0]));
 }

@@ -17,6 +17,7 @@ static size_t action_status_fill(const rclc_action_server_t * server)
 {
   size_t count = 0;
 
+  /* at most MICROROS_ACTION_SERVER_GOALS rounds */
   for (size_t i = 0; i < server->goal_handles_memory_size; ++i) {
     const rclc_action_goal_handle_t * goal = &server->declared->goals[i];
 

@@ -12,7 +12,7 @@ enum { SERVICE_LENGTH = 4, SERVICE_NUL = 1 };
 /* Padding to a multiple of four from the start of the blob. */
 static uint8_t * service_align(const uint8_t * blob, uint8_t * at)
 {
-  while (xrce_size_between(blob, at) % 4u != 0u) {
+  while (xrce_size_between(blob, at) % 4u != 0u) { /* at most 3 rounds */
     *at++ = 0;
   }
   return at;
@@ -33,6 +33,7 @@ static uint8_t * service_put_string(
   uint8_t * end = xrce_describe_text(&begin[SERVICE_LENGTH], first);
 
   if (repeated->size != 0u) {
+    /* at most MICROROS_CREATION_SIZE or MICROROS_MTU bytes */
     (void)memcpy(end, repeated->bytes, repeated->size);
   }
   end = xrce_describe_text(&end[repeated->size], last);

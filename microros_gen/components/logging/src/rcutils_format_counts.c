@@ -39,7 +39,7 @@ void microros_format_end(microros_format_t * out)
   while (out->used > marks && ((uint8_t)out->text[out->used - marks] & 0xc0u) == 0x80u) {
     --out->used;
   }
-  for (size_t i = 1; i <= marks; ++i) {
+  for (size_t i = 1; i <= marks; ++i) { /* at most MARK_SIZE rounds */
     out->text[out->used - i] = '.';
   }
 }

@@ -9,7 +9,7 @@ uint32_t microros_format_divide(uint64_t * value, uint32_t divisor)
   uint64_t quotient = 0;
   uint32_t remainder = 0;
 
-  for (uint32_t shift = 4u * half_bits; shift != 0u; shift -= half_bits) {
+  for (uint32_t shift = 4u * half_bits; shift != 0u; shift -= half_bits) { /* at most 4 rounds */
     const uint32_t part = remainder << half_bits | (uint32_t)(*value >> (shift - half_bits) & UINT16_MAX);
 
     quotient = quotient << half_bits | part / divisor;
@@ -33,7 +33,7 @@ static int32_t integer_digits(char * digits, uint64_t value, char kind)
   if (kind == 'x' || kind == 'X') {
     base = 16;
   }
-  while (left != 0u) {
+  while (left != 0u) { /* at most DIGITS_MOST rounds */
     ++count;
     digits[DIGITS_MOST - count] = figures[microros_format_divide(&left, base)];
   }
@@ -65,7 +65,7 @@ static int32_t integer_length(const char * prefix)
 {
   int32_t length = 0;
 
-  while (prefix[length] != '\0') {
+  while (prefix[length] != '\0') { /* at most 2 rounds */
     ++length;
   }
   return length;
@@ -98,7 +98,7 @@ void microros_format_integer(
   microros_format_repeat(out, ' ', how->minus ? 0 : fill);
   microros_format_string(out, prefix);
   microros_format_repeat(out, '0', zeros);
-  for (int32_t i = DIGITS_MOST - count; i < DIGITS_MOST; ++i) {
+  for (int32_t i = DIGITS_MOST - count; i < DIGITS_MOST; ++i) { /* at most DIGITS_MOST rounds */
     microros_format_put(out, digits[i]);
   }
   microros_format_repeat(out, ' ', how->minus ? fill : 0);

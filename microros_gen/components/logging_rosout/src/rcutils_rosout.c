@@ -29,7 +29,7 @@ static uint32_t rosout_unreported; /* dropped since the last line that had room 
 
 static void rosout_align(rosout_line_t * line)
 {
-  while (line->position % 4u != 0u) {
+  while (line->position % 4u != 0u) { /* at most 3 rounds */
     line->body[line->position] = 0;
     ++line->position;
   }

@@ -25,7 +25,7 @@ static uint32_t rosout_at(uint32_t index)
 
 static void rosout_append(const uint8_t * bytes, uint32_t size)
 {
-  for (uint32_t i = 0; i < size; ++i) {
+  for (uint32_t i = 0; i < size; ++i) { /* at most MICROROS_LOG_ROSOUT_SIZE rounds */
     rosout_lines[rosout_at(rosout_used)] = bytes[i];
     ++rosout_used;
   }
@@ -78,7 +78,7 @@ static uint32_t rosout_move(uint8_t * room)
     room, XRCE_WRITE_DATA, XRCE_FLAG_LITTLE_ENDIAN, (uint16_t)((uint32_t)XRCE_OBJECT_PREFIX + size));
   xrce_put_be16(&room[4], XRCE_REQUEST_NONE);
   xrce_put_be16(&room[6], xrce_object_id(rosout_writer->index, XRCE_KIND_DATAWRITER));
-  for (uint32_t i = 0; i < size; ++i) {
+  for (uint32_t i = 0; i < size; ++i) { /* at most MICROROS_LOG_ROSOUT_SIZE rounds */
     room[(uint32_t)BODY_OFFSET + i] = rosout_lines[rosout_at(LINE_HEADER + i)];
   }
   rosout_first = rosout_at(LINE_HEADER + size);

@@ -30,6 +30,7 @@ static void event_out_list(parameter_out_t * out, const rclc_parameter_server_t 
   const uint32_t at = rclc_parameter_out_begin(out);
   uint32_t count = 0;
 
+  /* at most MICROROS_PARAMETERS_MAX rounds */
   for (const rclc_parameter_place_t * place = server->places; place != end; ++place) {
     if (place->event == what) {
       rclc_parameter_out_text(out, place->about->name);
@@ -69,6 +70,7 @@ static bool event_is_due(const rclc_parameter_server_t * server)
 {
   const rclc_parameter_place_t * end = &server->places[server->count];
 
+  /* at most MICROROS_PARAMETERS_MAX rounds */
   for (const rclc_parameter_place_t * place = server->places; place != end; ++place) {
     if (place->event != (uint8_t)PARAMETER_EVENT_NONE) {
       return true;
@@ -90,7 +92,7 @@ void rclc_parameter_publish(rclc_parameter_server_t * server)
      rcl_publish(&server->event_publisher, server, NULL) != RCL_RET_OK)) {
     return; /* the executor tries again when there is room */
   }
-  while (i < server->count) {
+  while (i < server->count) { /* at most MICROROS_PARAMETERS_MAX rounds */
     const bool deleted = server->places[i].event == (uint8_t)PARAMETER_EVENT_DELETED;
 
     server->places[i].event = (uint8_t)PARAMETER_EVENT_NONE;

@@ -149,6 +149,7 @@ static rmw_ret_t replier_take(
     microros_error_set(microros_error_service_short, endpoint->name, NULL, sample->size, XRCE_IDENTITY_SIZE);
     return RMW_RET_ERROR;
   }
+  /* at most RMW_GID_STORAGE_SIZE bytes */
   (void)memcpy(request->writer_guid, sample->data, RMW_GID_STORAGE_SIZE);
   request->sequence_number = replier_sequence(sample);
   result = rmw_service_decode(endpoint, sample, XRCE_IDENTITY_SIZE, ros_request);
@@ -199,6 +200,7 @@ static rmw_ret_t replier_respond(
   if (rmw_local_is_request(request)) {
     return rmw_local_respond(endpoint, xrce_service_of(endpoint)->sent, request, ros_response);
   }
+  /* at most RMW_GID_STORAGE_SIZE bytes */
   (void)memcpy(identity, request->writer_guid, RMW_GID_STORAGE_SIZE);
   replier_put_u32(&identity[HIGH_AT], (uint32_t)(sequence >> 32));
   replier_put_u32(&identity[LOW_AT], (uint32_t)(sequence & UINT32_MAX));

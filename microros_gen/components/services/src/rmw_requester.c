@@ -152,7 +152,7 @@ static rmw_ret_t requester_take(
   if (requester_report(endpoint)) {
     return RMW_RET_ERROR;
   }
-  while (xrce_read_peek(endpoint, &sample)) {
+  while (xrce_read_peek(endpoint, &sample)) { /* at most MICROROS_REQUESTS_MAX rounds */
     if (requester_match(endpoint, &sample, &info->request_id)) {
       rmw_service_describe(&sample, info);
       result = rmw_service_decode(endpoint, &sample, XRCE_RELATED_SIZE, ros_response);

@@ -50,7 +50,7 @@ int64_t xrce_requests_add(const xrce_endpoint_t * endpoint, uint16_t request)
   xrce_request_t * entries = requests_first(endpoint->client, index);
   xrce_request_t * chosen = entries;
 
-  for (uint8_t i = 0; i < requests_queue(index)->slots; ++i) {
+  for (uint8_t i = 0; i < requests_queue(index)->slots; ++i) { /* at most MICROROS_REQUESTS_MAX rounds */
     if (entries[i].request == XRCE_REQUEST_NONE || entries[i].request == request) {
       chosen = &entries[i]; /* numbers repeat after 65,526 requests */
       break;
@@ -74,6 +74,7 @@ bool xrce_requests_take(const xrce_endpoint_t * endpoint, uint16_t request, int6
   const uint16_t index = requests_index(endpoint);
   xrce_request_t * entries = requests_first(endpoint->client, index);
 
+  /* at most MICROROS_REQUESTS_MAX rounds */
   for (uint8_t i = 0; i < requests_queue(index)->slots && request != XRCE_REQUEST_NONE; ++i) {
     if (entries[i].request == request) {
       *sequence = requester->sequence - (int64_t)requests_age(requester, &entries[i]);
@@ -90,7 +91,7 @@ void xrce_requests_renew(xrce_client_t * client)
     xrce_requester_t * requester = &client->requesters[index];
     const xrce_request_t * entries = requests_first(client, index);
 
-    for (uint8_t i = 0; i < requests_queue(index)->slots; ++i) {
+    for (uint8_t i = 0; i < requests_queue(index)->slots; ++i) { /* at most MICROROS_REQUESTS_MAX rounds */
       if (
         entries[i].request != XRCE_REQUEST_NONE &&
         !xrce_place_is_local((uint16_t)(XRCE_REQUESTERS_AT + index))) {

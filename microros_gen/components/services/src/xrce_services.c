@@ -34,6 +34,7 @@ xrce_write_t xrce_service_write(
     return outcome;
   }
   if (identity != NULL) {
+    /* at most XRCE_IDENTITY_SIZE bytes */
     (void)memcpy(&room[end], identity, XRCE_IDENTITY_SIZE);
     end += XRCE_IDENTITY_SIZE;
   }

@@ -20,7 +20,7 @@ static int64_t call_next(int64_t due, int64_t period, int64_t now)
   if (period == 0) {
     return next > now ? next : now;
   }
-  while (next <= now && next != INT64_MAX) {
+  while (next <= now && next != INT64_MAX) { /* at most 2080 rounds */
     if (step > (uint64_t)microros_time_between(next, now)) {
       step = (uint64_t)period;
     }
