@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "microros/rmw_local.h"
 
+#include "microros/error.h"
 #include "microros/port.h"
 #include "microros/rmw_decode.h"
 #include "microros/rmw_encode.h"
