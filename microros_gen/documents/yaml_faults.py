@@ -125,9 +125,13 @@ def _odd_space(source: Source, last: int, error: yaml.MarkedYAMLError) -> Span |
     for number, column in found[-_TRIED:]:
         lines = source.text.splitlines(keepends=True)
         lines[number - 1] = f"{lines[number - 1][: column - 1]} {lines[number - 1][column:]}"
-        if _fault_of("".join(lines)) != (error.problem, error.problem_mark and error.problem_mark.line):
+        if _fault_of("".join(lines)) != _of(error):
             return Span(source, number, column)
     return None
+
+
+def _of(error: yaml.MarkedYAMLError) -> tuple[str | None, int | None]:
+    return error.problem, error.problem_mark.line if error.problem_mark else None
 
 
 def _fault_of(text: str) -> tuple[str | None, int | None] | None:
@@ -135,7 +139,7 @@ def _fault_of(text: str) -> tuple[str | None, int | None] | None:
     try:
         yaml.compose(text, Loader=yaml.BaseLoader)
     except yaml.MarkedYAMLError as error:
-        return error.problem, error.problem_mark and error.problem_mark.line
+        return _of(error)
     except (yaml.YAMLError, RecursionError):
         return None
     return None
