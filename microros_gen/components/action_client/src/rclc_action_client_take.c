@@ -72,14 +72,14 @@ static void take_feedback(rclc_action_client_t * client)
 {
   const rmw_subscription_t * subscription = client->rcl_handle.feedback_subscription.impl;
 
-  while (rmw_subscription_is_ready(subscription)) { /* at most MICROROS_QUEUE_SLOTS rounds */
+  while (rmw_subscription_is_ready(subscription)) { /* at most MICROROS_QUEUE_SLOTS + 2 rounds */
     uint8_t uuid[UUID_SIZE];
     const bool has_id = rmw_action_client_peek(subscription, uuid, UUID_SIZE);
     rclc_action_goal_handle_t * goal = has_id ? rclc_action_client_find(client, uuid) : NULL;
     bool taken = false;
 
     if (!has_id && client->ros_feedback == NULL) { /* too short, and nothing to decode it into */
-      rmw_action_client_drop(subscription);
+      rclc_action_client_note(client, rmw_action_client_drop(subscription));
       continue;
     }
     if (!has_id || (goal != NULL && client->feedback_callback != NULL)) {
@@ -89,7 +89,7 @@ static void take_feedback(rclc_action_client_t * client)
       }
       return;
     }
-    rmw_action_client_drop(subscription);
+    rclc_action_client_note(client, rmw_action_client_drop(subscription));
   }
 }
 

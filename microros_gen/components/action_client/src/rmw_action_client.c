@@ -2,6 +2,7 @@
 #include "microros/rmw_action_client.h"
 
 #include "microros/lock.h"
+#include "microros/rmw_receiver.h"
 #include "microros/xrce_action_client.h"
 #include "microros/xrce_action_client_drops.h"
 #include "microros/xrce_client.h"
@@ -58,9 +59,15 @@ bool rmw_action_client_peek(const rmw_subscription_t * subscription, uint8_t * b
   return found;
 }
 
-void rmw_action_client_drop(const rmw_subscription_t * subscription)
+rmw_ret_t rmw_action_client_drop(const rmw_subscription_t * subscription)
 {
+  rmw_ret_t result = RMW_RET_ERROR;
+
   microros_lock();
-  xrce_read_pop(subscription->data, false);
+  if (!rmw_receiver_report(subscription->data)) { /* it may be ready without a sample, for its report alone */
+    xrce_read_pop(subscription->data, false);
+    result = RMW_RET_OK;
+  }
   microros_unlock();
+  return result;
 }

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "rmw/ret_types.h"
 #include "rmw/types.h"
 
 #ifdef __cplusplus
@@ -29,8 +30,8 @@ void rmw_action_client_abandon(const rmw_client_t * client, int64_t sequence_num
 /* Copies the first `size` bytes of the oldest sample; false without one, or if it is shorter. */
 bool rmw_action_client_peek(const rmw_subscription_t * subscription, uint8_t * beginning, uint16_t size);
 
-/* Removes the oldest sample. */
-void rmw_action_client_drop(const rmw_subscription_t * subscription);
+/* Removes the oldest sample; instead returns RMW_RET_ERROR, with a text, once for a sample or a reader that was refused. */
+rmw_ret_t rmw_action_client_drop(const rmw_subscription_t * subscription);
 
 #ifdef __cplusplus
 }
