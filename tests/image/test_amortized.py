@@ -195,10 +195,10 @@ def test_one_loop_made_of_two_counts_the_rounds_of_the_element_that_is_refused()
     outer, inner = (NESTED[: NESTED.index(part)].count("\n") + 1 for part in ("i < message->all", "i < 50U"))
     own = [("src/a__decode.c", line) for line in (outer, inner)]
     function = ("pkg__msg__Outer__decode", None)
-    one = sources.rounds(own[:1], function=function)
-    assert one == Length(0, rate=-(-UNIT // 150), apart=True)
-    both = sources.rounds(own[:1], own, function=function)
-    assert isinstance(both, Length)
+    separate = sources.rounds(own[:1], function=function)
+    assert separate == Length(0, rate=-(-UNIT // 150), apart=True)
+    merged = sources.rounds(own[:1], own, function=function)
+    assert isinstance(merged, Length)
     for size in range(400):
         elements, rest = divmod(size, 150)
-        assert both.of(size).count >= elements * 50 + min(rest, 50), size
+        assert merged.of(size).count >= elements * 50 + min(rest, 50), size

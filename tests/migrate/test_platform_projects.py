@@ -160,8 +160,8 @@ def test_make_passes_folders_with_spaces_and_dollars(run: Runner, sources: Path)
     (robot / included).write_text("")
     makefile = sources.parent / "Makefile"
     makefile.write_text("include robot/microros_app.mk\nall:\n\t@printf '%s\\n' $(C_INCLUDES)\n")
-    made = subprocess.run(["make", "-s"], cwd=makefile.parent, check=True, capture_output=True, text=True)
-    assert {f"-Irobot/src/{name}" for name in names} <= {*made.stdout.splitlines()}
+    outputs = subprocess.run(["make", "-s"], cwd=makefile.parent, check=True, capture_output=True, text=True)
+    assert {f"-Irobot/src/{name}" for name in names} <= {*outputs.stdout.splitlines()}
 
 
 def test_the_projects_that_have_include_folders_are_all_but_sketchbooks() -> None:

@@ -153,7 +153,7 @@ CASES = [
     ("base: active.DRIVE", "base: DRIVE", "MG-8814", "DRIVE", "unknown state 'DRIVE'. Write active.DRIVE"),
     ("base: active.DRIVE", "base: active DRIVE", "MG-8814", "active DRIVE", "Write active.DRIVE"),
     ("base: active.DRIVE", "base: active/DRIVE", "MG-8814", "active/DRIVE", "Write active.DRIVE"),
-    ("base: active.DRIVE", "base: Activ DRIVE", "MG-8814", "Activ DRIVE", "Write active.DRIVE"),
+    ("base: active.DRIVE", "base: Active DRIVE", "MG-8814", "Active DRIVE", "Write active.DRIVE"),
     ("base: active.DRIVE", "base: inactive DRIVE", "MG-8814", "inactive DRIVE", "Did you mean 'inactive'?"),
     ("base: active.DRIVE", "base: not-DRIVE", "MG-8814", "not-DRIVE", "Did you mean 'inactive'?"),
     (
