@@ -121,13 +121,16 @@ class _Stored:
         self._name = name
 
     def __iter__(self) -> Iterator[Message]:
-        """Read the messages. Raises UserError if the file is not as it was."""
-        for entry in self._index.entries(self._name):
-            self._file.seek(entry.at)
-            datagram = decode(self._file.read(entry.size))
-            if datagram is None:
-                raise UserError([_unreadable(self._path, "it was changed meanwhile")])
-            yield Message(entry.number, entry.time_ns, entry.of_client, datagram.message)
+        """Read the messages. Raises UserError if the file cannot be read, or is not as it was."""
+        try:
+            for entry in self._index.entries(self._name):
+                self._file.seek(entry.at)
+                datagram = decode(self._file.read(entry.size))
+                if datagram is None:
+                    raise UserError([_unreadable(self._path, "it was changed meanwhile")])
+                yield Message(entry.number, entry.time_ns, entry.of_client, datagram.message)
+        except OSError as error:  # a disk or a network share; to a replay, an OSError is one of its link
+            raise UserError([_unreadable(self._path, error.strerror or str(error))]) from error
 
 
 def _begins(message: Message) -> bool:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import errno
+import io
 import os
 import resource
 from collections.abc import Iterator
@@ -23,7 +25,7 @@ from microros_gen.agent.wire.data_messages import WriteData
 from microros_gen.agent.wire.message import Header, join
 from microros_gen.agent.wire.session_messages import CreateClient
 from microros_gen.agent.wire.submessages import encode
-from microros_gen.cli.agent.replaying import _allow_descriptors
+from microros_gen.cli.agent.replaying import _allow_descriptors, _run
 from microros_gen.diagnostics import UserError
 from tests.support.agent.fakes import Bench
 from tests.support.agent.recordings import record_visitor
@@ -148,3 +150,31 @@ def test_a_file_that_is_shortened_meanwhile(tmp_path: Path) -> None:
         (tmp_path / "a").write_bytes(b"")
         with pytest.raises(UserError, match="cannot be replayed: it was changed meanwhile"):
             list(recording.conversations[0].messages)
+
+
+class Share(io.BytesIO):
+    """A file on a network share, which may be lost."""
+
+    lost = False
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        if self.lost:
+            raise OSError(errno.ESTALE, os.strerror(errno.ESTALE))
+        return super().read(size)
+
+
+def test_a_file_that_cannot_be_read_any_more(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The other side of the replay is not at fault."""
+    record_visitor(tmp_path / "a", "udp4 127.0.0.1:8888", 7)
+    file = Share((tmp_path / "a").read_bytes())
+    monkeypatch.setattr(Path, "open", lambda *_: file)
+    with open_recording(tmp_path / "a") as recording:
+        player = Player(recording.conversations[0], as_agent=False, wait_s=60)
+        link = Answered()
+        side = ClientSide([player], [link], [0])
+        run = Replay([player], side, 0)
+        file.lost = True
+        with pytest.raises(UserError, match=f"/a cannot be replayed: {os.strerror(errno.ESTALE)}"):
+            _run(run)
+    side.close()
+    link.close()
