@@ -7,6 +7,7 @@ Python prefers them. Without the variable, or in an editable installation, the w
 
 from __future__ import annotations
 
+import atexit
 import os
 import shutil
 import subprocess
@@ -20,6 +21,8 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 VARIABLE = "MICROROS_GEN_COMPILED"
 TOOLS = ["mypy[mypyc]>=1.17,<3"]
 """What a compiled core is built with, besides a C compiler and the headers of Python."""
+FOLDER = "microros_gen_core_"
+"""What the name of the temporary folder begins with."""
 PACKAGE = "microros_gen/agent"
 CORE = (
     "clients",
@@ -47,6 +50,7 @@ CORE = (
     "turns",
     "wire/cdr",
     "wire/message",
+    "workers/remote",
 )
 """What runs for each message, and the classes that it shares."""
 _CONFIGURATION = "[mypy]\nignore_missing_imports = True\ndisable_error_code = import-untyped\n"
@@ -64,22 +68,30 @@ class CompiledCore(BuildHookInterface[Any]):
     """The hook of hatchling, `custom` in pyproject.toml."""
 
     def dependencies(self) -> list[str]:
-        """Return what the build needs in addition."""
+        """Return what the build needs in addition; also for an editable wheel, which cannot be told apart here."""
         return TOOLS if is_wanted(self.target_name) else []
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Compile, and let hatchling pack what was built. Raises SystemExit if compiling fails."""
         if not is_wanted(self.target_name, version):
             return
-        self._folder = Path(tempfile.mkdtemp(prefix="microros_gen_core_"))
-        built = compile_core(Path(self.root), self._folder)
+        self._folder = Path(tempfile.mkdtemp(prefix=FOLDER))
+        atexit.register(self._remove)  # `finalize` is not called if packing fails
+        try:
+            built = compile_core(Path(self.root), self._folder)
+        except BaseException:
+            self._remove()
+            raise
         build_data["force_include"].update({str(path): name for name, path in built.items()})
         build_data["pure_python"], build_data["infer_tag"] = False, True
 
     def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:
         """Remove what was built."""
         if hasattr(self, "_folder"):
-            shutil.rmtree(self._folder)
+            self._remove()
+
+    def _remove(self) -> None:
+        shutil.rmtree(self._folder, ignore_errors=True)
 
 
 def is_wanted(target: str, version: str = "standard") -> bool:

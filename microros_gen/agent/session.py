@@ -7,8 +7,9 @@ from collections.abc import Sequence
 
 from microros_gen.agent.input_pool import Holder
 from microros_gen.agent.limits import Limits
+from microros_gen.agent.output_queue import Queue
 from microros_gen.agent.streams_in import BestEffortIn, Reassembly, ReliableIn
-from microros_gen.agent.streams_out import BestEffortOut, Kept, Link, Queue, ReliableOut
+from microros_gen.agent.streams_out import BestEffortOut, Kept, Link, ReliableOut
 from microros_gen.agent.wire.constants import (
     FLAG_LITTLE,
     INFO_ACTIVITY,

@@ -14,7 +14,7 @@ from dataclasses import field
 from enum import IntEnum
 
 from microros_gen.agent.clients import Client, ClientTable
-from microros_gen.agent.streams_out import Queue
+from microros_gen.agent.output_queue import Queue
 from microros_gen.agent.traffic import Counts, Direction, Meter, counts_of
 from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.wire.constants import ObjectKind

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections import deque
 
 from microros_gen.agent.input_pool import Holder
+from microros_gen.agent.output_queue import Queue
 from microros_gen.agent.streams_in import HALF
 from microros_gen.agent.wire.constants import FLAG_LAST_FRAGMENT, FLAG_LITTLE, RELIABLE_WINDOW, SubmessageId
 from microros_gen.agent.wire.entity_messages import Heartbeat
@@ -45,17 +46,6 @@ class Link:
     def room(self) -> int:
         """Return the number of bytes of submessages, with their headers, that fit into one message."""
         return self.mtu - (4 if self.session >= 0x80 else 8)
-
-
-@dataclass(frozen=True)
-class Queue:
-    """The output that waits on reliable streams: for an acknowledgement, or to be sent."""
-
-    messages: int = 0
-    bytes: int = 0
-    """With the samples that are kept in case that the client opens a new session."""
-    fill: float = 0.0
-    """0 to 1; 1: the window of messages without acknowledgement is full, or the space of those to be sent."""
 
 
 class BestEffortOut:

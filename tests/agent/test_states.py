@@ -8,8 +8,8 @@ from dataclasses import replace
 import pytest
 
 from microros_gen.agent.limits import Limits
+from microros_gen.agent.output_queue import Queue
 from microros_gen.agent.states import ClientState, Presence
-from microros_gen.agent.streams_out import Queue
 from microros_gen.agent.traffic import Direction, Meter
 from microros_gen.agent.wire.data_messages import ReadData
 from tests.support.agent.captured import CREATE_CLIENT

@@ -24,26 +24,12 @@ from microros_gen.agent.workers.addresses import (
     udp_peer,
 )
 from microros_gen.agent.workers.channel import WAITING_BYTES, Channel, Kind, message_frame
-from microros_gen.records import dataclass
+from microros_gen.agent.workers.front_transport import FrontTransport as FrontTransport
 
 SAMPLES_BYTES = WAITING_BYTES // 8
 """Maximum bytes that wait for the front while best-effort samples are sent."""
 Outside = Callable[[bytes, Hashable], bool]
 """Function that returns whether a message is outside of the session at its address."""
-
-
-@dataclass(frozen=True)
-class FrontTransport:
-    """What a worker knows of a transport of the front: `descriptor` is that of its UDP socket, -1 for others."""
-
-    label: str
-    forgeable: bool
-    descriptor: int = -1
-
-    @property
-    def kind(self) -> str:
-        """Kind of the transport, as on the command line."""
-        return self.label.partition(" ")[0]
 
 
 class RemoteTransport:

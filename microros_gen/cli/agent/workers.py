@@ -18,7 +18,7 @@ from microros_gen.agent.server import Server, reloaded_by_signal, stopped_by_sig
 from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.transport.udp import Udp
 from microros_gen.agent.workers.front import Front
-from microros_gen.agent.workers.remote import FrontTransport
+from microros_gen.agent.workers.front_transport import FrontTransport
 from microros_gen.agent.workers.worker_process import WorkerProcess
 from microros_gen.cli.agent.assembly import report_limits
 from microros_gen.cli.agent.clients import client_state_node

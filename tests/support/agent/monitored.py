@@ -9,8 +9,8 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 from microros_gen.agent.monitoring.status import AgentStatus, StatusBoard, TransportState
+from microros_gen.agent.output_queue import Queue
 from microros_gen.agent.states import ClientState, Presence
-from microros_gen.agent.streams_out import Queue
 from microros_gen.agent.traffic import Direction
 
 CLIENT = ClientState(
