@@ -11,6 +11,7 @@ import traceback
 from collections.abc import Callable, Container, Hashable
 from functools import partial
 from pathlib import Path
+from typing import Final
 
 from microros_gen.agent.admission import Admission, Held
 from microros_gen.agent.budgets import Budgets
@@ -45,7 +46,7 @@ WORDS = {
     "client_resources": "message from {peer} ignored: {detail}",
 }
 """Log texts for messages that are well-formed and not accepted."""
-TICK_S = 0.05
+TICK_S: Final = 0.05
 """Seconds between two checks of time-outs while a client is connected."""
 
 

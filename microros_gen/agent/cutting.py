@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Final
 
 from microros_gen.agent.wire.cdr import Reader
 from microros_gen.agent.wire.samples import Sample, cut_samples
 
-SAMPLES = 16
+SAMPLES: Final = 16
 """Number of samples between two checks whether the turn is over."""
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Callable, Iterable
+from typing import Final
 
 from microros_gen.agent.clients import Client
 from microros_gen.agent.entities import Entity, Readable
@@ -14,7 +15,7 @@ from microros_gen.agent.reading import RETRY_S, Reading
 from microros_gen.agent.ros.bridge import Source
 from microros_gen.agent.wire.data_messages import ReadData
 
-CROWDED = 256
+CROWDED: Final = 256
 """Number of scheduled times above which those of finished readings are removed."""
 
 

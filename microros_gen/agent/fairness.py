@@ -16,18 +16,18 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import exp
-from typing import Protocol, TypeVar
+from typing import Final, Protocol, TypeVar
 
 from microros_gen.agent.own_time import OwnTime
 from microros_gen.agent.rates import WorkRate
 
-MEMORY_S = 0.25
+MEMORY_S: Final = 0.25
 """Seconds after which about a third of a client's cost is left."""
-START_S = 0.02
+START_S: Final = 0.02
 """Initial cost of an unknown client, in seconds."""
-REFUSED = 8
+REFUSED: Final = 8
 """Factor for work that was refused in the end."""
-TURN_S = 0.004
+TURN_S: Final = 0.004
 """Maximum seconds for the clients of one descriptor, and for one round, before other work gets its turn."""
 
 

@@ -11,15 +11,16 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from typing import Final
 
-LONG_S = 0.0005
+LONG_S: Final = 0.0005
 """Seconds of work from which on it may have been interrupted: the system lets another program run for longer."""
-LOOK_S = 0.1
+LOOK_S: Final = 0.1
 """Seconds between two checks whether the machine is busy."""
-BUSY = 0.02
+BUSY: Final = 0.02
 """Part of the time for which the thread waits for a processor when the machine is busy."""
 
-SCHEDSTAT_BYTES = 64
+SCHEDSTAT_BYTES: Final = 64
 """More than three numbers of 64 bits need."""
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Final
 
 from microros_gen.agent.admission import Admission
 from microros_gen.agent.clients import Client, ClientTable, Job
@@ -29,10 +30,10 @@ from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.message import SUBMESSAGE_HEADER, split
 from microros_gen.agent.wire.submessages import decode
 
-WRITE_DATA = int(SubmessageId.WRITE_DATA)
-ACKNACK = int(SubmessageId.ACKNACK)
-ACKNACK_HEAD = bytes((ACKNACK, FLAG_LITTLE, 5, 0))
-FRAGMENT = int(SubmessageId.FRAGMENT)
+WRITE_DATA: Final = int(SubmessageId.WRITE_DATA)
+ACKNACK: Final = int(SubmessageId.ACKNACK)
+ACKNACK_HEAD: Final = bytes((ACKNACK, FLAG_LITTLE, 5, 0))
+FRAGMENT: Final = int(SubmessageId.FRAGMENT)
 COSTLY = (SubmessageId.CREATE, SubmessageId.DELETE)
 """Submessages that change the ROS graph, limited by a rate per client and a share of the agent's time for all."""
 ANSWERED = (SubmessageId.CREATE, SubmessageId.READ_DATA)

@@ -12,7 +12,7 @@ that accepts several samples in a message requests a sequence format.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from microros_gen.agent.entities import Entity, Readable
 from microros_gen.agent.log import EventLog
@@ -42,18 +42,18 @@ from microros_gen.agent.wire.samples import (
 if TYPE_CHECKING:
     from microros_gen.agent.clients import Client
 
-MOST_SAVED = 256
+MOST_SAVED: Final = 256
 """Maximum number of samples kept for a client that timed out: taking them from ROS 2 takes some milliseconds."""
-TURN = 64
+TURN: Final = 64
 """Messages that one reading sends before the next one's turn."""
-RETRY_S = 0.1
+RETRY_S: Final = 0.1
 """Seconds until the next attempt after ROS 2 failed to return a sample."""
-UNLIMITED = 0xFFFF
+UNLIMITED: Final = 0xFFFF
 """MAX_SAMPLES_UNLIMITED."""
 ONCE = DeliveryControl(max_samples=1)
 """Default without delivery control: one sample, as soon as it is available."""
-NEVER = float("inf")
-DATA = int(SubmessageId.DATA)
+NEVER: Final = float("inf")
+DATA: Final = int(SubmessageId.DATA)
 
 
 class Reading:

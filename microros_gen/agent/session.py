@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Final
 
 from microros_gen.agent.input_pool import Holder
 from microros_gen.agent.limits import Limits
@@ -24,7 +25,7 @@ from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.session_messages import GetInfo
 from microros_gen.agent.wire.submessages import Submessage, encode
 
-ACKNACK = int(SubmessageId.ACKNACK)
+ACKNACK: Final = int(SubmessageId.ACKNACK)
 Ready = tuple[bytes, int, int, bool, int]
 """Input to process: message, offset of its first submessage, stream, whether reassembled, samples done.
 

@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Final
 
 from microros_gen.agent.input_pool import Holder
 from microros_gen.agent.wire.constants import RELIABLE_WINDOW
 from microros_gen.agent.wire.errors import MalformedError
 
-HALF = 0x8000
+HALF: Final = 0x8000
 """Sequence numbers are modulo 2^16: a difference of this or more means 'older'."""
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections import deque
+from typing import Final
 
 from microros_gen.agent.input_pool import Holder
 from microros_gen.agent.output_queue import Queue
@@ -13,18 +14,18 @@ from microros_gen.agent.wire.entity_messages import Heartbeat
 from microros_gen.agent.wire.message import SUBMESSAGE_HEADER, header_bytes
 from microros_gen.records import dataclass
 
-HEARTBEAT_PERIOD_S = 0.2
+HEARTBEAT_PERIOD_S: Final = 0.2
 """Minimum seconds that a message waits for its acknowledgement before a HEARTBEAT requests it."""
 SILENT_PERIOD_S, SLOW_PERIOD_S = 1.0, 5.0
 """The maximum, for silent clients and slow answers."""
 
-NEVER = float("-inf")
-STEP_BYTES = 4_096
+NEVER: Final = float("-inf")
+STEP_BYTES: Final = 4_096
 """Bytes that a stream may use without a reservation in the budget of all clients."""
-FRAGMENT = int(SubmessageId.FRAGMENT)
-MANY = 512
+FRAGMENT: Final = int(SubmessageId.FRAGMENT)
+MANY: Final = 512
 """Number of messages over which the rate of repetitions is measured."""
-REPEAT_S = 0.01
+REPEAT_S: Final = 0.01
 """Minimum seconds between two repetitions of a message."""
 
 Kept = tuple[int, tuple[bytes, ...]]

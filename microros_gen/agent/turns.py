@@ -8,15 +8,16 @@ Only clients with postponed work are stored here; all others were served at once
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Final
 
 from microros_gen.agent.clients import Client, Job
 from microros_gen.agent.fairness import TURN_S, Fairness
 from microros_gen.agent.graph_work import GraphWork
 from microros_gen.agent.steps import finish
 
-PAUSE_S = 0.05
+PAUSE_S: Final = 0.05
 """Seconds until a job that may not change the ROS graph now is retried."""
-INBOX_BYTES = 65_536
+INBOX_BYTES: Final = 65_536
 """Maximum bytes that wait for the next turn of one client, besides the message in which it was stopped."""
 
 

@@ -9,10 +9,11 @@ from __future__ import annotations
 import contextlib
 import socket
 import struct
+from typing import Final
 
-AT_ONCE_BYTES = 65_000
+AT_ONCE_BYTES: Final = 65_000
 """Maximum number of bytes in one call: the system takes no more than in one datagram."""
-UDP_SEGMENT = 103
+UDP_SEGMENT: Final = 103
 """Option of Linux 4.18 and later (udp(7)): the bytes of a call are datagrams of this size; the last may be shorter."""
 
 

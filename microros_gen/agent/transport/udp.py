@@ -14,7 +14,7 @@ import socket
 import time
 from collections import deque
 from collections.abc import Hashable
-from typing import Any
+from typing import Any, Final
 
 from microros_gen.agent.fairness import TURN_S, Account, Fairness
 from microros_gen.agent.transport.addresses import parse_address
@@ -22,17 +22,17 @@ from microros_gen.agent.transport.base import Origin, Receive
 from microros_gen.agent.transport.datagrams import send_datagrams, takes_several
 from microros_gen.agent.transport.sockets import Protocol, open_connected, open_socket, place_name
 
-BATCH = 64
+BATCH: Final = 64
 """Datagrams that are read from one socket before the answers are sent."""
-SHARE_S = 0.002
+SHARE_S: Final = 0.002
 """Seconds after which a batch of costly datagrams ends early."""
-LOOK_S = 0.001
+LOOK_S: Final = 0.001
 """Seconds after which clients with a lower cost are checked for new input."""
-READY = 128
+READY: Final = 128
 """Clients with input that are ordered by their cost at one time: with some hundred more, ordering takes longer than
 reading. The system hands out the others next, as it moves to the end whom it has handed out."""
-MAXIMUM_DATAGRAM = 65_535
-AT_ONCE = 16
+MAXIMUM_DATAGRAM: Final = 65_535
+AT_ONCE: Final = 16
 """Datagrams to one client that are collected at most: those of equal size are then sent in one call."""
 Peer = Any
 """A socket address of the system: host, port, and for IPv6 more."""

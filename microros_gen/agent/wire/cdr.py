@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable
-from typing import TypeVar
+from typing import Final, TypeVar
 
 from microros_gen.agent.wire.errors import MalformedError
 
 T = TypeVar("T")
-MOST_ELEMENTS = 8_192
+MOST_ELEMENTS: Final = 8_192
 """Maximum number of elements of a sequence: a message of 64 KiB holds no more samples with their lengths."""
 
 

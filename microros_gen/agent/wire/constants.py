@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from enum import IntEnum
+from typing import Final
 
 COOKIE = b"XRCE"
 VERSION = b"\x01\x00"
@@ -11,28 +12,28 @@ VERSION = b"\x01\x00"
 VENDOR = b"\x01\x0f"
 """The vendor id of the public agent and client; clients of both projects accept it."""
 
-SESSION_NONE_WITH_KEY = 0x00
+SESSION_NONE_WITH_KEY: Final = 0x00
 """Session ids below 0x80 put the client key into the message header."""
-SESSION_NONE_WITHOUT_KEY = 0x80
-STREAM_NONE = 0x00
-STREAM_BEST_EFFORT = 0x01
+SESSION_NONE_WITHOUT_KEY: Final = 0x80
+STREAM_NONE: Final = 0x00
+STREAM_BEST_EFFORT: Final = 0x01
 """First of the best-effort streams, 0x01 to 0x7F; STATUS is sent on it."""
-STREAM_RELIABLE = 0x80
+STREAM_RELIABLE: Final = 0x80
 """First of the reliable streams, 0x80 to 0xFF; STATUS is sent on it."""
 
-FLAG_LITTLE = 0x01
-FLAG_REUSE = 0x02
-FLAG_REPLACE = 0x04
-FLAG_LAST_FRAGMENT = 0x02
-DATA_FORMAT_MASK = 0x0E
+FLAG_LITTLE: Final = 0x01
+FLAG_REUSE: Final = 0x02
+FLAG_REPLACE: Final = 0x04
+FLAG_LAST_FRAGMENT: Final = 0x02
+DATA_FORMAT_MASK: Final = 0x0E
 
-INFO_CONFIG = 0x01
-INFO_ACTIVITY = 0x02
+INFO_CONFIG: Final = 0x01
+INFO_ACTIVITY: Final = 0x02
 """Bits of GET_INFO's mask."""
 
-OBJECT_CLIENT = 0xFFFE
-OBJECT_AGENT = 0xFFFD
-RELIABLE_WINDOW = 16
+OBJECT_CLIENT: Final = 0xFFFE
+OBJECT_AGENT: Final = 0xFFFD
+RELIABLE_WINDOW: Final = 16
 """Maximum number of unacknowledged messages on a reliable stream; an ACKNACK has one bit for each."""
 
 

@@ -4,15 +4,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Final
 
 from microros_gen.agent.wire.constants import FLAG_LITTLE, SubmessageId
 from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.records import dataclass
 
-CREATE_CLIENT = int(SubmessageId.CREATE_CLIENT)
-MOST_REQUESTS = 256
+CREATE_CLIENT: Final = int(SubmessageId.CREATE_CLIENT)
+MOST_REQUESTS: Final = 256
 """Maximum number of submessages in a message, samples not counted: each may take ROS 2 a millisecond."""
-SUBMESSAGE_HEADER = 4
+SUBMESSAGE_HEADER: Final = 4
 """Number of bytes of a submessage header."""
 Span = tuple[int, int, int, int]
 """One submessage in a message: id, flags, offset of its payload, offset after its payload."""
