@@ -16,7 +16,7 @@ static inline bool xrce_is_whole(const uint8_t * message, size_t size)
 {
   size_t at = XRCE_MESSAGE_HEADER;
 
-  /* The sum stands for the larger of both: a message comes from the agent or from a link. */
+  /* A message comes from the agent or from a link: the sum is above the larger of both. */
   /* at most (MICROROS_INPUT_SIZE + MICROROS_PEER_LARGEST) / 4 or MICROROS_INPUT_SIZE / 4 rounds */
   while (at + XRCE_SUBMESSAGE_HEADER <= size) {
     const size_t length = xrce_get_le16(&message[at + 2u]);
