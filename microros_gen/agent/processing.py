@@ -34,9 +34,9 @@ WRITE_DATA: Final = int(SubmessageId.WRITE_DATA)
 ACKNACK: Final = int(SubmessageId.ACKNACK)
 ACKNACK_HEAD: Final = bytes((ACKNACK, FLAG_LITTLE, 5, 0))
 FRAGMENT: Final = int(SubmessageId.FRAGMENT)
-COSTLY = (SubmessageId.CREATE, SubmessageId.DELETE)
+COSTLY: Final = (SubmessageId.CREATE, SubmessageId.DELETE)
 """Submessages that change the ROS graph, limited by a rate per client and a share of the agent's time for all."""
-ANSWERED = (SubmessageId.CREATE, SubmessageId.READ_DATA)
+ANSWERED: Final = (SubmessageId.CREATE, SubmessageId.READ_DATA)
 """Submessages whose sender waits for a STATUS, also if they are refused or malformed."""
 RETRY_S, LONGEST_RETRY_S = 0.002, 0.064
 """Seconds until a sample for which DDS had no room is retried: the first and the longest interval."""

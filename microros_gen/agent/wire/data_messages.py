@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import ClassVar, Final
 
 from microros_gen.agent.wire.cdr import Reader, Writer
 from microros_gen.agent.wire.constants import DATA_FORMAT_MASK, SubmessageId
 from microros_gen.records import dataclass
 
-DATA_PREFIX = 4
+DATA_PREFIX: Final = 4
 """Number of bytes of WRITE_DATA and DATA before the data: request id and object id."""
 
 DELIVERY_CONTROL = 8
