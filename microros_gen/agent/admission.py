@@ -16,7 +16,7 @@ from microros_gen.agent.limits import Limits
 from microros_gen.agent.liveliness import say_farewell
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.manifests import Manifests
-from microros_gen.agent.newcomers import Newcomer, Newcomers, Strangers, check, timeout_of
+from microros_gen.agent.newcomers import Answer, Newcomer, Newcomers, Strangers, answer, check, timeout_of
 from microros_gen.agent.operations import agent_info, report_outcome
 from microros_gen.agent.places import Places
 from microros_gen.agent.policy.access import Access
@@ -41,7 +41,7 @@ from microros_gen.agent.wire.entity_messages import Delete, Heartbeat, StatusRep
 from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.message import Header, split
 from microros_gen.agent.wire.session_messages import CreateClient, GetInfo, StatusAgent
-from microros_gen.agent.wire.submessages import Submessage, decode, encode
+from microros_gen.agent.wire.submessages import decode, encode
 from microros_gen.records import dataclass
 
 OUT_OF_SESSION = (SESSION_NONE_WITH_KEY, SESSION_NONE_WITHOUT_KEY)
@@ -91,6 +91,7 @@ class Admission:
         self._never_adopted: set[bytes] = set()
         self._strangers = Strangers(limits.adopt_after_s, limits.clients, limits.strangers_per_second)
         self._places = Places(clients, limits, budgets, self.dismiss)
+        self.welcome: Answer = answer
 
     def handle_outside_session(
         self,
@@ -219,16 +220,20 @@ class Admission:
     def _enter(
         self, header: Header, wanted: CreateClient, address: Hashable, transport: Transport, now: float
     ) -> None:
+        key = wanted.key if wanted.session < SESSION_NONE_WITHOUT_KEY else b""
         status = check(wanted, self._limits.minimum_mtu)
+        send: Answer = answer
         if status is Status.OK and self.gatekeeper.decide(wanted.key, transport, address) is None:
             status = Status.DENIED
         elif status is Status.OK:
             link = Link(wanted.session, wanted.key, wanted.mtu)
             newcomer = Newcomer(link, timeout_of(wanted, self._limits.client_timeout_s), address, transport)
-            status = self._admit(newcomer, now) if self._is_known(newcomer) else self._note(newcomer, now)
-        key = wanted.key if wanted.session < SESSION_NONE_WITHOUT_KEY else b""
-        answer: Submessage = StatusAgent(status)
-        transport.send(Header(wanted.session, STREAM_NONE, 0, key).encode() + encode(answer), address)
+            if self._is_known(newcomer):
+                status = self._admit(newcomer, now)
+            elif (status := self._note(newcomer, now)) is Status.OK and not key:
+                send = self.welcome
+        head = Header(wanted.session, STREAM_NONE, 0, key)
+        send(head.encode() + encode(StatusAgent(status)), address, transport)
         if status not in (Status.OK, Status.DENIED):
             self._log.count(
                 f"client_{status.name.lower()}",

@@ -25,6 +25,7 @@ from microros_gen.agent.liveliness import Verdict, ask, is_well, judge, say_fare
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.memory import MemoryGuard, Relief
+from microros_gen.agent.newcomers import Answer
 from microros_gen.agent.operations import Operations
 from microros_gen.agent.own_time import LONG_S
 from microros_gen.agent.policy.gatekeeper import Gatekeeper
@@ -113,6 +114,14 @@ class Agent:
             self.clients.watch = self._states.note
             log.on_warning = self._states.fault
             gatekeeper.refused = self._states.refused
+
+    def welcome(self, send: Answer) -> None:
+        """Let `send` give the answer to each admitted newcomer whose address may be forged.
+
+        That is one whose messages name no key. Those of the client that was at this address look the same, so this
+        client must be gone before the newcomer has its answer.
+        """
+        self._admission.welcome = send
 
     def apply_policy(self, policy: Policy | None) -> None:
         """Replace the policy; clients that it does not allow are told so and removed. Never raises."""

@@ -8,7 +8,7 @@ and no place that a client in session needs. The first message of the session fr
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable
+from collections.abc import Callable, Hashable, Iterable
 
 from microros_gen.agent.clients import Client
 from microros_gen.agent.streams_out import Link
@@ -27,6 +27,7 @@ from microros_gen.records import dataclass
 
 HARD_LIVELINESS = "uxr_hl"
 """Property with which a client requests its own time-out, in ms."""
+Answer = Callable[[bytes, Hashable, Transport], None]
 EMPTY_S = 1.0
 """Seconds of silence after which a client without objects may be replaced."""
 
@@ -39,6 +40,11 @@ class Newcomer:
     timeout_s: float
     address: Hashable
     transport: Transport
+
+
+def answer(data: bytes, address: Hashable, transport: Transport) -> None:
+    """Send a message to a newcomer; a worker process replaces this (see `Agent.welcome`)."""
+    transport.send(data, address)
 
 
 class Newcomers:

@@ -52,6 +52,8 @@ class Kind(IntEnum):
     """To a worker: read the files of policy again."""
     STOP = 13
     """To a worker: end."""
+    NEWCOMER = 14
+    """From a worker: the answer to a CREATE_CLIENT; no other worker may have a client at this address by then."""
 
 
 class Channel:

@@ -65,6 +65,8 @@ class Front:
         self._by_descriptor: dict[int, WorkerProcess] = {}
         self._before = Totals()
         """The counts of workers that have ended."""
+        self._welcomes: dict[Place, bytes] = {}
+        """Answers to newcomers that wait until another worker has removed its client at that address."""
         self._orphans = Orphans(clients * len(workers))
         self._states: tuple[ClientState, ...] = ()
         self._ask_at = self._view_at = self._sweep_at = clock()
@@ -263,8 +265,9 @@ class Front:
                     "worker {worker} ended ({how}) and is started again; its clients must open new sessions"
                 )
                 self._log.emit(Level.ERROR, "worker_ended", text, worker=number, how=how)
-        for transport, code in self._router.forget(number - 1):
-            self._hang_up(transport, code)
+        for place in self._router.forget(number - 1):
+            self._hang_up(*place)
+            self._welcome(place)
         self._complete()
 
     def _hang_up(self, number: int, code: bytes) -> None:
@@ -282,6 +285,8 @@ class Front:
             self._again(content)
         elif kind in (Kind.CLAIMED, Kind.RELEASED):
             self._note(worker, kind, content)
+        elif kind is Kind.NEWCOMER:
+            self._make_way(worker, content)
         elif kind is Kind.STATUS:
             self._answered(worker, Report.decode(content))
         elif kind is Kind.TYPE:
@@ -305,7 +310,10 @@ class Front:
         place: Place = (number, code)
         if kind is Kind.RELEASED:
             self._router.release(place, worker.number - 1)
+            if self._router.other_at(place, -1) is None:
+                self._welcome(place)
             return
+        self._welcome(place)
         before = self._router.claim(place, worker.number - 1)
         other = self.workers[before].channel if before is not None else None
         if other is not None:
@@ -318,6 +326,29 @@ class Front:
                     break
                 transport.pump(self.receive)
             worker.channel.send(Kind.DIRECT, content)
+
+    def _make_way(self, worker: WorkerProcess, content: bytes) -> None:
+        """Let another worker remove its client where one of `worker` is to be; then that one gets its answer.
+
+        Messages in a session from 0x80 on name no key: the other worker would process them for its client.
+        """
+        number, code, data = message_of(content)
+        place: Place = (number, code)
+        before = self._router.other_at(place, worker.number - 1)
+        self._welcomes[place] = data
+        other = self.workers[before].channel if before is not None else None
+        if other is None:
+            self._welcome(place)
+        else:
+            other.send(Kind.LEFT, message_frame(number, code))
+
+    def _welcome(self, place: Place) -> None:
+        """Send the answer that waits for a newcomer, if any."""
+        data = self._welcomes.pop(place, None)
+        number, code = place
+        address = self._books[number].address(code) if data is not None else None
+        if data is not None and address is not None:
+            self._transports[number].send(data, address)
 
     # Reports
 

@@ -63,6 +63,11 @@ class Router:
         self._claimed[place] = worker
         return before if before != worker else None
 
+    def other_at(self, place: Place, worker: int) -> int | None:
+        """Return the worker that has a session at `place`, if it is another one than `worker`."""
+        found = self._claimed.get(place)
+        return found if found != worker else None
+
     def release(self, place: Place, worker: int) -> None:
         """Register that a worker has no session at `place` any more."""
         if self._claimed.get(place) == worker:

@@ -9,20 +9,23 @@ import signal
 import socket
 import sys
 import time
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Sequence
 
 from microros_gen.agent.budgets import Budgets
 from microros_gen.agent.core import Agent
 from microros_gen.agent.fairness import Account, Fairness
 from microros_gen.agent.input_pool import InputPool
 from microros_gen.agent.log import EventLog
+from microros_gen.agent.newcomers import Answer
 from microros_gen.agent.own_time import Waited
 from microros_gen.agent.ros.rclpy_bridge import open_bridge
 from microros_gen.agent.ros.reports import graph_reporter
 from microros_gen.agent.server import Server
 from microros_gen.agent.trace import TracedTransport
 from microros_gen.agent.transport.base import Transport
-from microros_gen.agent.workers.channel import Channel, Kind
+from microros_gen.agent.wire.constants import SESSION_NONE_WITHOUT_KEY
+from microros_gen.agent.workers.addresses import udp_code
+from microros_gen.agent.workers.channel import Channel, Kind, message_frame
 from microros_gen.agent.workers.link import FrontLink
 from microros_gen.agent.workers.remote import FrontTransport, RemoteTransport, WorkerUdp
 from microros_gen.cli.agent.assembly import make_agent
@@ -92,6 +95,7 @@ def _serve(start: WorkerStart, channel: Channel) -> None:
     for transport in own:
         if isinstance(transport, WorkerUdp):
             transport.outside = _outside(agent)
+    agent.welcome(_welcoming(channel, own))
     transports: list[Transport] = list(own)
     if options.verbose > 0:
         transports = [TracedTransport(transport, log) for transport in own]
@@ -111,9 +115,30 @@ def _outside(agent: Agent) -> Callable[[bytes, Hashable], bool]:
 
     def outside(data: bytes, address: Hashable) -> bool:
         client = client_at(address)
-        return client is None or not data or data[0] != client.session.link.session
+        if client is None or not data:
+            return True
+        link = client.session.link
+        return data[0] != link.session or (data[0] < SESSION_NONE_WITHOUT_KEY and data[4:8] != link.key)
 
     return outside
+
+
+def _welcoming(channel: Channel, own: Sequence[WorkerUdp | RemoteTransport]) -> Answer:
+    """Return what lets the front answer newcomers over UDP, after another worker has removed its client there."""
+    numbers = {
+        id(transport): number for number, transport in enumerate(own) if isinstance(transport, WorkerUdp)
+    }
+
+    def welcome(data: bytes, address: Hashable, transport: Transport) -> None:
+        number = numbers.get(id(address[0])) if isinstance(address, tuple) else None
+        if number is None:
+            transport.send(data, address)
+            return
+        if isinstance(transport, TracedTransport):
+            transport.show_sent(data, address)
+        channel.send(Kind.NEWCOMER, message_frame(number, udp_code(address[1]), data))  # type: ignore[index]
+
+    return welcome
 
 
 if __name__ == "__main__":

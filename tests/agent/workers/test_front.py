@@ -35,6 +35,7 @@ class Line:
 
     def __init__(self) -> None:
         self.sent: list[tuple[Hashable, bytes]] = []
+        self.on_send: Callable[[], object] = list
 
     def fileno(self) -> int:
         return -1
@@ -53,6 +54,7 @@ class Line:
 
     def send(self, data: bytes, address: Hashable) -> None:
         self.sent.append((address, data))
+        self.on_send()
 
     def flush(self) -> None:
         """Collect nothing."""
@@ -181,6 +183,34 @@ def test_one_that_answers_late_is_left_alone() -> None:
         for _ in range(STUCK_LOOKS):
             worker.look(STUCK_S + 1)
         assert "has not answered" not in rig.text.getvalue()
+
+
+def test_a_newcomer_is_answered_when_the_other_worker_has_removed_its_client() -> None:
+    with bench() as rig:
+        rig.say(b"enter", 0)
+        rig.until(lambda: rig.line.sent == [(1, b"welcome")])
+        place = (0, rig.front._books[0].known(1).code)
+        rig.say(b"claim", 1)
+        rig.until(lambda: rig.front._router.other_at(place, 0) == 1)
+        rig.line.sent.clear()
+        rig.say(b"enter", 0)
+        seen: list[int | None] = []
+        rig.line.on_send = lambda: seen.append(rig.front._router.other_at(place, 0))
+        rig.until(lambda: rig.line.sent == [(1, b"welcome")])
+        assert seen == [None], "no other worker has a client there by then"
+
+
+def test_a_newcomer_is_answered_when_the_other_worker_has_ended() -> None:
+    with bench() as rig:
+        place = (0, rig.front._books[0].known(1).code)
+        rig.say(b"claim", 1)
+        rig.until(lambda: rig.front._router.other_at(place, 0) == 1)
+        os.kill(rig.workers[1].pid, signal.SIGSTOP)
+        rig.say(b"enter", 0)
+        rig.until(lambda: rig.front._welcomes)
+        assert not rig.line.sent
+        os.kill(rig.workers[1].pid, signal.SIGKILL)
+        rig.until(lambda: rig.line.sent == [(1, b"welcome")])
 
 
 def test_a_view_waits_for_all_workers_and_not_for_one_that_ended() -> None:

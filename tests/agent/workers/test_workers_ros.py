@@ -165,13 +165,17 @@ def test_a_client_that_moves_keeps_its_worker_and_its_session(shared: Running) -
         assert (known["worker"], known["sessions"], known["nodes"]) == (2, 1, ["/moves"])
 
 
-def test_another_key_at_an_address_has_its_own_worker(shared: Running) -> None:
-    """The worker of the first key had its own socket for the address: it returns what is not of its session."""
-    with XrceClient(shared.port, key=0x21) as first:
+@pytest.mark.parametrize(("first_session", "session"), [(0x81, 0x82), (0x81, 0x81), (0x01, 0x01)])
+def test_another_key_at_an_address_has_its_own_worker(
+    shared: Running, first_session: int, session: int
+) -> None:
+    """As a board with random keys that restarts: the worker of the first key had its own socket for the address."""
+    old, new = (f"{first_session:02X}{session:02X}002{last}" for last in (1, 2))
+    with XrceClient(shared.port, key=int(old, 16), session=first_session) as first:
         assert first.connect() == 0
         first.publisher("first", "first", INT32, own_domain())
-        shared.client("00000021", worker=2)
-        second = XrceClient(shared.port, key=0x22, session=0x82)
+        shared.client(old, worker=2)
+        second = XrceClient(shared.port, key=int(new, 16), session=session)
         second.socket.close()
         second.socket = first.socket
         assert second.connect() == 0
@@ -179,8 +183,24 @@ def test_another_key_at_an_address_has_its_own_worker(shared: Running) -> None:
         for value in range(100):
             second.write(writer, int32_body(value))
         second.drain()
-        shared.client("00000021", state="gone")
-        shared.client("00000022", state="connected", worker=1)
+        shared.client(old, state="gone")
+        shared.client(new, state="connected", worker=1)
+
+
+def test_a_refused_client_does_not_end_the_one_at_its_address(tmp_path: Path) -> None:
+    """Anyone can send a CREATE_CLIENT with that address; the policy, or its content, refuses this one."""
+    policy = tmp_path / "policy.yaml"
+    policy.write_text("version: 1\nclients:\n  - name: some\n    keys: ['0x00000003', '0x00000004']\n")
+    with running("--policy", str(policy)) as agent, XrceClient(agent.port, key=3) as first:
+        assert first.connect() == 0
+        assert first.ping() == 1, "it is in session, and its worker has a socket for it"
+        for key, mtu, status in ((2, 512, 0x83), (4, 1, 0x85)):
+            forged = XrceClient(agent.port, key=key, mtu=mtu)
+            forged.socket.close()
+            forged.socket = first.socket
+            assert forged.connect() == status
+            assert first.ping() == 1
+        agent.client("00000003", state="connected", sessions=1)
 
 
 def test_no_sample_is_lost_or_overtaken_while_clients_connect_and_leave(shared: Running) -> None:

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """A worker without ROS, for tests of its front: it does what the first word of a message says.
 
-`echo` is sent back to where it came from, `claim` opens a session there, `fall` ends the process with status 3, and
-`hang` stops it. What it got on standard input names how it starts: `refuse` is a fault in its files.
+`echo` is sent back to where it came from, `claim` opens a session there, `enter` admits a newcomer there, `fall` ends
+the process with status 3, and `hang` stops it. When a client has to leave, it does. What it got on standard input names
+how it starts: `refuse` is a fault in its files.
 """
 
 from __future__ import annotations
@@ -36,6 +37,8 @@ def main() -> None:
                 channel.finish(5.0)
             elif kind is Kind.ASK:
                 channel.send(Kind.STATUS, Report(samples=count, clients=() if content else None).encode())
+            elif kind is Kind.LEFT:
+                channel.send(Kind.RELEASED, content)
             elif kind is Kind.MESSAGE:
                 count += 1
                 _do(channel, content)
@@ -48,6 +51,8 @@ def _do(channel: Channel, content: bytes) -> None:
         channel.send(Kind.MESSAGE, message_frame(number, code, data))
     elif word == b"claim":
         channel.send(Kind.CLAIMED, message_frame(number, code))
+    elif word == b"enter":
+        channel.send(Kind.NEWCOMER, message_frame(number, code, b"welcome"))
     elif word == b"fall":
         os._exit(3)
     elif word == b"hang":
