@@ -49,7 +49,7 @@ class Kind(IntEnum):
     FAILED = 11
     """From a worker: it cannot start; its diagnostics."""
     RELOAD = 12
-    """To a worker: read the files of policy again."""
+    """To a worker: the policy (pickled) that is in force now."""
     STOP = 13
     """To a worker: end."""
     NEWCOMER = 14

@@ -12,7 +12,9 @@ import pickle
 import select
 import time
 from collections.abc import Callable, Hashable, Sequence
+from functools import partial
 
+from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.states import ClientState
 from microros_gen.agent.transport.base import Transport
@@ -20,15 +22,14 @@ from microros_gen.agent.transport.tcp import Connection, Tcp
 from microros_gen.agent.transport.udp import Udp
 from microros_gen.agent.workers.addresses import AddressBook
 from microros_gen.agent.workers.channel import WAITING_BYTES, Kind, message_frame, message_of
-from microros_gen.agent.workers.report import Orphans, Report, Totals
+from microros_gen.agent.workers.report import Report, Totals
 from microros_gen.agent.workers.routing import Place, Router
+from microros_gen.agent.workers.views import Views
 from microros_gen.agent.workers.worker_process import WorkerProcess
 from microros_gen.diagnostics import Diagnostic, UserError
 
 ASK_S = 1.0
 """Seconds between two questions to all workers, which show that they run."""
-VIEW_S = 0.25
-"""Minimum seconds between two views of the clients."""
 SWEEP_S = 1.0
 """Seconds between two looks for closed connections."""
 MOST_ROUNDS = 64
@@ -45,18 +46,14 @@ class Front:
         workers: Sequence[WorkerProcess],
         transports: Sequence[Transport],
         log: EventLog,
-        clients: int,
-        stop_s: float,
+        limits: Limits,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        """`transports`: in the order in which workers number them. `clients`: maximum of each worker.
-
-        `stop_s`: seconds that an ending worker gives to its readers.
-        """
+        """`transports`: in the order in which workers number them. `limits`: those of each worker."""
         self.workers = workers
         self._log = log
         self._clock = clock
-        self._stop_s = stop_s
+        self._stop_s = limits.stop_s
         self._transports = tuple(transports)
         self._numbers = {id(transport): number for number, transport in enumerate(transports)}
         self._books = tuple(AddressBook(transport) for transport in transports)
@@ -67,17 +64,12 @@ class Front:
         """The counts of workers that have ended."""
         self._welcomes: dict[Place, bytes] = {}
         """Answers to newcomers that wait until another worker has removed its client at that address."""
-        self._orphans = Orphans(clients * len(workers))
-        self._states: tuple[ClientState, ...] = ()
-        self._ask_at = self._view_at = self._sweep_at = clock()
-        self._view_is_wanted = False
-        self._open: set[int] = set()
-        """Workers that have not answered the last question for a view."""
-        self._views = 0
-        self._awaited: int | None = None
-        """Number of views when one was asked for."""
+        self._views = Views(workers, limits, clock)
+        self._views.on_complete = self._viewed
+        self._ask_at = self._sweep_at = clock()
         self._ends = False
         self._failure: list[Diagnostic] = []
+        self._has_started = False
         self.on_care: Callable[[float], None] | None = None
         """See Agent."""
         self.on_type: Callable[[str], object] = _ignore
@@ -86,9 +78,9 @@ class Front:
     # What the main loop calls
 
     @property
-    def clients(self) -> tuple[ClientState, ...]:
-        """The last view of the clients."""
-        return self._states
+    def clients(self) -> range:
+        """One number for each client of all workers, as they last said."""
+        return range(sum(worker.report.connected for worker in self.workers))
 
     @property
     def samples(self) -> int:
@@ -149,7 +141,7 @@ class Front:
                 continue
             channel = worker.channel
             for kind, content in channel.receive():
-                self._do(worker, kind, content)
+                self._guarded(partial(self._do, worker, kind, content))
             if channel.closed:
                 self._lost(worker, descriptor)
 
@@ -167,15 +159,9 @@ class Front:
             self._ask_at = now + ASK_S
             for worker in self.workers:
                 worker.ask(now, states=False)
-        if self._view_is_wanted and not self._open and now >= self._view_at:
-            self._view_is_wanted = False
-            self._view_at = now + VIEW_S
-            self._open = {worker.number for worker in self.workers if worker.ready}
-            for worker in self.workers:
-                worker.ask(now, states=True)
-            self._complete()
+        self._views.look(now)
         if self.on_care is not None:
-            self.on_care(now)
+            self._guarded(partial(self.on_care, now))
 
     def close(self) -> None:
         """Let the workers end in order, and pass on what they still send. Never raises."""
@@ -214,40 +200,57 @@ class Front:
                 raise UserError(self._failure)
             if late is not None or self._clock() > end:
                 number = (late or next(w for w in self.workers if not w.ready)).number
-                hint = "Its log is above; without --workers the agent is one process"
+                hint = "Its log is above; --workers 1 is an agent of one process"
                 raise UserError([Diagnostic(f"worker {number} does not start", hint=hint, id="MG-9841")])
+        self._has_started = True
 
-    def reload(self) -> None:
-        """Let all workers read their files again."""
+    def reload(self, content: bytes) -> None:
+        """Let all workers that run replace their policy by `content`. Others get it by their `start_data`."""
         for worker in self.workers:
             if worker.channel is not None:
-                worker.channel.send(Kind.RELOAD)
+                worker.channel.send(Kind.RELOAD, content)
 
     def has_new_view(self) -> bool:
         """Ask for a view of the clients with the first call, and return whether it is there; then begin again."""
-        if self._awaited is None:
-            self._awaited = self._views
-            self._view_is_wanted = True
-        if self._views == self._awaited:
-            return False
-        self._awaited = None
-        return True
+        return self._views.has_new()
 
     def client_states(self) -> tuple[ClientState, ...]:
         """See Agent: the last view."""
-        return self._states
+        return self._views.states
 
     def latest_client_states(self) -> tuple[ClientState, ...]:
         """See Agent: the last view, and another one is taken soon. May be called in any thread."""
-        self._view_is_wanted = True
-        return self._states
+        self._views.wish()
+        return self._views.states
+
+    def _viewed(self) -> None:
+        if self.on_care is not None:
+            self._guarded(partial(self.on_care, self._clock()))
 
     # Workers
 
     def _start(self, worker: WorkerProcess) -> None:
-        channel = worker.start()
+        try:
+            channel = worker.start()
+            self._epoll.register(channel.fileno(), select.EPOLLIN)
+        except OSError as error:
+            worker.put_off(self._clock())
+            message = f"worker {worker.number} does not start: {error.strerror or error}"
+            hint = "Give the agent more memory, processes or descriptors (ulimit -n -u), or fewer --workers"
+            self._failed(worker, [Diagnostic(message, hint=hint, id="MG-9841")])
+            return
         self._by_descriptor[channel.fileno()] = worker
-        self._epoll.register(channel.fileno(), select.EPOLLIN)
+
+    def _failed(self, worker: WorkerProcess, why: list[Diagnostic]) -> None:
+        """Note why a worker does not start; log it once if the agent serves already."""
+        if not self._has_started:
+            self._failure = self._failure or why
+            return
+        reason = "; ".join(diagnostic.message for diagnostic in why)
+        if reason != worker.failure:
+            worker.failure = reason
+            text = "worker {worker} cannot start, and is tried again: {reason}"
+            self._log.emit(Level.ERROR, "worker_failed", text, worker=worker.number, reason=reason)
 
     def _lost(self, worker: WorkerProcess, descriptor: int) -> None:
         """Let a worker that has ended be started again, and its clients find out."""
@@ -257,18 +260,13 @@ class Front:
         was_ready, report = worker.ready, worker.report
         how = worker.ended(now)
         worker.report = Report()
-        self._open.discard(number)
-        if not self._ends:
-            self._orphans.add(report.clients or (), number, now)
-            if was_ready:
-                text = (
-                    "worker {worker} ended ({how}) and is started again; its clients must open new sessions"
-                )
-                self._log.emit(Level.ERROR, "worker_ended", text, worker=number, how=how)
+        if was_ready and not self._ends:
+            text = "worker {worker} ended ({how}) and is started again; its clients must open new sessions"
+            self._log.emit(Level.ERROR, "worker_ended", text, worker=number, how=how)
         for place in self._router.forget(number - 1):
             self._hang_up(*place)
             self._welcome(place)
-        self._complete()
+        self._views.ended(number, report, keeps=not self._ends)
 
     def _hang_up(self, number: int, code: bytes) -> None:
         transport, address = self._transports[number], self._books[number].address(code)
@@ -288,16 +286,25 @@ class Front:
         elif kind is Kind.NEWCOMER:
             self._make_way(worker, content)
         elif kind is Kind.STATUS:
-            self._answered(worker, Report.decode(content))
+            self._views.answered(worker, Report.decode(content))
         elif kind is Kind.TYPE:
             self.on_type(content.decode())
         elif kind is Kind.FAILED:
-            self._failure = pickle.loads(content)
+            self._failed(worker, pickle.loads(content))
         elif kind is Kind.READY:
             worker.ready = True
+            worker.failure = ""
             if worker.restarts:
                 text = "worker {worker} serves again (process {pid})"
                 self._log.emit(Level.INFO, "worker_back", text, worker=worker.number, pid=worker.pid)
+
+    def _guarded(self, do: Callable[[], object]) -> None:
+        """Do one thing; a fault in it does not end the agent."""
+        try:
+            do()
+        except Exception as error:
+            text = "internal error in the first process: {error}; please report it"
+            self._log.count(f"internal_{type(error).__name__}", text, error=repr(error))
 
     def _again(self, content: bytes) -> None:
         number, code, data = message_of(content)
@@ -349,28 +356,6 @@ class Front:
         address = self._books[number].address(code) if data is not None else None
         if data is not None and address is not None:
             self._transports[number].send(data, address)
-
-    # Reports
-
-    def _answered(self, worker: WorkerProcess, report: Report) -> None:
-        if report.clients is None:
-            report = Report(report.samples, report.delivered, report.faults, worker.report.clients)
-        elif worker.number in self._open:
-            self._open.discard(worker.number)
-            worker.answered(report)
-            self._complete()
-            return
-        worker.answered(report)
-
-    def _complete(self) -> None:
-        """Take the view when all workers have answered."""
-        if self._open:
-            return
-        states = [worker.report.clients or () for worker in self.workers]
-        self._states = self._orphans.with_those_of(states, self._clock())
-        self._views += 1
-        if self.on_care is not None:
-            self.on_care(self._clock())
 
 
 def _ignore(_value: object) -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import replace
 
@@ -28,19 +29,14 @@ class FrontLink:
         own: Sequence[Own],
         transports: Sequence[Transport],
         log: EventLog,
-        reload: Callable[[], None] | None,
     ) -> None:
-        """`own`: the worker's transports, numbered as those of the front; `transports`: the same, traced if wanted.
-
-        `reload` reads the files of the policy again.
-        """
+        """`own`: the worker's transports, numbered as those of the front; `transports`: the same, traced if wanted."""
         self._channel = channel
         self._number = number
         self._agent = agent
         self._own = own
         self._transports = transports
         self._log = log
-        self._reload = reload
         self.stop: Callable[[], object] = _nothing
         """Called when the worker is to end."""
         self.label = "front"
@@ -58,8 +54,8 @@ class FrontLink:
                 reached[number] = None
             elif kind is Kind.ASK:
                 self.report(states=bool(content))
-            elif kind is Kind.RELOAD and self._reload is not None:
-                self._reload()
+            elif kind is Kind.RELOAD:
+                self._agent.apply_policy(pickle.loads(content))
             elif kind is Kind.STOP:
                 self.stop()
         for number in reached:
@@ -71,7 +67,7 @@ class FrontLink:
         """Send a report, with the states of all clients if `states`."""
         agent, number = self._agent, self._number
         clients = tuple(replace(state, worker=number) for state in agent.client_states()) if states else None
-        report = Report(agent.samples, agent.delivered, dict(self._log.counters), clients)
+        report = Report(agent.samples, agent.delivered, dict(self._log.counters), clients, len(agent.clients))
         self._channel.send(Kind.STATUS, report.encode())
 
     def _pass(self, kind: Kind, own: Own, code: bytes, data: bytes) -> None:

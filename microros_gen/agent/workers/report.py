@@ -20,6 +20,8 @@ class Report:
     delivered: int = 0
     faults: dict[str, int] = field(default_factory=dict)
     clients: tuple[ClientState, ...] | None = None
+    connected: int = 0
+    """Number of its clients."""
 
     def encode(self) -> bytes:
         """Return it for the channel. Both sides are the same program of the same user."""
@@ -48,10 +50,14 @@ class Totals:
 
 
 class Orphans:
-    """The last known states of clients whose worker ended, until another one knows them; at most `most`."""
+    """The last known states of clients whose worker ended, until another one knows them.
 
-    def __init__(self, most: int) -> None:
+    They are `most` at most, and each is forgotten after `expire_s` seconds of silence.
+    """
+
+    def __init__(self, most: int, expire_s: float) -> None:
         self._most = most
+        self._expire_s = expire_s
         self._states: dict[str, tuple[ClientState, float]] = {}
 
     def add(self, states: Iterable[ClientState], worker: int, now: float) -> None:
@@ -68,7 +74,10 @@ class Orphans:
         known = [state for states in workers for state in states]
         for state in known:
             self._states.pop(state.key, None)
-        orphans = (
+        orphans = [
             replace(state, silent_s=state.silent_s + now - since) for state, since in self._states.values()
-        )
-        return (*known, *orphans)
+        ]
+        for state in orphans:
+            if state.silent_s > self._expire_s:
+                del self._states[state.key]
+        return (*known, *(state for state in orphans if state.key in self._states))

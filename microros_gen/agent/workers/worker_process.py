@@ -18,8 +18,10 @@ STEADY_S = 10.0
 """Seconds after which a worker that ends is started again at once."""
 FIRST_PAUSE_S, LONGEST_PAUSE_S = 0.5, 30.0
 """Seconds until one that ended earlier is started again: doubled each time."""
+START_S = 60.0
+"""Seconds in which a worker must serve after its start; then it is ended."""
 STUCK_S = 30.0
-"""Seconds after which a worker that does not answer is ended."""
+"""Seconds after which a worker that serves and does not answer is ended."""
 STUCK_LOOKS = 20
 """Number of looks at which that must be so: the front itself may have been stopped meanwhile."""
 
@@ -42,11 +44,16 @@ class WorkerProcess:
         self.number = number
         self._command = command
         self._shared = tuple(shared)
-        self._start = start
+        self.start_data = start
+        """What the next process gets on its standard input."""
+        self.failure = ""
+        """Why it could not start again, as the log says; empty: it could."""
         self._log = log
         self._process: subprocess.Popen[bytes] | None = None
         self.channel: Channel | None = None
         self.ready = False
+        self.late = False
+        """Whether a view of the clients was taken without its answer."""
         self.report = Report()
         """Its last report."""
         self.restarts = 0
@@ -61,26 +68,45 @@ class WorkerProcess:
         """The number of its process; 0: none runs."""
         return self._process.pid if self._process is not None else 0
 
+    @property
+    def answers(self) -> bool:
+        """Whether it serves, and answers in time."""
+        return self.ready and not self.late
+
     def start(self) -> Channel:
         """Start the process; return the channel to it. Raises OSError."""
         own, other = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
-        with other, os.fdopen(os.memfd_create("worker"), "w+b") as file:
-            file.write(self._start)
+        with other:
+            try:
+                channel = Channel(own)
+                self._process = self._run(other)
+            except OSError:
+                own.close()
+                raise
+        self.channel = channel
+        self._started_at = time.monotonic()
+        self._start_at = self._asked_at = None
+        self.ready = False
+        self.report = Report()
+        return self.channel
+
+    def _run(self, other: socket.socket) -> subprocess.Popen[bytes]:
+        with os.fdopen(os.memfd_create("worker"), "w+b") as file:
+            file.write(self.start_data)
             file.flush()
             file.seek(0)
-            self._process = subprocess.Popen(
+            return subprocess.Popen(
                 [*self._command, str(other.fileno())],
                 stdin=file,
                 stdout=2,  # stdout of the agent has the ready lines alone
                 pass_fds=(other.fileno(), *self._shared),
                 start_new_session=True,  # Ctrl-C is for the front, which lets its workers end in order
             )
-        self.channel = Channel(own)
-        self._started_at = time.monotonic()
-        self._start_at = self._asked_at = None
-        self.ready = False
-        self.report = Report()
-        return self.channel
+
+    def put_off(self, now: float) -> None:
+        """Start it again after a pause, because this was not possible now."""
+        self.kill()
+        self._plan(now, steady=False)
 
     def ask(self, now: float, states: bool) -> None:
         """Ask for a report, with the states of all clients if `states`."""
@@ -93,6 +119,7 @@ class WorkerProcess:
         """Take a report."""
         self.report = report
         self._asked_at = None
+        self.late = False
         self._stuck = 0
 
     def is_due(self, now: float) -> bool:
@@ -100,12 +127,12 @@ class WorkerProcess:
         return self._start_at is not None and now >= self._start_at
 
     def look(self, now: float) -> None:
-        """End the process if it has not answered for a long time."""
-        late = self._asked_at is not None and now - self._asked_at > STUCK_S
-        self._stuck = self._stuck + 1 if late else 0
+        """End the process if it has not answered, or does not serve, for a long time."""
+        since, wait_s = (self._asked_at, STUCK_S) if self.ready else (self._started_at, START_S)
+        self._stuck = self._stuck + 1 if since is not None and now - since > wait_s else 0
         if self._stuck >= STUCK_LOOKS and self._process is not None:
             text = "worker {worker} has not answered for {seconds} s: it is ended"
-            self._log.emit(Level.WARNING, "worker_stuck", text, worker=self.number, seconds=STUCK_S)
+            self._log.emit(Level.WARNING, "worker_stuck", text, worker=self.number, seconds=wait_s)
             self._process.kill()
             self._stuck = 0
 
@@ -114,13 +141,15 @@ class WorkerProcess:
         if self.channel is not None:
             self.channel.close()
         self.channel = None
-        self.ready = False
+        self.ready = self.late = False
         how = self._wait()
-        steady = now - self._started_at >= STEADY_S
-        self._pause_s = 0.0 if steady else min(max(2 * self._pause_s, FIRST_PAUSE_S), LONGEST_PAUSE_S)
-        self._start_at = now + self._pause_s
+        self._plan(now, steady=now - self._started_at >= STEADY_S)
         self.restarts += 1
         return how
+
+    def _plan(self, now: float, steady: bool) -> None:
+        self._pause_s = 0.0 if steady else min(max(2 * self._pause_s, FIRST_PAUSE_S), LONGEST_PAUSE_S)
+        self._start_at = now + self._pause_s
 
     def kill(self) -> None:
         """End the process at once, if it runs."""

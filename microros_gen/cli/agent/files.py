@@ -63,5 +63,15 @@ def read_files(options: AgentOptions) -> AgentFiles:
     return AgentFiles(references, preconfigured, clients, hashes, policy, keys, tuple(diagnostics))
 
 
+def without_types(files: AgentFiles) -> AgentFiles:
+    """Return the part of `files` that can be given to another process: all but the types and the keys."""
+    return replace(files, hashes=TypeHashes(_no_hash, files.clients.common), keys=None)
+
+
+def with_types(files: AgentFiles, options: AgentOptions) -> AgentFiles:
+    """Return `files` from another process, with the types of this machine. Raises UserError."""
+    return replace(files, hashes=TypeHashes(type_hashes(options.interface_paths), files.clients.common))
+
+
 def _no_hash(_type_name: str) -> None:
     """Know no type."""

@@ -140,7 +140,7 @@ class _Observer:
         if isinstance(self._agent, Front):
             if not self._agent.has_new_view():
                 return None
-            workers = tuple(WorkerState(w.number, w.pid, w.ready, w.restarts) for w in self._agent.workers)
+            workers = tuple(WorkerState(w.number, w.pid, w.answers, w.restarts) for w in self._agent.workers)
             faults = self._agent.faults
         labels = [(*transport.label.partition(" ")[::2], transport.ready) for transport in self._transports]
         return AgentStatus(

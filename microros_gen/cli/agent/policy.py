@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Protocol
 
-from microros_gen.agent.core import Agent
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.policy.checks import check_domain
 from microros_gen.agent.policy.model import Policy
@@ -37,7 +37,14 @@ def report_policy(path: Path, policy: Policy, log: EventLog) -> None:
     log.emit(Level.INFO, "policy", text, rules=len(policy.rules), file=str(path))
 
 
-def reloading(options: AgentOptions, agent: Agent, log: EventLog) -> Callable[[], None] | None:
+class Ruled(Protocol):
+    """An agent, or the front of its workers."""
+
+    def apply_policy(self, policy: Policy | None) -> None:
+        """Replace the policy."""
+
+
+def reloading(options: AgentOptions, agent: Ruled, log: EventLog) -> Callable[[], None] | None:
     """Return the function that reads the file again and applies it; None without a file."""
     path = options.policy
     if path is None:

@@ -59,7 +59,7 @@ def serve(options: AgentOptions) -> None:
         log.emit(Level.WARNING, "type_hash_differs", text, type=name)
     check_memory(options.limits)
     if options.workers > 1:
-        serve_with_workers(options, log, partial(_announce, EventLog(sys.stdout, as_json)))
+        serve_with_workers(options, files, log, partial(_announce, EventLog(sys.stdout, as_json)))
     else:
         _serve_alone(options, files, log)
 

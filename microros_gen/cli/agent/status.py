@@ -40,7 +40,7 @@ _PERIOD_S = 1.0
 @click.option(
     "--check",
     is_flag=True,
-    help="Print `ok`, or the transports that accept no messages, and say the same by the exit status.",
+    help="Print `ok`, or the transports and workers that are not ready, and say the same by the exit status.",
 )
 @format_option
 @click.pass_context
@@ -57,8 +57,8 @@ def status_command(
     microros-gen agent status --format json
     microros-gen agent status --check
 
-    Exit status 1: with --check, a transport is not ready, for example a serial device that is unplugged. 2: no agent
-    runs, several run and none is chosen, or the agent does not answer. SIGINT and SIGTERM end --watch with
+    Exit status 1: with --check, a transport or a worker is not ready, for example a serial device that is unplugged.
+    2: no agent runs, several run and none is chosen, or the agent does not answer. SIGINT and SIGTERM end --watch with
     status 0.
     """
     if path is not None and pid is not None:

@@ -29,10 +29,9 @@ from microros_gen.agent.workers.channel import Channel, Kind, message_frame
 from microros_gen.agent.workers.link import FrontLink
 from microros_gen.agent.workers.remote import FrontTransport, RemoteTransport, WorkerUdp
 from microros_gen.cli.agent.assembly import make_agent
-from microros_gen.cli.agent.files import read_files
+from microros_gen.cli.agent.files import AgentFiles, with_types
 from microros_gen.cli.agent.options import AgentOptions
 from microros_gen.cli.agent.parameters import NOTICE
-from microros_gen.cli.agent.policy import reloading
 from microros_gen.cli.agent.transports import Shared
 from microros_gen.diagnostics import UserError
 from microros_gen.records import dataclass
@@ -44,6 +43,8 @@ class WorkerStart:
 
     options: AgentOptions
     number: int
+    files: AgentFiles
+    """Without types; the policy is the one in force."""
     transports: tuple[FrontTransport, ...]
 
 
@@ -73,7 +74,7 @@ def _serve(start: WorkerStart, channel: Channel) -> None:
         bytes_per_second=limits.log_bytes_per_second,
         worker=start.number,
     )
-    files = read_files(options)
+    files = with_types(start.files, options)
     budgets = Budgets(limits)
     pool = InputPool(limits.input_bytes, limits.clients)
     shared = Shared(pool, budgets.output, Fairness(waited=Waited()), Account())
@@ -99,8 +100,7 @@ def _serve(start: WorkerStart, channel: Channel) -> None:
     transports: list[Transport] = list(own)
     if options.verbose > 0:
         transports = [TracedTransport(transport, log) for transport in own]
-    reload = reloading(options, agent, log)
-    link = FrontLink(channel, start.number, agent, own, transports, log, reload)
+    link = FrontLink(channel, start.number, agent, own, transports, log)
     server = Server(agent, [link, *transports], log)
     link.stop = server.stop
     gc.collect()
@@ -139,7 +139,3 @@ def _welcoming(channel: Channel, own: Sequence[WorkerUdp | RemoteTransport]) -> 
         channel.send(Kind.NEWCOMER, message_frame(number, udp_code(address[1]), data))  # type: ignore[index]
 
     return welcome
-
-
-if __name__ == "__main__":
-    main()

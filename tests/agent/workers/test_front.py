@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import errno
 import io
 import os
 import signal
+import subprocess
 import sys
 import time
 from collections.abc import Callable, Hashable, Iterator
@@ -15,15 +17,20 @@ from pathlib import Path
 import pytest
 
 from microros_gen.agent.fairness import Account
+from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.transport.base import Origin, Receive
 from microros_gen.agent.workers.front import Front
-from microros_gen.agent.workers.worker_process import STEADY_S, STUCK_LOOKS, STUCK_S, WorkerProcess
+from microros_gen.agent.workers.views import SLOW_S
+from microros_gen.agent.workers.worker_process import START_S, STEADY_S, STUCK_LOOKS, STUCK_S, WorkerProcess
 from microros_gen.diagnostics import UserError
 from tests.support.agent import small_worker
 from tests.support.patience import deadline, seconds
 
 COMMAND = [sys.executable, str(Path(small_worker.__file__))]
+
+
+LIMITS = Limits(clients=16, stop_s=0.5)
 
 
 class Line:
@@ -81,7 +88,7 @@ class Bench:
         self.line = Line()
         self.now = 1000.0
         self.workers = [WorkerProcess(n, command, (), start, self.log) for n in range(1, workers + 1)]
-        self.front = Front(self.workers, [self.line], self.log, 16, 0.5)
+        self.front = Front(self.workers, [self.line], self.log, LIMITS)
 
     def say(self, word: bytes, key: int, address: int = 1) -> None:
         """Let the client at an address send a message that has its key in its header."""
@@ -220,16 +227,114 @@ def test_a_view_waits_for_all_workers_and_not_for_one_that_ended() -> None:
         rig.say(b"hang", 1)
         rig.until(lambda: rig.front.samples == 0)
         assert not rig.front.has_new_view()
-        rig.until(lambda: rig.front._open == {2})
+        rig.until(lambda: rig.front._views._open == {2})
         assert not rig.front.has_new_view()
         os.kill(rig.workers[1].pid, signal.SIGKILL)
         rig.until(rig.front.has_new_view)
+
+
+def test_a_view_is_taken_without_a_slow_worker_which_is_not_ready_then() -> None:
+    with bench() as rig:
+        slow = rig.workers[1]
+        os.kill(slow.pid, signal.SIGSTOP)
+        assert not rig.front.has_new_view()
+        rig.until(rig.front.has_new_view)
+        assert [worker.answers for worker in rig.workers] == [True, False]
+        assert not rig.front.has_new_view()
+        began = time.monotonic()
+        rig.until(rig.front.has_new_view)
+        assert time.monotonic() - began < SLOW_S, "the next view does not wait for it"
+        os.kill(slow.pid, signal.SIGCONT)
+        rig.until(lambda: slow.answers)
+
+
+def test_the_number_of_clients_is_what_the_workers_last_said() -> None:
+    with bench() as rig:
+        for key in range(5):
+            rig.say(b"echo", key, key)
+        rig.until(lambda: len(rig.front.clients) == 5)
 
 
 def test_a_fault_that_a_worker_finds_is_that_of_the_agent() -> None:
     with pytest.raises(UserError) as raised, bench(start=b"refuse"):
         pass
     assert [each.id for each in raised.value.diagnostics] == ["MG-9703"]
+
+
+def test_a_fault_that_a_worker_finds_later_is_in_the_log_once() -> None:
+    with bench() as rig:
+        rig.workers[1].start_data = b"refuse"
+        rig.say(b"fall", 1)
+        rig.until(lambda: rig.workers[1].restarts == 3)
+        assert rig.text.getvalue().count("worker 2 cannot start, and is tried again: a fault") == 1
+        rig.workers[1].start_data = b""
+        rig.until(lambda: rig.workers[1].ready)
+
+
+def test_the_system_has_no_room_for_a_worker(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The agent serves with the others, and tries again."""
+    with bench() as rig:
+        monkeypatch.setattr(subprocess, "Popen", full)
+        rig.say(b"fall", 1)
+        rig.until(lambda: "worker 2 cannot start" in rig.text.getvalue())
+        descriptors = len(list(Path("/proc/self/fd").iterdir()))
+        worker = rig.workers[1]
+        for _ in range(3):
+            rig.front.care(1e9)
+            assert not worker.is_due(time.monotonic()), "there is a pause before the next attempt"
+        assert len(list(Path("/proc/self/fd").iterdir())) == descriptors
+        assert rig.text.getvalue().count("Resource temporarily unavailable") == 1
+        rig.say(b"echo", 0)
+        rig.until(lambda: rig.line.sent)
+        monkeypatch.undo()
+        worker.put_off(float("-inf"))
+        rig.until(lambda: worker.ready)
+
+
+def test_the_system_has_no_room_for_a_worker_at_the_start(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(subprocess, "Popen", full)
+    with pytest.raises(UserError) as raised, bench():
+        pass
+    (found,) = raised.value.diagnostics
+    assert (found.id, found.message) == (
+        "MG-9841",
+        "worker 1 does not start: Resource temporarily unavailable",
+    )
+
+
+def full(*_arguments: object, **_options: object) -> None:
+    raise BlockingIOError(errno.EAGAIN, os.strerror(errno.EAGAIN))
+
+
+def test_one_that_never_serves_after_its_restart_is_ended() -> None:
+    with bench(1) as rig:
+        worker = rig.workers[0]
+        worker.start_data = b"sleep"
+        rig.say(b"fall", 0)
+        rig.until(lambda: worker.restarts == 1 and worker.pid)
+        hung = worker.pid
+        for _ in range(STUCK_LOOKS):
+            worker.look(time.monotonic() + START_S - 5)
+        assert "has not answered" not in rig.text.getvalue()
+        worker.start_data = b""
+        for _ in range(STUCK_LOOKS):
+            worker.look(time.monotonic() + START_S + 1)
+        assert "worker 1 has not answered for 60" in rig.text.getvalue()
+        rig.until(lambda: worker.ready and worker.pid not in (0, hung))
+
+
+def test_a_fault_in_one_frame_does_not_end_the_agent() -> None:
+    with bench() as rig:
+
+        def refuse(_value: object) -> None:
+            raise ValueError("refused")
+
+        rig.front.on_care = refuse
+        rig.front.on_type = refuse
+        rig.say(b"type", 1)
+        rig.say(b"echo", 1)
+        rig.until(lambda: rig.line.sent)
+        assert rig.log.counters["internal_ValueError"] > 1
 
 
 def test_a_worker_that_does_not_start() -> None:

@@ -38,7 +38,7 @@ def test_counts_of_workers_that_ended_stay() -> None:
 
 
 def test_clients_without_a_worker_are_silent_until_one_knows_them() -> None:
-    orphans = Orphans(8)
+    orphans = Orphans(8, 86_400.0)
     left = replace(CLIENT, key="00000003", presence=Presence.GONE)
     orphans.add([CLIENT, left], 1, 100.0)
     first, second = orphans.with_those_of([[OTHER]], 107.0)
@@ -51,8 +51,16 @@ def test_clients_without_a_worker_are_silent_until_one_knows_them() -> None:
     assert orphans.with_those_of([[OTHER]], 109.0) == (OTHER,), "it has left since"
 
 
+def test_they_are_forgotten_after_their_time() -> None:
+    orphans = Orphans(8, 60.0 + CLIENT.silent_s)
+    orphans.add([CLIENT], 1, 100.0)
+    assert len(orphans.with_those_of([], 160.0)) == 1
+    assert orphans.with_those_of([], 161.0) == ()
+    assert orphans.with_those_of([], 100.0) == (), "it is gone for good"
+
+
 def test_they_do_not_grow_without_end() -> None:
-    orphans = Orphans(8)
+    orphans = Orphans(8, 86_400.0)
     for number in range(20):
         orphans.add([replace(CLIENT, key=f"{number:08X}")], 1, 0.0)
     assert len(orphans.with_those_of([], 0.0)) == 8

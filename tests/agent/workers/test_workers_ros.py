@@ -274,13 +274,17 @@ def ask_url(url: str) -> tuple[int, str]:
         return answer.status, answer.read().decode()
 
 
-def test_a_stopped_worker_makes_the_agent_unhealthy() -> None:
+def test_a_stopped_worker_is_not_ready_and_the_others_answer() -> None:
     with running() as agent:
         assert ask(agent.place, "/readyz") == (200, b"ok\n")
         pid = agent.pid(2)
         os.kill(pid, signal.SIGSTOP)
-        time.sleep(0.3)  # longer than a status is fresh
-        assert ask(agent.place, "/healthz")[0] == 503
+        stopped = agent.until(
+            lambda s: [worker["ready"] for worker in s["agent"]["workers"]] == [True, False]
+        )
+        assert stopped["agent"]["workers"][1]["pid"] == pid
+        assert ask(agent.place, "/healthz") == (200, b"ok\n")
+        assert ask(agent.place, "/readyz") == (503, b"worker 2 is not ready\n")
         os.kill(pid, signal.SIGCONT)
         agent.until(lambda s: all(worker["ready"] for worker in s["agent"]["workers"]))
 
@@ -324,11 +328,45 @@ def test_a_policy_holds_in_all_workers_and_is_read_again(tmp_path: Path) -> None
                 assert client.connect() == status
         policy.write_text("version: 1\nclients:\n  - name: some\n    keys: ['0x00000004', '0x00000005']\n")
         agent.agent.process.send_signal(signal.SIGHUP)
-        for _ in range(2):
-            agent.agent.wait_for(": policy: 1 rules")
+        agent.agent.wait_for("policy: 1 rules")
         for key, status in ((2, 0x83), (3, 0x83), (4, 0), (5, 0)):
             with XrceClient(agent.port, key=key) as client:
                 assert client.connect() == status
+
+
+def test_a_worker_that_starts_again_has_the_policy_in_force(tmp_path: Path) -> None:
+    """Not the one in the file, which was refused."""
+    policy = tmp_path / "policy.yaml"
+    policy.write_text("version: 1\nclients:\n  - name: some\n    keys: ['0x00000002']\n")
+    with running("--policy", str(policy)) as agent:
+        policy.write_text("version: 1\nclients:\n  - name: some\n    keys: ['0x00000004']\n")
+        agent.agent.process.send_signal(signal.SIGHUP)
+        agent.agent.wait_for("policy: 1 rules")
+        policy.write_text("version: 1\nclients: nobody\n")
+        agent.agent.process.send_signal(signal.SIGHUP)
+        agent.agent.wait_for("the one before stays in force")
+        os.kill(agent.pid(1), signal.SIGKILL)
+        agent.agent.wait_for("worker 1 serves again")
+        for key, status in ((2, 0x83), (4, 0)):
+            with XrceClient(agent.port, key=key) as client:
+                assert client.connect() == status
+
+
+def test_workers_import_nothing_from_the_current_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "click.py").write_text("raise SystemExit('from the current folder')\n")
+    monkeypatch.chdir(tmp_path)
+    program = Path(sys.executable).with_name("microros-gen")
+    command = [str(program), "agent", "udp4", "--port", "0", "--workers", "2", "--status-socket", "none"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as agent:
+        assert agent.stdout is not None
+        lines = []
+        for line in agent.stdout:
+            lines.append(line)
+            if "agent ready" in line:
+                agent.send_signal(signal.SIGTERM)
+    assert agent.returncode == 0, "".join(lines)
 
 
 def test_what_needs_one_process_is_refused(tmp_path: Path) -> None:

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """A worker without ROS, for tests of its front: it does what the first word of a message says.
 
-`echo` is sent back to where it came from, `claim` opens a session there, `enter` admits a newcomer there, `fall` ends
-the process with status 3, and `hang` stops it. When a client has to leave, it does. What it got on standard input names
-how it starts: `refuse` is a fault in its files.
+`echo` is sent back to where it came from, `claim` opens a session there, `enter` admits a newcomer there, `type`
+reports a type, `fall` ends the process with status 3, and `hang` stops it. When a client has to leave, it does. Each
+message counts as a client. What it got on standard input names how it starts: `refuse` is a fault in its files, `sleep`
+never serves.
 """
 
 from __future__ import annotations
@@ -23,10 +24,13 @@ from microros_gen.diagnostics import Diagnostic
 def main() -> None:
     """Serve until the front says stop."""
     channel = Channel(socket.socket(fileno=int(sys.argv[1])))
-    if sys.stdin.read() == "refuse":
+    start = sys.stdin.read()
+    if start == "refuse":
         channel.send(Kind.FAILED, pickle.dumps([Diagnostic("a fault", id="MG-9703")]))
         channel.finish(5.0)
         return
+    while start == "sleep":
+        time.sleep(1000)
     channel.send(Kind.READY)
     count = 0
     while not channel.closed:
@@ -36,7 +40,10 @@ def main() -> None:
             if kind is Kind.STOP:
                 channel.finish(5.0)
             elif kind is Kind.ASK:
-                channel.send(Kind.STATUS, Report(samples=count, clients=() if content else None).encode())
+                channel.send(
+                    Kind.STATUS,
+                    Report(samples=count, clients=() if content else None, connected=count).encode(),
+                )
             elif kind is Kind.LEFT:
                 channel.send(Kind.RELEASED, content)
             elif kind is Kind.MESSAGE:
@@ -53,6 +60,8 @@ def _do(channel: Channel, content: bytes) -> None:
         channel.send(Kind.CLAIMED, message_frame(number, code))
     elif word == b"enter":
         channel.send(Kind.NEWCOMER, message_frame(number, code, b"welcome"))
+    elif word == b"type":
+        channel.send(Kind.TYPE, b"a/msg/Type")
     elif word == b"fall":
         os._exit(3)
     elif word == b"hang":
