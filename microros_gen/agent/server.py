@@ -99,6 +99,11 @@ class Server:
         self._stop = True
         os.eventfd_write(self._wake, 1)
 
+    @property
+    def stops(self) -> bool:
+        """Whether `stop` was called."""
+        return self._stop
+
     def soon(self, do: Callable[[], object]) -> None:
         """Call `do` in `run`, between two messages; may be called from a signal handler or another thread."""
         self._calls.append(do)

@@ -33,22 +33,22 @@ class RemoteAddress(NamedTuple):
 class Known:
     """An address that the front knows: its code, and how much from it waits for its worker."""
 
-    __slots__ = ("address", "code", "drained", "waiting")
+    __slots__ = ("_waiting", "address", "code")
 
     def __init__(self, code: bytes, address: Hashable) -> None:
         self.code = code
         self.address = address
-        self.waiting = 0
-        self.drained = -1
-        """State of the channel (`Channel.drained`) at which `waiting` began."""
+        self._waiting: dict[int, tuple[int, int]] = {}
+        """For each worker the state of its channel (`Channel.drained`), and the bytes from here since then."""
 
-    def may_send(self, size: int, drained: int, waiting: int) -> bool:
-        """Return whether `size` more bytes from it may wait, of `waiting` bytes from all."""
-        if drained != self.drained:
-            self.drained, self.waiting = drained, 0
-        if waiting > FREE_BYTES and self.waiting + size > SHARE_BYTES:
+    def may_send(self, size: int, worker: int, drained: int, waiting: int) -> bool:
+        """Return whether `size` more bytes from it may wait for a worker, of `waiting` bytes from all."""
+        since, own = self._waiting.get(worker, (drained, 0))
+        if since != drained:
+            own = 0
+        if waiting > FREE_BYTES and own + size > SHARE_BYTES:
             return False
-        self.waiting += size
+        self._waiting[worker] = drained, own + size
         return True
 
 

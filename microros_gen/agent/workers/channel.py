@@ -110,14 +110,17 @@ class Channel:
             self._watches_room = wanted
             self._epoll.modify(self._socket, select.EPOLLIN | (select.EPOLLOUT if wanted else 0))
 
-    def receive(self) -> list[tuple[Kind, bytes]]:
-        """Return the frames that have arrived, without waiting; sets `closed` after the last one. Never raises."""
+    def receive(self, most: int = READ_BYTES) -> list[tuple[Kind, bytes]]:
+        """Return the frames that have arrived, without waiting; sets `closed` after the last one. Never raises.
+
+        It reads `most` bytes at most; the descriptor stays readable if there are more.
+        """
         if self._watches_room:
             self.flush()
         if self.closed:
             return []
         try:
-            data = self._socket.recv(READ_BYTES)
+            data = self._socket.recv(most)
         except BlockingIOError:
             return []
         except OSError:

@@ -127,7 +127,10 @@ class Front:
             text = "a message from {peer} is lost: worker {worker} does not run"
             self._log.count("worker_down", text, peer=transport.name_of(address), worker=worker.number)
             return
-        if not known.may_send(len(data), channel.drained, channel.waiting) or channel.waiting > WAITING_BYTES:
+        if (
+            not known.may_send(len(data), worker.number, channel.drained, channel.waiting)
+            or channel.waiting > WAITING_BYTES
+        ):
             text = "a message from {peer} is lost: worker {worker} has too much to do"
             self._log.count("worker_full", text, peer=transport.name_of(address), worker=worker.number)
             return
@@ -167,7 +170,9 @@ class Front:
         """Let the workers end in order, and pass on what they still send. Never raises."""
         self._ends = True
         for worker in self.workers:
-            if worker.channel is not None:
+            if not worker.ready:
+                worker.kill()  # it has no clients
+            elif worker.channel is not None:
                 worker.channel.send(Kind.STOP)
         self.flush()
         end = self._clock() + self._stop_s + LATE_S
@@ -187,12 +192,15 @@ class Front:
 
     # Start, and what the front asks
 
-    def start(self, wait_s: float) -> None:
-        """Start all workers; return when each serves. Raises UserError if one does not within `wait_s`."""
+    def start(self, wait_s: float, stops: Callable[[], bool] = bool) -> None:
+        """Start all workers; return when each serves, or `stops` returns True.
+
+        Raises UserError if one does not serve within `wait_s`.
+        """
         for worker in self.workers:
             self._start(worker)
         end = self._clock() + wait_s
-        while not all(worker.ready for worker in self.workers):
+        while not all(worker.ready for worker in self.workers) and not stops():
             self._epoll.poll(0.05)
             self.take()
             late = next((worker for worker in self.workers if worker.pid == 0), None)

@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 import pickle
+import time
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import replace
 
 from microros_gen.agent.core import Agent
-from microros_gen.agent.fairness import Account
+from microros_gen.agent.fairness import TURN_S, Account
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.transport.base import Origin, Receive, Transport
 from microros_gen.agent.workers.channel import Channel, Kind, message_of
@@ -16,6 +17,8 @@ from microros_gen.agent.workers.remote import RemoteTransport, WorkerUdp
 from microros_gen.agent.workers.report import Report
 
 Own = WorkerUdp | RemoteTransport
+PART_BYTES = 4_096
+"""Bytes that are read from the front before the time is looked at."""
 
 
 class FrontLink:
@@ -29,6 +32,7 @@ class FrontLink:
         own: Sequence[Own],
         transports: Sequence[Transport],
         log: EventLog,
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         """`own`: the worker's transports, numbered as those of the front; `transports`: the same, traced if wanted."""
         self._channel = channel
@@ -37,6 +41,7 @@ class FrontLink:
         self._own = own
         self._transports = transports
         self._log = log
+        self._clock = clock
         self.stop: Callable[[], object] = _nothing
         """Called when the worker is to end."""
         self.label = "front"
@@ -45,9 +50,18 @@ class FrontLink:
         self.fileno = channel.fileno
 
     def pump(self, receive: Receive) -> None:
-        """Do what has arrived."""
+        """Do what has arrived, until other work has its turn."""
+        end = self._clock() + TURN_S
+        while self._pump(receive) and self._clock() < end:
+            continue
+        if self._channel.closed:  # the front has ended
+            self.stop()
+
+    def _pump(self, receive: Receive) -> bool:
+        """Do a small part of what has arrived; return whether there was something."""
         reached: dict[int, None] = {}
-        for kind, content in self._channel.receive():
+        frames = self._channel.receive(PART_BYTES)
+        for kind, content in frames:
             if kind in (Kind.MESSAGE, Kind.DIRECT, Kind.LEFT):
                 number, code, data = message_of(content)
                 self._pass(kind, self._own[number], code, data)
@@ -60,8 +74,7 @@ class FrontLink:
                 self.stop()
         for number in reached:
             self._transports[number].pump(receive)
-        if self._channel.closed:  # the front has ended
-            self.stop()
+        return bool(frames)
 
     def report(self, states: bool) -> None:
         """Send a report, with the states of all clients if `states`."""

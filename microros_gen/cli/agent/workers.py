@@ -90,7 +90,10 @@ def serve_with_workers(
     gc.freeze()
     try:
         with stopped_by_signals(server):
-            front.start(START_S)
+            front.start(START_S, lambda: server.stops)
+            if server.stops:  # a signal came meanwhile: end in order, without having served
+                server.run(announce, time.monotonic)
+                return
             report_limits(log, limits, streams)
             text = "{count} workers, each with these limits; client KEY has worker KEY mod {count} + 1"
             log.emit(Level.INFO, "workers", text, count=options.workers)

@@ -112,9 +112,11 @@ def test_other_addresses_round_trip() -> None:
 def test_one_sender_has_a_share_of_what_waits() -> None:
     flood, far = Known(b"a", None), Known(b"b", None)
     taken = 0
-    while flood.may_send(1000, 0, FREE_BYTES + 1):
+    while flood.may_send(1000, 1, 0, FREE_BYTES + 1):
         taken += 1000
     assert SHARE_BYTES - 1000 < taken <= SHARE_BYTES
-    assert far.may_send(1000, 0, FREE_BYTES + 1)
-    assert flood.may_send(1000, 0, 0), "little waits for the worker"
-    assert flood.may_send(1000, 1, FREE_BYTES + 1), "it has taken all since"
+    assert far.may_send(1000, 1, 0, FREE_BYTES + 1)
+    assert flood.may_send(1000, 1, 0, 0), "little waits for the worker"
+    assert flood.may_send(1000, 2, 7, FREE_BYTES + 1), "it has a share at each worker"
+    assert not flood.may_send(1000, 1, 0, FREE_BYTES + 1), "and messages to another one do not renew it"
+    assert flood.may_send(1000, 1, 1, FREE_BYTES + 1), "it has taken all since"

@@ -323,6 +323,16 @@ def test_one_that_never_serves_after_its_restart_is_ended() -> None:
         rig.until(lambda: worker.ready and worker.pid not in (0, hung))
 
 
+def test_a_signal_ends_the_start() -> None:
+    rig = Bench(2, b"sleep", COMMAND)
+    began = time.monotonic()
+    rig.front.start(1000.0, lambda: all(worker.pid for worker in rig.workers))
+    rig.front.close()
+    assert time.monotonic() - began < seconds(5), "workers without clients are not waited for"
+    assert [worker.pid for worker in rig.workers] == [0, 0]
+    assert "worker_stuck" not in rig.text.getvalue()
+
+
 def test_a_fault_in_one_frame_does_not_end_the_agent() -> None:
     with bench() as rig:
 
