@@ -209,7 +209,7 @@ class Front:
             if late is not None or self._clock() > end:
                 number = (late or next(w for w in self.workers if not w.ready)).number
                 hint = "Its log is above; --workers 1 is an agent of one process"
-                raise UserError([Diagnostic(f"worker {number} does not start", hint=hint, id="MG-9841")])
+                raise UserError([_not_started(number, "", hint)])
         self._has_started = True
 
     def reload(self, content: bytes) -> None:
@@ -243,9 +243,8 @@ class Front:
             self._epoll.register(channel.fileno(), select.EPOLLIN)
         except OSError as error:
             worker.put_off(self._clock())
-            message = f"worker {worker.number} does not start: {error.strerror or error}"
             hint = "Give the agent more memory, processes or descriptors (ulimit -n -u), or fewer --workers"
-            self._failed(worker, [Diagnostic(message, hint=hint, id="MG-9841")])
+            self._failed(worker, [_not_started(worker.number, f": {error.strerror or error}", hint)])
             return
         self._by_descriptor[channel.fileno()] = worker
 
@@ -364,6 +363,10 @@ class Front:
         address = self._books[number].address(code) if data is not None else None
         if data is not None and address is not None:
             self._transports[number].send(data, address)
+
+
+def _not_started(number: int, why: str, hint: str) -> Diagnostic:
+    return Diagnostic(f"worker {number} does not start{why}", hint=hint, id="MG-9841")
 
 
 def _ignore(_value: object) -> None:
