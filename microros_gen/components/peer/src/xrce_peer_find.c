@@ -2,6 +2,7 @@
 #include "microros/xrce_peer_find.h"
 
 #include "microros/xrce_client.h"
+#include "microros/xrce_peer_find_note.h"
 #include "microros/xrce_wire.h"
 
 /* What is known of the interface of a link. It outlives a sleep and the session with an agent, as the transport does. */
