@@ -33,7 +33,7 @@ _ASKS_TURN = ("xrce_turn_is_mine", "xrce_turn_begin")
 """Functions that say to all other tasks that they do not receive and send, unless one of them borrows the turn."""
 _BORROWS = "xrce_turn_borrow"
 _LIBRARIES = ("C library", "compiler")
-_BEGINS = ("cdr_decode", "cdr_loan_decode")
+_BEGINS = re.compile(r"^cdr_(?:loan_)?decode$")
 """Functions that begin to read a message."""
 _UNKNOWN = "an unknown number of bytes"
 _READS_ON = re.compile(r"^(?:cdr_get_\w+|\w+__decode)$")
@@ -180,7 +180,7 @@ class _Image:
     def _decodes(self, address: int) -> bool:
         """Return whether a function reads a message, and has no part that reads another one."""
         name = self.names.get(address, "").partition(".")[0]
-        return name not in _BEGINS and self._sources.decodes(self._units.get(address, ""))
+        return not _BEGINS.match(name) and self._sources.decodes(self._units.get(address, ""))
 
     def _of_call(self, flow: Flow, step: Step, to: int, length: Length) -> Length:
         """Return the length of a call: how much is read is known where a message begins; and where it is open."""
