@@ -63,8 +63,8 @@ class Numbers:
             time.sleep(0.02)
 
     def differences(self) -> tuple[list[int], list[int]]:
-        """Print and return the numbers that are lost, of those before the last one, and those that came twice."""
-        lost = sorted(set(range(max(self.received))) - set(self.received))
+        """Print and return what was lost, of the numbers since the first one that was received, and what came twice."""
+        lost = sorted(set(range(min(self.received), max(self.received))) - set(self.received))
         doubled = sorted(number for number, times in self.received.items() if times > 1)
         print(f"{len(self.received)} received, lost {lost}, doubled {doubled}")
         return lost, doubled
