@@ -28,6 +28,8 @@ NEEDED = {
     "avr-gcc": "gcc-avr",
     "/usr/lib/avr/include/avr/io.h": "avr-libc",
     "/usr/include/simavr/sim_avr.h": "libsimavr-dev",
+    "xtensa-lx106-elf-gcc": "gcc-xtensa-lx106",
+    "/usr/lib/xtensa-lx106-elf/include/stdint.h": "picolibc-xtensa-lx106-elf",
     "arduino-builder": "arduino-builder",
     "/usr/share/arduino/hardware/arduino/avr/boards.txt": "arduino-core-avr",
     "/usr/include/libelf.h": "libelf-dev",
