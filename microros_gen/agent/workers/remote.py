@@ -24,7 +24,7 @@ from microros_gen.agent.workers.addresses import (
     udp_peer,
 )
 from microros_gen.agent.workers.channel import WAITING_BYTES, Channel, Kind, message_frame
-from microros_gen.agent.workers.front_transport import FrontTransport as FrontTransport
+from microros_gen.agent.workers.front_transport import FrontTransport
 
 SAMPLES_BYTES = WAITING_BYTES // 8
 """Maximum bytes that wait for the front while best-effort samples are sent."""

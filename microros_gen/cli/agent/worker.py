@@ -26,8 +26,9 @@ from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.wire.constants import SESSION_NONE_WITHOUT_KEY
 from microros_gen.agent.workers.addresses import udp_code
 from microros_gen.agent.workers.channel import Channel, Kind, message_frame
+from microros_gen.agent.workers.front_transport import FrontTransport
 from microros_gen.agent.workers.link import FrontLink
-from microros_gen.agent.workers.remote import FrontTransport, RemoteTransport, WorkerUdp
+from microros_gen.agent.workers.remote import RemoteTransport, WorkerUdp
 from microros_gen.cli.agent.assembly import make_agent
 from microros_gen.cli.agent.files import AgentFiles, with_types
 from microros_gen.cli.agent.options import AgentOptions

@@ -15,8 +15,9 @@ from microros_gen.agent.log import EventLog
 from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.workers.addresses import RemoteAddress, remote_code
 from microros_gen.agent.workers.channel import Channel, Kind, message_frame
+from microros_gen.agent.workers.front_transport import FrontTransport
 from microros_gen.agent.workers.link import FrontLink
-from microros_gen.agent.workers.remote import FrontTransport, RemoteTransport
+from microros_gen.agent.workers.remote import RemoteTransport
 
 COUNT = 2000
 CODE = remote_code(RemoteAddress("serial /dev/test", 1, "client", "/dev/test"))

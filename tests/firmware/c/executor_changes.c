@@ -4,6 +4,8 @@
  * chance decides, between rounds and within callbacks, while an interrupt triggers a guard condition and the clock wraps. Each
  * callback has to be one of an executor that has its handle. Ends the emulator with status 0 if all went well.
  */
+#include "emulator_end.h"
+
 #include <microros/port.h>
 #include <rcl/rcl.h>
 #include <rclc/executor.h>
@@ -17,7 +19,7 @@
 enum { EXECUTORS = 2, TOPICS = 2, TIMERS = 2, CONDITIONS = 2, ROUNDS = 4000, NOWHERE = -1 };
 enum { FIRST, SECOND, SERVER, CLIENT, TIMER, CONDITION = TIMER + TIMERS, HANDLES = CONDITION + CONDITIONS };
 enum { ADD, REMOVE, PUBLISH, ASK, TRIGGER, CANCEL, PERIOD, ACTIONS };
-enum { SYS_EXIT_EXTENDED = 0x20, APPLICATION_EXIT = 0x20026, TRIGGERS_EVERY_MS = 2 };
+enum { TRIGGERS_EVERY_MS = 2 };
 
 static rclc_support_t support;
 static rcl_node_t node;
@@ -54,24 +56,6 @@ void port_bare_tick(void)
 uint32_t port_time_ms(void)
 {
   return now_ms;
-}
-
-static void end(uint32_t status)
-{
-  const uint32_t block[2] = {APPLICATION_EXIT, status};
-  register uint32_t operation __asm__("r0") = SYS_EXIT_EXTENDED;
-  register const uint32_t * reason __asm__("r1") = block;
-
-  __asm volatile("bkpt 0xab" : : "r"(operation), "r"(reason) : "memory");
-  for (;;) {
-  }
-}
-
-static void check(bool holds, uint32_t status)
-{
-  if (!holds) {
-    end(status);
-  }
 }
 
 /* Returns a number below `limit`. */

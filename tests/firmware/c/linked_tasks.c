@@ -2,6 +2,8 @@
 /*
  * The functions of the port that the board of tests/support/firmware/tasks.py does not have, so that an example of the
  * tool, which is included before this, can be linked with tasks. What follows from its code alone needs no run. */
+#include "tasks_in_turn.h"
+
 #include <microros/port.h>
 #include <microros/port_tasks.h>
 
@@ -55,11 +57,6 @@ bool port_task_create(uint8_t task, const port_task_t * setting)
   return setting != NULL;
 }
 
-void port_task_join(uint8_t task)
-{
-  (void)task;
-}
-
 uint8_t port_task_self(void)
 {
   return PORT_TASK_NONE;
@@ -75,25 +72,10 @@ bool port_task_set_priority(uint8_t task, uint8_t priority)
   return task != priority;
 }
 
-void port_task_set(uint8_t task)
-{
-  (void)task;
-}
-
 void port_task_wait(uint8_t task, uint32_t timeout_ms)
 {
   (void)task;
   (void)timeout_ms;
-}
-
-uint32_t port_task_time_us(void)
-{
-  return port_time_ms() * 1000u;
-}
-
-uint32_t port_task_first_release_us(void)
-{
-  return port_task_time_us();
 }
 
 void port_task_sleep_until(uint32_t time_us)

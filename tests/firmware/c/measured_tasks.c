@@ -6,6 +6,7 @@
  * is in the firmware. The application file is that of test_tasks.py; with MEASURED_TEXTS that of test_task_texts.py.
  */
 #include "measured.h"
+#include "tasks_in_turn.h"
 
 #include <microros/port_tasks.h>
 #include <microros/rclc_tasks.h>
@@ -97,11 +98,6 @@ bool port_task_create(uint8_t task, const port_task_t * setting)
   return true;
 }
 
-void port_task_join(uint8_t task)
-{
-  (void)task;
-}
-
 uint8_t port_task_self(void)
 {
   return self;
@@ -119,26 +115,11 @@ bool port_task_set_priority(uint8_t task, uint8_t priority)
   return true;
 }
 
-void port_task_set(uint8_t task)
-{
-  (void)task;
-}
-
 void port_task_wait(uint8_t task, uint32_t timeout_ms)
 {
   (void)task;
   (void)timeout_ms;
   rest();
-}
-
-uint32_t port_task_time_us(void)
-{
-  return port_time_ms() * 1000u;
-}
-
-uint32_t port_task_first_release_us(void)
-{
-  return port_task_time_us();
 }
 
 void port_task_sleep_until(uint32_t time_us)

@@ -2,6 +2,7 @@
 /*
  * The image of CPU 0 on QEMU's mps2-an521. Starts CPU 1, whose image is that of shared_second.c, sends numbers on /ping until
  * each came back on /pong, and ends the emulator with status 0 if all went well. */
+#include "emulator_end.h"
 #include "shared_core.h"
 
 #include <rcl/rcl.h>
@@ -11,7 +12,7 @@
 
 #include <stdbool.h>
 
-enum { NUMBERS = 50, TRIES = 100, SYS_EXIT_EXTENDED = 0x20, APPLICATION_EXIT = 0x20026 };
+enum { NUMBERS = 50, TRIES = 100 };
 
 /* System control of the SSE-200, secure: where CPU 1 starts, and which cores wait (a bit each). */
 static volatile uint32_t * const init_vectors = (volatile uint32_t *)0x50021114u;
@@ -19,24 +20,6 @@ static volatile uint32_t * const cpu_wait = (volatile uint32_t *)0x50021118u;
 static const uint32_t second_vectors = 0x10200000u;
 
 static int32_t heard;
-
-static void end(uint32_t status)
-{
-  const uint32_t block[2] = {APPLICATION_EXIT, status};
-  register uint32_t operation __asm__("r0") = SYS_EXIT_EXTENDED;
-  register const uint32_t * reason __asm__("r1") = block;
-
-  __asm volatile("bkpt 0xab" : : "r"(operation), "r"(reason) : "memory");
-  for (;;) {
-  }
-}
-
-static void check(bool holds, uint32_t status)
-{
-  if (!holds) {
-    end(status);
-  }
-}
 
 static void on_number(const void * message)
 {

@@ -3,6 +3,8 @@
  * Tasks with a stack each on a Cortex-M4, which reports them on /diagnostics. A task that rests gives the processor to
  * the next one: this file is their operating system. The task `control` is late once, and uses more of its stack then.
  */
+#include "tasks_in_turn.h"
+
 #include <microros/port.h>
 #include <microros/port_tasks.h>
 #include <microros/rclc_tasks.h>
@@ -82,11 +84,6 @@ bool port_task_create(uint8_t task, const port_task_t * setting)
   return true;
 }
 
-void port_task_join(uint8_t task)
-{
-  (void)task;
-}
-
 uint8_t port_task_self(void)
 {
   return self;
@@ -104,26 +101,11 @@ bool port_task_set_priority(uint8_t task, uint8_t priority)
   return false;
 }
 
-void port_task_set(uint8_t task)
-{
-  (void)task;
-}
-
 void port_task_wait(uint8_t task, uint32_t timeout_ms)
 {
   (void)task;
   (void)timeout_ms;
   rest();
-}
-
-uint32_t port_task_time_us(void)
-{
-  return port_time_ms() * 1000u;
-}
-
-uint32_t port_task_first_release_us(void)
-{
-  return port_task_time_us();
 }
 
 void port_task_sleep_until(uint32_t time_us)
