@@ -23,6 +23,9 @@ FREED_BYTES = 8 << 20
 """Bytes that clients must have freed before memory is returned to the system."""
 TRIM_EVERY_S = 2.0
 """Minimum seconds between two such returns, which take milliseconds."""
+SETTLE_S = 60.0
+"""Seconds for which memory is returned after clients have freed some: DDS frees the history of a writer some time after
+the writer is destroyed, and the writers of a client that has left are destroyed one after the other."""
 RELIEVE_EVERY_S = 2 * TRIM_EVERY_S
 """Minimum seconds between two removals of clients."""
 UNREAD_BYTES = 4_096
@@ -50,17 +53,16 @@ class MemoryGuard:
         self._trim = trim or (lambda: None)
         self._trimmed_at = float("-inf")
         self._most_held = 0
-        self._again = False
+        self._settled_at = float("-inf")
 
     def look(self, held: int, now: float) -> Pressure:
         """Return the pressure, after returning free memory if that helps; clients hold `held` bytes."""
         self._most_held = max(self._most_held, held)
+        if self._most_held - held >= FREED_BYTES:
+            self._most_held, self._settled_at = held, now + SETTLE_S
         pressure = self._pressure()
-        freed = self._most_held - held >= FREED_BYTES
-        if (freed or pressure or self._again) and now >= self._trimmed_at + TRIM_EVERY_S:
-            self._trimmed_at, self._most_held = now, held
-            # DDS frees the history of a writer some time after the writer is destroyed.
-            self._again = freed
+        if (pressure or now < self._settled_at) and now >= self._trimmed_at + TRIM_EVERY_S:
+            self._trimmed_at = now
             self._trim()
             pressure = self._pressure()
         return pressure

@@ -118,7 +118,20 @@ def test_memory_that_dds_frees_later_is_returned_too() -> None:
     assert process.trims == 1
     for now in (4.0, 6.0, 8.0):
         process.guard.look(0, now)
-    assert process.trims == 2, "once more, then only after clients freed something"
+    assert process.trims == 4
+    for now in (70.0, 72.0):
+        process.guard.look(0, now)
+    assert process.trims == 4, "only after clients freed something"
+
+
+def test_memory_of_writers_destroyed_slowly_is_returned_too() -> None:
+    """What is freed after the first return of memory may be too little to start another."""
+    process = Process()
+    for now, held in ((1.0, 17 * MIB), (2.0, 9 * MIB), (10.0, 9 * MIB)):
+        process.guard.look(held, now)
+    trims = process.trims
+    process.guard.look(2 * MIB, 12.0)
+    assert process.trims == trims + 1
 
 
 def test_memory_is_returned_after_entities_are_destroyed() -> None:
