@@ -194,7 +194,13 @@ def test_string_constants_belong_to_who_wrote_them(measured: Measured) -> None:
 def sizeof(out: Path, *expressions: str) -> list[int]:
     """Ask the compiler for sizes."""
     lines = "".join(f'(void)printf("%zu\\n", (size_t)({e}));' for e in expressions)
-    head = "#include <stdio.h>\n#include <microros/xrce_client.h>\n#include <sensor_msgs/msg/detail/imu__storage.h>\n"
+    headers = (
+        "stdio.h",
+        "microros/xrce_client.h",
+        "microros/xrce_stream_reliable_slots.h",
+        "sensor_msgs/msg/detail/imu__storage.h",
+    )
+    head = "".join(f"#include <{header}>\n" for header in headers)
     source = f"{head}int main(void){{{lines}return 0;}}"
     program = out / ".build" / "sizeof"
     subprocess.run(
@@ -209,10 +215,11 @@ def sizeof(out: Path, *expressions: str) -> list[int]:
 
 def test_ram_is_split_as_the_compiler_lays_it_out(measured: Measured) -> None:
     report = measured("host")
-    client, reliable, writer, message, storage = sizeof(
+    client, reliable, sizes, writer, message, storage = sizeof(
         report.folder.path,
         "sizeof(struct xrce_client_t)",
         "sizeof(((struct xrce_client_t *)0)->reliable)",
+        "sizeof(xrce_reliable_slots.size)",
         "sizeof(xrce_endpoint_t)",
         "sizeof(sensor_msgs__msg__Imu)",
         "sizeof(sensor_msgs__msg__Imu__Storage)",
@@ -223,7 +230,8 @@ def test_ram_is_split_as_the_compiler_lays_it_out(measured: Measured) -> None:
     pools = report.folder.manifest["pools"]
     assert len(slots) == pools["reliable_slots"]
     assert set(slots.values()) == {pools["reliable_slot_size"]}
-    assert sum(p.size for p in report.ram if p.use == "reliable stream") <= reliable
+    stream = sum(p.size for p in report.ram if p.use == "reliable stream")
+    assert sizes < stream <= reliable + sizes
     best_effort = sum(p.size for p in report.ram if p.use == "best-effort stream")
     assert best_effort >= pools["best_effort_size"]
     of_endpoint = [p for p in parts if ".endpoints[1]" in p.path]

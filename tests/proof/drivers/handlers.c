@@ -90,7 +90,7 @@ static void any_streams(void)
   xrce_stream_reliable_t * out = &client.reliable;
   xrce_stream_reliable_input_t * in = &client.reliable_input;
 
-  proof_any(xrce_reliable_slots, sizeof(xrce_reliable_slots));
+  proof_any(xrce_reliable_slots.message, sizeof(xrce_reliable_slots.message));
   out->due_ms = proof_u32();
   out->since_ms = proof_u32();
   out->held = proof_bool();
@@ -98,7 +98,8 @@ static void any_streams(void)
   out->head = (uint8_t)Frama_C_interval(0, MICROROS_RELIABLE_SLOTS - 1);
   out->first = proof_u16();
   for (size_t i = 0; i < MICROROS_RELIABLE_SLOTS; ++i) {
-    out->size[i] = (uint16_t)Frama_C_interval(1, MICROROS_RELIABLE_SLOT_SIZE - MICROROS_RELIABLE_FRONT);
+    xrce_reliable_slots.size[i] =
+      (uint16_t)Frama_C_interval(1, MICROROS_RELIABLE_SLOT_SIZE - MICROROS_RELIABLE_FRONT);
   }
   proof_any(in->message, sizeof(in->message));
   in->next = proof_u16();

@@ -4,6 +4,7 @@
 #include "unit.h"
 
 #include "microros/xrce_client.h"
+#include "microros/xrce_stream_reliable_slots.h"
 #include "microros/xrce_wire.h"
 
 #include <string.h>
@@ -18,6 +19,7 @@ static void begin_at(uint16_t first)
   session.state = XRCE_READY;
   session.transport_open = true;
   memset(&stream, 0, sizeof(stream));
+  memset(&xrce_reliable_slots, 0, sizeof(xrce_reliable_slots));
 
   slots = xrce_stream_reliable_reserve(&stream, &session) - MICROROS_RELIABLE_FRONT;
   stream.first = first;

@@ -7,7 +7,7 @@
 #include "microros/xrce_wire.h"
 #include "microros_config.h"
 
-uint8_t xrce_reliable_slots[MICROROS_RELIABLE_SLOTS][MICROROS_RELIABLE_SLOT_SIZE];
+xrce_reliable_slots_t xrce_reliable_slots;
 
 /* Returns the slot of the i-th stored message. */
 static uint32_t stream_slot(const xrce_stream_reliable_t * stream, uint8_t i)
@@ -24,7 +24,7 @@ uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream, xrce_ses
   if (stream->count == MICROROS_RELIABLE_SLOTS) {
     return NULL;
   }
-  message = xrce_reliable_slots[stream_slot(stream, stream->count)];
+  message = xrce_reliable_slots.message[stream_slot(stream, stream->count)];
   xrce_stream_reliable_reclaim(session, message);
   return &message[MICROROS_RELIABLE_FRONT];
 }
@@ -32,11 +32,12 @@ uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream, xrce_ses
 static bool stream_send(xrce_stream_reliable_t * stream, xrce_session_t * session, uint8_t i)
 {
   const uint32_t slot = stream_slot(stream, i);
-  uint8_t * message = xrce_reliable_slots[slot];
+  uint8_t * message = xrce_reliable_slots.message[slot];
 
   xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_RELIABLE, (uint16_t)(stream->first + i));
   return xrce_transport_take_turn(&session->transport) &&
-         xrce_stream_reliable_send(session, message, XRCE_MESSAGE_HEADER + (size_t)stream->size[slot]);
+         xrce_stream_reliable_send(
+           session, message, XRCE_MESSAGE_HEADER + (size_t)xrce_reliable_slots.size[slot]);
 }
 
 /* Sends new and missing messages in order until the transport accepts no more: the rest waits for the next
@@ -60,7 +61,7 @@ void xrce_stream_reliable_commit(
 {
   const uint8_t i = stream->count;
 
-  stream->size[stream_slot(stream, i)] = (uint16_t)size;
+  xrce_reliable_slots.size[stream_slot(stream, i)] = (uint16_t)size;
   if (i == 0u && !stream->held) {
     xrce_stream_reliable_restart_timer(stream, now);
   }

@@ -25,30 +25,30 @@ enum {
   FRAGMENTS_WINDOW = 16
 };
 
-uint8_t xrce_reliable_slots[MICROROS_RELIABLE_SLOTS][MICROROS_RELIABLE_SLOT_SIZE];
+xrce_reliable_slots_t xrce_reliable_slots;
 
 /* Returns the slot of the i-th stored message; free slots follow after them. */
-static uint8_t stream_slot(const xrce_stream_reliable_t * stream, uint8_t i)
+static uint8_t stream_slot(uint8_t i)
 {
-  return stream->order[i] ^ i;
+  return xrce_reliable_slots.order[i] ^ i;
 }
 
 /* Frees the slot of the i-th stored message. */
 static void stream_remove(xrce_stream_reliable_t * stream, uint8_t i)
 {
-  const uint8_t slot = stream_slot(stream, i);
+  const uint8_t slot = stream_slot(i);
 
   --stream->count;
   for (; i < stream->count; ++i) { /* at most MICROROS_RELIABLE_SLOTS rounds */
-    stream->order[i] = (uint8_t)(stream_slot(stream, (uint8_t)(i + 1u)) ^ i);
+    xrce_reliable_slots.order[i] = (uint8_t)(stream_slot((uint8_t)(i + 1u)) ^ i);
   }
-  stream->order[i] = slot ^ i;
+  xrce_reliable_slots.order[i] = slot ^ i;
 }
 
 /* Returns the number of fragments of the i-th stored message. */
-static uint16_t stream_fragments(const xrce_stream_reliable_t * stream, uint8_t i)
+static uint16_t stream_fragments(uint8_t i)
 {
-  const uint32_t size = stream->size[stream_slot(stream, i)];
+  const uint32_t size = xrce_reliable_slots.size[stream_slot(i)];
 
   return size <= UNFRAGMENTED_SIZE ? 1u : (uint16_t)((size + FRAGMENT_SIZE - 1u) / FRAGMENT_SIZE);
 }
@@ -59,7 +59,7 @@ uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream, xrce_ses
   if (stream->count == MICROROS_RELIABLE_SLOTS) {
     return NULL;
   }
-  return &xrce_reliable_slots[stream_slot(stream, stream->count)][MICROROS_RELIABLE_FRONT];
+  return &xrce_reliable_slots.message[stream_slot(stream->count)][MICROROS_RELIABLE_FRONT];
 }
 
 /* Result of sending one sequence number. */
@@ -85,15 +85,15 @@ static stream_outcome_t stream_send_fragment(
 
 /* Sends a fragment of the i-th stored message, or the whole message if it fits. */
 static stream_outcome_t stream_send_of(
-  xrce_stream_reliable_t * stream, xrce_session_t * session, uint8_t i, uint16_t fragment, uint16_t sequence)
+  xrce_session_t * session, uint8_t i, uint16_t fragment, uint16_t sequence)
 {
-  const uint8_t slot = stream_slot(stream, i);
-  uint8_t * at = &xrce_reliable_slots[slot][(size_t)fragment * FRAGMENT_SIZE];
-  const size_t size = (size_t)stream->size[slot] - (size_t)fragment * FRAGMENT_SIZE;
+  const uint8_t slot = stream_slot(i);
+  uint8_t * at = &xrce_reliable_slots.message[slot][(size_t)fragment * FRAGMENT_SIZE];
+  const size_t size = (size_t)xrce_reliable_slots.size[slot] - (size_t)fragment * FRAGMENT_SIZE;
   uint8_t kept[FRAGMENT_HEADER];
   stream_outcome_t outcome;
 
-  if (stream->size[slot] <= UNFRAGMENTED_SIZE) {
+  if (xrce_reliable_slots.size[slot] <= UNFRAGMENTED_SIZE) {
     at = &at[FRAGMENT_HEADER - XRCE_MESSAGE_HEADER];
     xrce_put_header(at, XRCE_SESSION_ID, XRCE_STREAM_RELIABLE, sequence);
     return stream_transmit(session, at, XRCE_MESSAGE_HEADER + size);
@@ -125,10 +125,10 @@ static stream_outcome_t stream_send_place(
   }
   /* at most MICROROS_RELIABLE_BEGUN rounds */
   for (uint8_t i = 0; i < stream->count && i < MICROROS_RELIABLE_BEGUN; ++i) {
-    const uint16_t fragments = stream_fragments(stream, i);
+    const uint16_t fragments = stream_fragments(i);
 
     if (fragment < fragments) {
-      return stream_send_of(stream, session, i, (uint16_t)fragment, sequence);
+      return stream_send_of(session, i, (uint16_t)fragment, sequence);
     }
     fragment -= fragments;
   }
@@ -179,7 +179,7 @@ static void stream_flow(xrce_stream_reliable_t * stream, xrce_session_t * sessio
 void xrce_stream_reliable_commit(
   xrce_stream_reliable_t * stream, xrce_session_t * session, size_t size, uint32_t now)
 {
-  stream->size[stream_slot(stream, stream->count)] = (uint16_t)size;
+  xrce_reliable_slots.size[stream_slot(stream->count)] = (uint16_t)size;
   ++stream->count;
   stream_flow(stream, session, now);
 }
@@ -203,8 +203,8 @@ static void stream_free(xrce_stream_reliable_t * stream, uint8_t count)
   }
   stream->done = (uint16_t)(stream->done + count);
   /* at most MICROROS_RELIABLE_SLOTS rounds */
-  while (stream->count != 0u && stream->done >= stream_fragments(stream, 0)) {
-    stream->done = (uint16_t)(stream->done - stream_fragments(stream, 0));
+  while (stream->count != 0u && stream->done >= stream_fragments(0)) {
+    stream->done = (uint16_t)(stream->done - stream_fragments(0));
     stream_remove(stream, 0);
   }
 }
@@ -219,7 +219,7 @@ static uint8_t stream_first_unsent(const xrce_stream_reliable_t * stream)
     --used;
   }
   while (i < stream->count && used != 0u) { /* at most MICROROS_RELIABLE_SLOTS rounds */
-    const uint16_t fragments = stream_fragments(stream, i);
+    const uint16_t fragments = stream_fragments(i);
 
     used = used > fragments ? used - fragments : 0u;
     ++i;
@@ -240,7 +240,7 @@ const uint8_t * xrce_stream_reliable_drop_oldest(
   if (unsent == stream->count) {
     return NULL;
   }
-  dropped = &xrce_reliable_slots[stream_slot(stream, unsent)][MICROROS_RELIABLE_FRONT];
+  dropped = &xrce_reliable_slots.message[stream_slot(unsent)][MICROROS_RELIABLE_FRONT];
   stream_remove(stream, unsent);
   return dropped;
 }
@@ -256,7 +256,7 @@ uint32_t xrce_stream_reliable_ahead(const xrce_stream_reliable_t * stream, bool 
     numbers = 1;
   }
   for (uint8_t i = 0; i < stream->count; ++i) { /* at most MICROROS_RELIABLE_SLOTS rounds */
-    numbers += stream_fragments(stream, i);
+    numbers += stream_fragments(i);
   }
   return is_ready ? numbers - stream->done : numbers;
 }

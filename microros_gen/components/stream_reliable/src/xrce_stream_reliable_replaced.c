@@ -11,24 +11,24 @@
 #include "microros/xrce_wire.h"
 #include "microros_config.h"
 
-uint8_t xrce_reliable_slots[MICROROS_RELIABLE_SLOTS][MICROROS_RELIABLE_SLOT_SIZE];
+xrce_reliable_slots_t xrce_reliable_slots;
 
 /* Returns the slot of the i-th stored message; free slots follow after them. */
-static uint8_t stream_slot(const xrce_stream_reliable_t * stream, uint8_t i)
+static uint8_t stream_slot(uint8_t i)
 {
-  return stream->order[i] ^ i;
+  return xrce_reliable_slots.order[i] ^ i;
 }
 
 /* Frees the slot of the i-th stored message. */
 static void stream_remove(xrce_stream_reliable_t * stream, uint8_t i)
 {
-  const uint8_t slot = stream_slot(stream, i);
+  const uint8_t slot = stream_slot(i);
 
   --stream->count;
   for (; i < stream->count; ++i) { /* at most MICROROS_RELIABLE_SLOTS rounds */
-    stream->order[i] = (uint8_t)(stream_slot(stream, (uint8_t)(i + 1u)) ^ i);
+    xrce_reliable_slots.order[i] = (uint8_t)(stream_slot((uint8_t)(i + 1u)) ^ i);
   }
-  stream->order[i] = slot ^ i;
+  xrce_reliable_slots.order[i] = slot ^ i;
 }
 
 /* Retires the first sequence number and its message, which was sent. */
@@ -47,17 +47,17 @@ uint8_t * xrce_stream_reliable_reserve(xrce_stream_reliable_t * stream, xrce_ses
   if (stream->count == MICROROS_RELIABLE_SLOTS) {
     return NULL;
   }
-  return &xrce_reliable_slots[stream_slot(stream, stream->count)][MICROROS_RELIABLE_FRONT];
+  return &xrce_reliable_slots.message[stream_slot(stream->count)][MICROROS_RELIABLE_FRONT];
 }
 
 static bool stream_send(xrce_stream_reliable_t * stream, xrce_session_t * session, uint8_t i)
 {
-  const uint8_t slot = stream_slot(stream, i);
-  uint8_t * message = xrce_reliable_slots[slot];
+  const uint8_t slot = stream_slot(i);
+  uint8_t * message = xrce_reliable_slots.message[slot];
 
   xrce_put_header(message, XRCE_SESSION_ID, XRCE_STREAM_RELIABLE, (uint16_t)(stream->first + i));
   return xrce_transport_take_turn(&session->transport) &&
-         xrce_session_send(session, message, XRCE_MESSAGE_HEADER + (size_t)stream->size[slot]);
+         xrce_session_send(session, message, XRCE_MESSAGE_HEADER + (size_t)xrce_reliable_slots.size[slot]);
 }
 
 /* Sends the numbers that are still available: the agent no longer waits for earlier ones. Without any, the number of the
@@ -110,7 +110,7 @@ void xrce_stream_reliable_commit(
 {
   const bool waits = stream->unsent != 0u || xrce_stream_reliable_has_new(stream);
 
-  stream->size[stream_slot(stream, stream->count)] = (uint16_t)size;
+  xrce_reliable_slots.size[stream_slot(stream->count)] = (uint16_t)size;
   ++stream->count;
   if (session->state == XRCE_READY && !stream->held && !waits) {
     stream_flow(stream, session, now);
@@ -134,11 +134,11 @@ const uint8_t * xrce_stream_reliable_drop_oldest(
     if (stream->count < MICROROS_RELIABLE_SLOTS) {
       return NULL; /* the others are reserved: what was sent stays */
     }
-    dropped = xrce_reliable_slots[stream_slot(stream, 0)];
+    dropped = xrce_reliable_slots.message[stream_slot(0)];
     stream_pass(stream);
     stream->gap = true;
   } else {
-    dropped = xrce_reliable_slots[stream_slot(stream, stream->sent)];
+    dropped = xrce_reliable_slots.message[stream_slot(stream->sent)];
     stream_remove(stream, stream->sent);
   }
   return &dropped[MICROROS_RELIABLE_FRONT];

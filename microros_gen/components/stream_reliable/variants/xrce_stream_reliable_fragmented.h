@@ -18,7 +18,7 @@ extern "C" {
 
 /*
  * Zero-initialized: an empty stream. Its slots are not part of the state: only the stream's own source
- * depends on their size. */
+ * depends on their size and number. */
 typedef struct xrce_stream_reliable_t {
   uint32_t due_ms;   /* next HEARTBEAT while something is unacknowledged; while held: the limit */
   uint32_t since_ms; /* time of the last acknowledgement, or of the first message */
@@ -31,8 +31,6 @@ typedef struct xrce_stream_reliable_t {
   uint16_t done;     /* acknowledged fragments of the oldest message */
   uint16_t again;    /* bit i: the agent has requested first + i since the last HEARTBEAT */
   uint16_t unsent;   /* bit i: requested and not yet repeated */
-  uint8_t order[MICROROS_RELIABLE_SLOTS]; /* slot of the i-th message, XORed with i */
-  uint16_t size[MICROROS_RELIABLE_SLOTS]; /* of the submessages of a message */
 } xrce_stream_reliable_t;
 
 /* Returns whether no sequence number awaits an acknowledgement. */

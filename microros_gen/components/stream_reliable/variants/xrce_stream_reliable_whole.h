@@ -14,7 +14,7 @@ extern "C" {
 
 /*
  * Zero-initialized: an empty stream. Its slots are not part of the state: only the stream's own source
- * depends on their size. */
+ * depends on their size and number. */
 typedef struct xrce_stream_reliable_t {
   uint32_t due_ms;   /* next HEARTBEAT while something is unacknowledged; while held: the limit */
   uint32_t since_ms; /* time of the last acknowledgement, or of the first message */
@@ -23,7 +23,6 @@ typedef struct xrce_stream_reliable_t {
   uint8_t head;      /* slot of the oldest message */
   uint16_t first;    /* its sequence number; while held: the next one to assign */
   uint16_t unsent;   /* bit i: first + i is to be sent */
-  uint16_t size[MICROROS_RELIABLE_SLOTS]; /* of the submessages of a message */
 } xrce_stream_reliable_t;
 
 /* Returns whether no sequence number awaits an acknowledgement. */

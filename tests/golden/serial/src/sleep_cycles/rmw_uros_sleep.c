@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* "XRCE" and the version of this layout. */
-static const uint32_t retained_magic = 0x58520001u;
+static const uint32_t retained_magic = 0x58520002u;
 
 /* Plan that both images must have. */
 static const char retained_plan[] = MICROROS_PLAN_ID;
@@ -54,7 +54,7 @@ static void sleep_write(rmw_uros_retained_t * retained, const xrce_client_t * cl
   retained->size = (uint32_t)sizeof(*retained);
   (void)memcpy(retained->plan, retained_plan, sizeof(retained->plan));
   (void)memcpy(retained->client, (const uint8_t *)client, sizeof(retained->client));
-  (void)memcpy(retained->xrce_reliable_slots, xrce_reliable_slots, sizeof(retained->xrce_reliable_slots));
+  (void)memcpy(&retained->xrce_reliable_slots, &xrce_reliable_slots, sizeof(retained->xrce_reliable_slots));
   retained->check = retained_check(retained);
   retained->magic = retained_magic; /* last: until then the memory is invalid */
 }
@@ -86,7 +86,7 @@ static void wake_read(xrce_client_t * client, const rmw_uros_retained_t * retain
   uint8_t * bytes = (uint8_t *)client;
 
   (void)memcpy(bytes, retained->client, sizeof(retained->client));
-  (void)memcpy(xrce_reliable_slots, retained->xrce_reliable_slots, sizeof(retained->xrce_reliable_slots));
+  (void)memcpy(&xrce_reliable_slots, &retained->xrce_reliable_slots, sizeof(retained->xrce_reliable_slots));
   client->session.state = (uint8_t)XRCE_CLOSED; /* until rcl_init */
   client->session.transport_open = false;
 }

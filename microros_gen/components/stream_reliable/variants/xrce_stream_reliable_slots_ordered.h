@@ -12,8 +12,14 @@ extern "C" {
 #endif
 
 /* The messages of the only client's stream. They are not in the client, so that a changed limit leaves all other
- * sources as they are. */
-extern uint8_t xrce_reliable_slots[MICROROS_RELIABLE_SLOTS][MICROROS_RELIABLE_SLOT_SIZE];
+ * sources as they are. Small members come first: their offsets have short instructions. */
+typedef struct xrce_reliable_slots_t {
+  uint8_t order[MICROROS_RELIABLE_SLOTS]; /* slot of the i-th message, XORed with i */
+  uint16_t size[MICROROS_RELIABLE_SLOTS]; /* of the submessages of a message */
+  uint8_t message[MICROROS_RELIABLE_SLOTS][MICROROS_RELIABLE_SLOT_SIZE];
+} xrce_reliable_slots_t;
+
+extern xrce_reliable_slots_t xrce_reliable_slots;
 
 #ifdef __cplusplus
 }
