@@ -12,6 +12,7 @@ import pytest
 from microros_gen import compiler
 from microros_gen.interfaces.find import shipped_folder
 from microros_gen.toolchain.contents import Contents
+from tests.support.changed_limits import CHANGES
 
 pytestmark = pytest.mark.builds
 
@@ -34,21 +35,55 @@ OF_THE_TYPES = {
     "src/sensor_msgs/imu__type_support.c",
     "src/std_msgs/header__storage.c",
 }
+OF_THE_HISTORY = {"src/publish/error_text_full.c", "src/stream_reliable/xrce_stream_reliable.c"}
+"""What says that the stream is full names its slots."""
+
+MOST = {
+    "string": 6,
+    "history": 5,
+    "slot_size": 25,
+    "mtu": 4,
+    "arena": 4,
+    "publishers": 32,
+    "string of a receiver": 48,
+    "queue": 42,
+}
+"""Objects that a change may reach. What changes the size of the input buffer, of queues or of tables of entities
+changes the client itself, which about half of the sources see."""
 
 
 def test_a_changed_limit_leaves_most_objects_as_they_are(tmp_path: Path) -> None:
-    before, after = (digests(tmp_path / str(limit), limit) for limit in (24, 32))
-    assert len(after) > 70
-    assert before.keys() == after.keys()
-    changed = {source for source, digest in after.items() if digest != before[source]}
+    changed = of_a_change(LIMITED.format(limit=24), LIMITED.format(limit=32), tmp_path)
     assert changed == OF_THE_PLAN_ID | OF_THE_STREAMS | OF_THE_TYPES
 
 
-def digests(folder: Path, limit: int) -> Mapping[str, str]:
+def test_a_changed_history_reaches_the_stream_alone(tmp_path: Path) -> None:
+    change = CHANGES["history"]
+    changed = of_a_change(change.before, change.after, tmp_path)
+    assert changed == OF_THE_PLAN_ID | OF_THE_HISTORY
+
+
+@pytest.mark.parametrize("what", CHANGES)
+def test_no_change_reaches_more_objects_than_before(what: str, tmp_path: Path) -> None:
+    change = CHANGES[what]
+    changed = of_a_change(change.before, change.after, tmp_path)
+    assert changed, "the change has to have an effect"
+    assert len(changed) <= MOST[what], sorted(changed)
+
+
+def of_a_change(before: str, after: str, folder: Path) -> set[str]:
+    """Return the sources whose objects a build has to make again."""
+    old, new = digests(folder / "before", before), digests(folder / "after", after)
+    assert len(new) > 70
+    assert old.keys() == new.keys()
+    return {source for source, digest in new.items() if digest != old[source]}
+
+
+def digests(folder: Path, application: str) -> Mapping[str, str]:
     """Return source → digest of what its object is made from, as a build decides whether it is up to date."""
     folder.mkdir()
     config = folder / "microros.yaml"
-    config.write_text(LIMITED.format(limit=limit), encoding="utf-8")
+    config.write_text(application, encoding="utf-8")
     options = compiler.Options(config=config, interface_paths=(shipped_folder(),))
     out = compiler.generate(options, folder / "out").out
     sources = (out / "sources.txt").read_text(encoding="utf-8").split()
