@@ -111,7 +111,7 @@ class Os:
     it for the system and the port, around what the task calls. `task_stack_macro`, of the header `task_stack_header`,
     defines one from its name and bytes; empty: an array. `parts`: kind and name of built-in parts that provide what
     this one does not. `device` names the serial line if the application file does not; empty: the only line of a board
-    has no name.
+    has no name. `clock_wraps`: the steady time and that of the day count a counter of milliseconds with 32 bits.
     """
 
     hosted: bool = False
@@ -124,6 +124,7 @@ class Os:
     parts: tuple[tuple[str, str], ...] = ()
     device: str = ""
     task_stack_context: int = 256
+    clock_wraps: bool = False
 
 
 @dataclass(frozen=True)

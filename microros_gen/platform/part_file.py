@@ -39,7 +39,7 @@ _TABLE_KEYS = ("words", "least")
 _DRIVER_KEYS = ("divisor", "fraction", "tx_irq", "stdio")
 _BAUD_KEYS = {"divisor": ("by", "least", "most"), "fraction": ("of_hz", "bits", "unused")}
 _TRANSPORTS = ("udp", "tcp", "serial", "canfd")
-_OS_KEYS = ("hosted", "linker_script", "tick", "task_stack", "parts", "device")
+_OS_KEYS = ("hosted", "linker_script", "tick", "task_stack", "parts", "device", "clock_wraps")
 
 
 @dataclass(frozen=True)
@@ -211,6 +211,7 @@ def _with_facts(part: Part, path: Path, diagnostics: Diagnostics) -> Part:
             tuple((entry.key, text_of(entry.value) or "") for entry in entries(node.get("parts"))),
             text_at(node, "device", diagnostics),
             context or Os.task_stack_context,
+            bool_of(node.get("clock_wraps")) or False,
         ),
     )
 

@@ -220,6 +220,11 @@ class Target:
         return self.cpu.narrow
 
     @property
+    def clock_wraps(self) -> bool:
+        """Whether the 64-bit time of the platform counts milliseconds of 32 bits, and has to be read to see a wrap."""
+        return self.os.clock_wraps
+
+    @property
     def has_start_up(self) -> bool:
         """Whether the image begins with code of this project, and not with that of the C library."""
         return self.has_image and not self.hosted and not self.cpu.starts_itself

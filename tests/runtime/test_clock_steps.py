@@ -371,6 +371,7 @@ ELSEWHERE = {
     "graph_events": "test_graph_events.py: a server that is asked again, over the wrap",
     "lifecycle": "test_lifecycle.py: parts and timers over the wrap",
     "local_delivery": "tests/components/test_local_delivery.py: times over the wrap of ms",
+    "long_time": "tests/firmware/test_long_time.py: several wraps, nobody reads the time",
     "node_modes": "test_modes.py: services over the wrap; times of events have 64 bits",
     "on_silence": "unit_silence.c: silences over the wrap and days apart",
     "parameter_client": "test_parameter_client.py: a call over the wrap",

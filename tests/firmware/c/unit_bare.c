@@ -3,6 +3,7 @@
 #include "port_bare_time.c"
 
 #include "port_bare_epoch.c"
+#include "port_bare_steady.c"
 #include "port_bare_serial.c"
 #include "port_bare_sleep.c"
 

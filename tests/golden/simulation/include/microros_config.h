@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* Makes linking fail if the application was compiled against another plan. */
-#define MICROROS_PLAN_ID "2710d77614c5b82b"
-#define rcl_init rcl_init__plan_2710d77614c5b82b
-#define rclc_support_init rclc_support_init__plan_2710d77614c5b82b
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_2710d77614c5b82b
+#define MICROROS_PLAN_ID "f6639f55a50b27d4"
+#define rcl_init rcl_init__plan_f6639f55a50b27d4
+#define rclc_support_init rclc_support_init__plan_f6639f55a50b27d4
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_f6639f55a50b27d4
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* Makes linking fail if the application was compiled against another plan. */
-#define MICROROS_PLAN_ID "ed89a88c0fd4df4b"
-#define rcl_init rcl_init__plan_ed89a88c0fd4df4b
-#define rclc_support_init rclc_support_init__plan_ed89a88c0fd4df4b
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_ed89a88c0fd4df4b
+#define MICROROS_PLAN_ID "8520136828aee1c4"
+#define rcl_init rcl_init__plan_8520136828aee1c4
+#define rclc_support_init rclc_support_init__plan_8520136828aee1c4
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_8520136828aee1c4
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

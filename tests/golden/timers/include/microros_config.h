@@ -7,10 +7,10 @@
 #define MICROROS_CONFIG_H
 
 /* Makes linking fail if the application was compiled against another plan. */
-#define MICROROS_PLAN_ID "32175ea30344a481"
-#define rcl_init rcl_init__plan_32175ea30344a481
-#define rclc_support_init rclc_support_init__plan_32175ea30344a481
-#define rclc_support_init_with_options rclc_support_init_with_options__plan_32175ea30344a481
+#define MICROROS_PLAN_ID "e01c5d66442abd50"
+#define rcl_init rcl_init__plan_e01c5d66442abd50
+#define rclc_support_init rclc_support_init__plan_e01c5d66442abd50
+#define rclc_support_init_with_options rclc_support_init_with_options__plan_e01c5d66442abd50
 
 /* errors: text */
 #define MICROROS_ERROR_TEXT_SIZE 160u

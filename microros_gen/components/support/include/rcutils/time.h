@@ -27,8 +27,8 @@ typedef int64_t rcutils_time_point_value_t;
 typedef int64_t rcutils_duration_value_t;
 
 /* Writes the time since 1970-01-01 00:00 UTC; since the start of the device until the time of day is set. Returns
- * RCUTILS_RET_INVALID_ARGUMENT, with a text, if `now` is NULL. Call at least once in 49 days if the port counts
- * milliseconds in 32 bits. */
+ * RCUTILS_RET_INVALID_ARGUMENT, with a text, if `now` is NULL. For one task; docs/howto/port.md,
+ * "Time that does not wrap". */
 rcutils_ret_t rcutils_system_time_now(rcutils_time_point_value_t * now);
 
 /* Writes the time since an arbitrary start; monotonic. Otherwise as above. */

@@ -20,7 +20,7 @@ extern "C" {
 void port_bare_tick(void);
 
 /* Sets the time of day: nanoseconds since 1970-01-01 00:00 UTC. Until then port_time_epoch_ns() returns 0.
- * Afterwards the millisecond timer advances it; port_time_epoch_ns() must be called at least once in 49 days. */
+ * Afterwards port_time_steady_ns() advances it. */
 void port_bare_epoch_set(int64_t now_ns);
 
 /* Returns the high-water mark of the stack since the reset in bytes, interrupts included. Only in an image with this

@@ -5,7 +5,7 @@
 
 /*
  * For one task. micros() wraps after 71 minutes and millis() after 49 days: the first has the resolution, the second says
- * how often it has wrapped. So this must be called at least once in 49 days.
+ * how often it has wrapped. So this must be called at least once in 49 days: the component long_time does that.
  */
 int64_t port_time_steady_ns(void)
 {

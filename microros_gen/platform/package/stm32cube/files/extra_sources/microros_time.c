@@ -44,18 +44,25 @@ uint32_t port_time_ms(void)
   return HAL_GetTick();
 }
 
-/* The tick wraps after 49.7 days; call it once in that time. One task at a time may call it. */
+/* The tick wraps after 49.7 days: the component long_time calls it in that time. From any task: a few instructions without
+ * interrupts, because another task's reading in between would count a wrap twice. */
 int64_t port_time_steady_ns(void)
 {
   static uint32_t before;
   static uint32_t wraps;
-  const uint32_t now = HAL_GetTick();
+  const uint32_t mask = __get_PRIMASK();
+  int64_t steady_ms;
+  uint32_t now;
 
+  __disable_irq();
+  now = HAL_GetTick();
   if (now < before) {
     ++wraps;
   }
   before = now;
-  return ((int64_t)wraps * 4294967296 + (int64_t)now) * 1000000;
+  steady_ms = (int64_t)wraps * 4294967296 + (int64_t)now;
+  __set_PRIMASK(mask);
+  return steady_ms * 1000000;
 }
 
 /* 0: the time of day is not known. `+time_sync` asks the agent. */

@@ -10,7 +10,7 @@ extern "C" {
 #endif
 
 /* Milliseconds and nanoseconds since 1970-01-01 00:00 UTC; since the start of the device until the time of
- * day is set. For one task; call at least once in 49 days if the port counts milliseconds in 32 bits. */
+ * day is set. For one task; docs/howto/port.md, "Time that does not wrap". */
 int64_t uxr_millis(void);
 int64_t uxr_nanos(void);
 

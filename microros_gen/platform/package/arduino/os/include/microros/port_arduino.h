@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 /* Sets the time of day: nanoseconds since 1970-01-01 00:00 UTC. Until then port_time_epoch_ns() returns 0.
- * Afterwards millis() advances it; port_time_epoch_ns() must be called at least once in 49 days. */
+ * Afterwards port_time_steady_ns() advances it. */
 void port_arduino_epoch_set(int64_t now_ns);
 
 /* Returns whether port_wake() was called since the last call; what waits for a transport ends then. */
