@@ -14,6 +14,8 @@ KEY = "on_silence"
 AFTER_US = (1_000, 86_400_000_000)
 """Shortest and longest silence, microseconds."""
 _TAKEN = C_KEYWORDS | {"bool", "false", "main", "true"}
+_OF_LIBRARY = ("cdr_", "rcl_", "rclc_", "rcutils_", "rmw_", "rosidl_", "ucdr_", "uxr_", "xrce_")
+"""The program's function is declared by this name, and could not be compiled beside the library's of the same name."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +39,7 @@ def parse_silence(tree: YamlNode | None, elsewhere: str, diagnostics: Diagnostic
     if after is not None and not AFTER_US[0] <= after <= AFTER_US[1]:
         message = f"'after' of on_silence is {text_of(after_node)}; it must be 1 ms to 86400 s"
         diagnostics.error(message, span_of(after_node), "Write after: 500 ms", id="MG-3212")
-    if call in _TAKEN:
+    if call in _TAKEN or call.startswith(_OF_LIBRARY):
         message = f"'{call}' is no name of a function of the application"
         diagnostics.error(message, span_of(call_node), "Write call: stop_motors", id="MG-3213")
     if elsewhere:

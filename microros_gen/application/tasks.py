@@ -39,8 +39,13 @@ def parse_tasks(
 ) -> tuple[TaskDecl, ...]:
     """Return what is below `tasks:`; none without the key. Faults are errors at their places."""
     tasks = tuple(_task(item, nodes, diagnostics) for item in items(tree))
+    runs = [
+        child(item, "executor") is not None or bool_of(child(item, "session")) is True for item in items(tree)
+    ]
     check_unique("task", [(task.name.lower(), task.span) for task in tasks], diagnostics)
-    _check_runners(tasks, nodes, diagnostics)
+    _check_runners(
+        [t for t, runs_something in zip(tasks, runs, strict=True) if runs_something], nodes, diagnostics
+    )
     _check_priorities(tasks, diagnostics)
     return tasks
 
@@ -131,9 +136,10 @@ def _rate(node: YamlNode | None, task: str, diagnostics: Diagnostics) -> int:
         return 0
     if period != int(period) or not 1 <= period <= LONGEST_US:
         message = (
-            f"'rate' of the task '{task}' is {text_of(node)}: the period is no number of whole microseconds"
+            f"'rate' of the task '{task}' is {text_of(node)}: the period is no whole number of microseconds "
+            f"from 1 us to {LONGEST_US // 1_000_000} s"
         )
-        hint = "Write `period: ` with the nearest time, such as 3333 us"
+        hint = f"Write `period: {min(max(round(period), 1), LONGEST_US)} us` instead"
         diagnostics.error(message, span_of(node), hint, id="MG-3225")
         return 0
     return int(period)

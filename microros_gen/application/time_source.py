@@ -50,6 +50,13 @@ def parse_time_source(tree: YamlNode | None, diagnostics: Diagnostics) -> TimeSo
             "'period' of a time source is for questions to the agent, and the application has the source"
         )
         diagnostics.error(message, span_of(child(tree, "period")), "Remove it", id="MG-3210")
+    if asks and holdover is not None and holdover < _US_PER_MS * period_ms:
+        message = (
+            f"'holdover' of a time source is {_text(holdover)}, and it asks every {_text(_US_PER_MS * period_ms)}: "
+            "the time would be without its source before each answer"
+        )
+        hint = f"Write holdover: {_text(_PERIODS * _US_PER_MS * period_ms)}, or ask more often"
+        diagnostics.error(message, span_of(child(tree, "holdover")), hint, id="MG-9865")
     return TimeSourceDecl(
         asks_agent=asks,
         period_ms=period_ms,

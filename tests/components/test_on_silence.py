@@ -74,6 +74,7 @@ def test_an_undefined_function_is_named(tmp_path: Path) -> None:
         ("after: 1 ms", "after: 86401 s", "MG-3212", "Write after: 500 ms"),
         ("call: be_quiet", "call: switch", "MG-3213", "Write call: stop_motors"),
         ("call: be_quiet", "call: main", "MG-3213", "Write call: stop_motors"),
+        ("call: be_quiet", "call: rcl_publish", "MG-3213", "Write call: stop_motors"),
         ("call: be_quiet}", "call: be_quiet}, local: also", "MG-3214", "Remove on_silence, or local: also"),
         ("after: 1 ms", "aftr: 1 ms", "MG-1002", "Did you mean 'after'?"),
     ],

@@ -416,7 +416,14 @@ def test_the_analysis_has_the_priorities_of_the_generated_tasks() -> None:
             "{name: t, executor: a, period: 1001 s}",
             "'period' of the task 't' is 1001 s; it must be 1 us to 1000 s",
         ),
-        ("{name: t, executor: a, rate: 300 Hz}", "'rate' of the task 't' is 300 Hz: the period is no number"),
+        (
+            "{name: t, executor: a, rate: 300 Hz}",
+            "'rate' of the task 't' is 300 Hz: the period is no whole number of microseconds from 1 us to 1000 s. "
+            "Write `period: 3333 us` instead",
+        ),
+        ("{name: t, executor: a, rate: 3 Hz}", "Write `period: 333333 us` instead"),
+        ("{name: t, executor: a, rate: 0.0001 Hz}", "Write `period: 1000000000 us` instead"),
+        ("{name: t, executor: a, rate: 0 Hz}", "must be a rate above 0 such as 100 Hz or 1 kHz"),
         ("{name: t, executor: a, rate: 1 Hz, period: 1 s}", "the task 't' has rate and period"),
         ("{name: t, executor: a, period: 1 s, interval: 1 s}", "the task 't' has period and interval"),
         (
@@ -462,6 +469,13 @@ def test_what_is_wrong_is_refused_with_its_place(tmp_path: Path, text: str, word
     with pytest.raises(UserError) as caught:
         planned(tmp_path, f"{HEAD}{NODES}tasks:\n- {text}\n")
     assert words in without_id(str(caught.value))
+
+
+def test_a_task_without_anything_to_run_does_not_count_as_the_session(tmp_path: Path) -> None:
+    with pytest.raises(UserError) as raised:
+        planned(tmp_path, f"{HEAD}{NODES}tasks:\n- {{name: t}}\n- {{name: s, session: true}}\n")
+    assert "has nothing to run" in str(raised.value)
+    assert "two tasks run the session" not in str(raised.value)
 
 
 def test_an_executor_of_several_nodes_needs_the_name_of_its_node(tmp_path: Path) -> None:

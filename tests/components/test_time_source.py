@@ -232,6 +232,8 @@ def test_the_key(tmp_path: Path, key: str, expected: tuple[int, ...]) -> None:
         ("{period: 1 ms}", "MG-3211", "Write period: 10 s"),
         ("{step: 1 us}", "MG-3211", "Write step: 1 s"),
         ("{holdover: 10 ms}", "MG-3211", "Write holdover: 60 s"),
+        ("{period: 10 s, holdover: 9 s}", "MG-9865", "Write holdover: 60 s"),
+        ("{holdover: 9999 ms}", "MG-9865", "Write holdover: 60 s"),
         ("{perod: 1 s}", "MG-1002", "Did you mean 'period'?"),
     ],
 )

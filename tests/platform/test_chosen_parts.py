@@ -76,6 +76,18 @@ def test_a_folder_is_relative_to_the_application_file(folder: Path) -> None:
         ),
         ("target: {name: cortex-m4, network: lwib}", "2:36", "unknown network 'lwib'. Did you mean 'lwip'?"),
         ("target: {name: host, rtos: none}", "2:28", "the target host cannot do without an operating system"),
+        (
+            "target: {name: cortex-m4, rtos: freertos, network: zephyr_sockets}",
+            "2:52",
+            "the network zephyr_sockets does not run under freertos, but under zephyr. "
+            "Write `network: freertos_tcp` or `network: lwip` below `target:`",
+        ),
+        (
+            "target: {name: cortex-m4, network: lwip, rtos: zephyr}",
+            "2:36",
+            "the network lwip does not run under zephyr, but under freertos or esp_idf or bare. "
+            "Write `network: zephyr_sockets` below `target:`",
+        ),
     ],
 )
 def test_what_does_not_exist_is_refused_at_its_place(text: str, place: str, message: str) -> None:

@@ -95,7 +95,7 @@ TASK_CASES = {
         625,
         _in_task("rate: 100"),
         "3:37",
-        "'tasks[0].rate' must be a rate such as 100 Hz or 1 kHz; it is 100",
+        "'tasks[0].rate' must be a rate above 0 such as 100 Hz or 1 kHz; it is 100",
     ),
     "tasks[].period": _time("period", ""),
     "tasks[].interval": _time("interval", ""),
