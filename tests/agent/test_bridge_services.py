@@ -7,6 +7,7 @@ import io
 import time
 from collections.abc import Callable
 from functools import partial
+from itertools import pairwise
 from typing import Any
 
 import pytest
@@ -16,6 +17,7 @@ from microros_gen.agent.ros import services
 from microros_gen.agent.ros.bridge import BridgeError, NoClient, NoServer, ServerFound
 from microros_gen.agent.ros.reports import graph_reporter
 from microros_gen.agent.ros.services import HELD_BYTES, HELD_CALLS
+from microros_gen.ros.libraries import TIMEOUT, Libraries
 from tests.support.agent.bridging import (
     GET_TYPES,
     Bridged,
@@ -250,6 +252,68 @@ def test_a_vanished_client_delays_no_other(bridged: Bridged, monkeypatch: pytest
     assert [(n, read_types(reply)) for n, reply in bridged.take(requester, 1)] == [(number, [3])]
     asker.destroy()
     node.destroy()
+
+
+class Unmatched:
+    """ROS 2 with a client that it has not matched yet, though the graph has it: so many attempts fail."""
+
+    def __init__(self, libraries: Libraries, failures: int) -> None:
+        self._libraries = libraries
+        self.failures = failures
+        self.attempts = 0
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._libraries, name)
+
+    def send_response(self, *arguments: Any) -> int:
+        self.attempts += 1
+        return TIMEOUT if self.attempts <= self.failures else int(self._libraries.send_response(*arguments))
+
+
+@pytest.mark.parametrize("failures", [1, 2])
+def test_a_client_that_is_matched_late_gets_its_replies(
+    bridged: Bridged, monkeypatch: pytest.MonkeyPatch, failures: int
+) -> None:
+    """All of them, in their order, and later ones: on a busy machine the graph is faster than the match."""
+    monkeypatch.setattr(services, "DEAF_S", 0.1)
+    monkeypatch.setattr(services, "WAIT_FOR_CLIENT_S", 300)
+    node = bridged.bridge.create_node("hasty", bridged.domain)
+    asker = bridged.bridge.create_node("matched_late", bridged.domain)
+    replier, requester = node.create_replier(get_types("hasty")), asker.create_requester(get_types("hasty"))
+    unmatched = Unmatched(replier._libraries, failures)  # type: ignore[attr-defined]
+    monkeypatch.setattr(replier, "_libraries", unmatched)
+    numbers = [requester.request(names_body(["abc"])) for _ in range(3)]
+    identities = [identity for identity, _ in bridged.take(replier, 3)]
+    for size, identity in enumerate(identities):
+        replier.reply(identity, types_body([size]))
+    assert unmatched.attempts <= 1, "the others wait as well: each attempt may take 100 ms"
+    replies = bridged.take(requester, 3)
+    assert [(number, read_types(reply)) for number, reply in replies] == [
+        (n, [i]) for i, n in enumerate(numbers)
+    ]
+    assert unmatched.attempts == failures + 3
+    number = requester.request(names_body(["abc"]))
+    [(identity, _)] = bridged.take(replier, 1)
+    replier.reply(identity, types_body([9]))
+    assert [(n, read_types(reply)) for n, reply in bridged.take(requester, 1)] == [(number, [9])]
+    assert not any(isinstance(r, NoClient) and r.node == "/hasty" for r in bridged.reports)
+    asker.destroy()
+    node.destroy()
+
+
+def test_a_client_that_is_never_matched_is_tried_less_and_less_often() -> None:
+    """Each attempt may block the agent; without a match in sight they take less than a hundredth of its time."""
+    deaf, now, attempts = services._Deaf(), 0.0, []
+    while now < 600.0:
+        if not deaf.rests(b"guid", now):
+            attempts.append(now)
+            deaf.add(b"guid", now)
+        now += 0.25
+    pauses = [after - before for before, after in pairwise(attempts)]
+    assert pauses[:4] == [0.5, 1.0, 2.0, 4.0]
+    assert max(pauses) == services.LONGEST_DEAF_S
+    deaf.reached(b"guid")
+    assert not deaf.rests(b"guid", attempts[-1])
 
 
 def test_what_cannot_be_answered_or_asked_is_said(bridged: Bridged) -> None:

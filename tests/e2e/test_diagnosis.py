@@ -257,7 +257,7 @@ def test_a_mode_manager_leaves_the_requested_mode_alone(
             end = deadline(60)
             while not condition():
                 manager.turn()
-                assert time.monotonic() < end, lines
+                assert time.monotonic() < end, (lines, orchestrator.leaves)
 
         def actual(part: str) -> str:
             return str(orchestrator.statuses()[part])

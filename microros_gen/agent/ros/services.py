@@ -31,7 +31,11 @@ HELD_CALLS, HELD_BYTES = 64, 262_144
 HELD_BYTES_OF_ALL = 16_777_216
 """Maximum bytes for all services and service clients of the agent."""
 DEAF_CLIENTS = 256
-"""Maximum number of a service's clients remembered as present or as unreachable."""
+"""Maximum number of a service's clients remembered as unreachable."""
+DEAF_S, LONGEST_DEAF_S = 0.5, 60.0
+"""Seconds until a client that ROS 2 did not reach is tried again: after the first time, and at most. Each attempt may
+block the agent for 100 ms. On a busy machine the graph has a client long before it is matched; one with another quality
+of service is never matched."""
 _LOOK_AGAIN_S = 0.05
 _GUID_BYTES = 16
 _NUMBER = struct.Struct("<iI")
@@ -167,11 +171,35 @@ class RawService(RawSource):
             raise BridgeError(f"{self.label} is gone")
 
 
+class _Deaf:
+    """Clients that are in the graph and that ROS 2 did not reach, with the time until which each is left alone."""
+
+    def __init__(self) -> None:
+        self._until: dict[bytes, tuple[float, float]] = {}
+
+    def add(self, guid: bytes, now: float) -> None:
+        """Leave a client alone for a while, each time twice as long."""
+        _, pause_s = self._until.pop(guid, (0.0, DEAF_S / 2))
+        pause_s = min(2 * pause_s, LONGEST_DEAF_S)
+        self._until[guid] = now + pause_s, pause_s
+        if len(self._until) > DEAF_CLIENTS:
+            del self._until[next(iter(self._until))]
+
+    def rests(self, guid: bytes, now: float) -> bool:
+        """Return whether a client is left alone."""
+        return guid in self._until and now < self._until[guid][0]
+
+    def reached(self, guid: bytes) -> None:
+        """Note that a client is matched."""
+        self._until.pop(guid, None)
+
+
 class RawReplier(RawService):
     """See Replier.
 
     For a client that it has not discovered, ROS 2 would block the agent for 100 ms. It therefore gets only replies to
-    clients in the graph; other replies wait until their client appears.
+    clients in the graph; other replies wait until their client appears. The graph has a client some time before ROS 2
+    has matched it: a reply in between waits, too.
     """
 
     def __init__(
@@ -183,7 +211,7 @@ class RawReplier(RawService):
         self._patience = patience
         self._held = Held(patience)
         self._lost = 0
-        self._deaf: dict[bytes, None] = {}
+        self._deaf = _Deaf()
 
     def take(self) -> tuple[bytes, bytes] | None:
         """See Replier."""
@@ -199,9 +227,10 @@ class RawReplier(RawService):
             raise BridgeError(f"a sample identity of {len(identity)} bytes", Status.INVALID_DATA)
         self.check_alive()
         raw_message(serialized)
-        if identity[:_GUID_BYTES] in self._clients():
-            self._send(identity, serialized)
-        elif self._held.put(time.monotonic() + WAIT_FOR_CLIENT_S, identity, serialized):
+        now = time.monotonic()
+        if self._send(identity, serialized, self._clients(), now):
+            return
+        if self._held.put(now + WAIT_FOR_CLIENT_S, identity, serialized):
             self._patience.wait_for(self)
         else:
             self._lose()
@@ -213,9 +242,9 @@ class RawReplier(RawService):
         clients, now = self._clients(), time.monotonic()
         for _ in range(len(self._held)):
             until, identity, serialized = self._held.pop()
-            if identity[:_GUID_BYTES] in clients:
-                self._send_held(identity, serialized)
-            elif until < now:
+            if self._send_held(identity, serialized, clients, now):
+                continue
+            if until < now:
                 self._lose()
             else:
                 self._held.put(until, identity, serialized)
@@ -229,29 +258,30 @@ class RawReplier(RawService):
     def _clients(self) -> set[bytes]:
         return self._events.readers(self._endpoints[1], _GUID_BYTES)
 
-    def _send_held(self, identity: bytes, serialized: bytes) -> None:
+    def _send_held(self, identity: bytes, serialized: bytes, clients: set[bytes], now: float) -> bool:
         try:
-            self._send(identity, serialized)
+            return self._send(identity, serialized, clients, now)
         except BridgeError:
             self._lose()
+            return True
 
-    def _send(self, identity: bytes, serialized: bytes) -> None:
+    def _send(self, identity: bytes, serialized: bytes, clients: set[bytes], now: float) -> bool:
+        """Send a reply if its client can be reached; return whether that is so."""
         guid = identity[:_GUID_BYTES]
-        if guid in self._deaf:
-            self._lose()
-            return
+        if guid not in clients or self._deaf.rests(guid, now):
+            return False
         high, low = _NUMBER.unpack_from(identity, _GUID_BYTES)
         request = RequestId(number=high << 32 | low)
         request.guid[:] = guid
         result = self._libraries.send_response(self._pointer, byref(request), byref(raw_message(serialized)))
-        if result == TIMEOUT:  # the graph has it, and its quality of service is another one
-            self._deaf[guid] = None
-            if len(self._deaf) > DEAF_CLIENTS:
-                del self._deaf[next(iter(self._deaf))]
+        if result == TIMEOUT:
+            self._deaf.add(guid, time.monotonic())
             self._libraries.error()  # clear the error, which says less
-            self._lose()
-        elif result != OK:
+            return False
+        if result != OK:
             raise self.failed("reply")
+        self._deaf.reached(guid)
+        return True
 
     def _lose(self) -> None:
         self._lost += 1
