@@ -22,6 +22,7 @@ from tests.support.runtime.text_boards import (
     meet,
     pair,
     publish,
+    renumber,
     running,
     until,
 )
@@ -116,8 +117,7 @@ def test_a_bad_bus_while_the_numbers_wrap(programs: tuple[Path, Path], bus: CanB
     """Each text once and in order; the numbers of fragments wrap within a message."""
     texts = lengths(16)
     with pair(programs) as (first, second):
-        for board in (first, second):
-            assert not board.tell(f"numbers {WRAPS} {WRAPS}")
+        renumber(bus, first, second, WRAPS)
         bus.fate = fate
         publish(first, second, texts)
         publish(second, first, texts)
@@ -133,8 +133,7 @@ def test_each_request_is_executed_once(programs: tuple[Path, Path], bus: CanBus,
     """Requests and replies from one frame to 17, both ways at once, with messages of a topic between them."""
     requests = [(i, 20 + 53 * i) for i in range(8)]
     with pair(programs) as (first, second):
-        for board in (first, second):
-            assert not board.tell(f"numbers {WRAPS} {WRAPS}")
+        renumber(bus, first, second, WRAPS)
         bus.fate = fate
         for seed, size in requests:
             for caller, other in ((first, second), (second, first)):

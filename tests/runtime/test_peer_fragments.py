@@ -17,6 +17,7 @@ from tests.support.runtime.text_boards import (
     meet,
     pair,
     publish,
+    renumber,
     running,
     until,
 )
@@ -121,8 +122,7 @@ def test_a_bad_network(programs: tuple[Path, Path], relay: Relay, seed: int) -> 
     """Loss, repetition and another order, while the numbers of fragments wrap within a message."""
     texts = lengths(16)
     with pair(programs) as (first, second):
-        for board in (first, second):
-            assert not board.tell(f"numbers {WRAPS} {WRAPS}")
+        renumber(relay, first, second, WRAPS)
         relay.fate = unreliable(seed)
         publish(first, second, texts)
         publish(second, first, texts)

@@ -6,6 +6,7 @@ Members connect to a socket (SOCK_SEQPACKET) and exchange struct canfd_frame, as
 
 from __future__ import annotations
 
+import select
 import selectors
 import socket
 import struct
@@ -49,6 +50,7 @@ class CanBus:
         self.lost: Lost = lambda frame: False
         self.fate: Fate = lambda frame: (frame,)
         self._members: list[socket.socket] = []
+        self._passing = threading.Lock()
         self._selector = selectors.DefaultSelector()
         self._wake, self._woken = socket.socketpair()
         self._thread = threading.Thread(target=self._run, daemon=True)
@@ -73,6 +75,20 @@ class CanBus:
         """Return the identifiers of all frames."""
         return {int.from_bytes(frame[:4], sys.byteorder) & ~EXTENDED for frame in tuple(self.frames)}
 
+    @property
+    def passed(self) -> int:
+        """How many frames there were."""
+        return len(self.frames) + self.losses
+
+    def is_idle(self) -> bool:
+        """Return whether each frame that was sent so far has reached the other members."""
+        if not self._passing.acquire(blocking=False):  # it may wait for a member
+            return False
+        try:
+            return not select.select([*self._members, self._listener], [], [], 0)[0]
+        finally:
+            self._passing.release()
+
     def put(self, frame: bytes) -> None:
         """Send a frame of nobody in particular to all members."""
         self._spread(frame, None)
@@ -84,12 +100,13 @@ class CanBus:
                 assert isinstance(end, socket.socket)
                 if end is self._woken:
                     return
-                if end is self._listener:
-                    member = self._listener.accept()[0]
-                    self._members.append(member)
-                    self._selector.register(member, selectors.EVENT_READ)
-                else:
-                    self._read(end)
+                with self._passing:
+                    if end is self._listener:
+                        member = self._listener.accept()[0]
+                        self._members.append(member)
+                        self._selector.register(member, selectors.EVENT_READ)
+                    else:
+                        self._read(end)
 
     def _read(self, member: socket.socket) -> None:
         try:

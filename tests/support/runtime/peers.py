@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Protocol
 
 from microros_gen.agent.wire.message import header_size, split
 from microros_gen.agent.wire.submessages import decode
@@ -194,6 +195,7 @@ class Relay:
         self.seen: list[tuple[int, int, object]] = []
         self.faults: list[str] = []
         self.fate: Fate = lambda data: (data,)
+        self._passing = threading.Lock()
         self._ends = threading.Event()
         self._thread = threading.Thread(target=self._serve, daemon=True)
 
@@ -207,6 +209,20 @@ class Relay:
         for end in self._sockets:
             end.close()
 
+    def is_idle(self) -> bool:
+        """Return whether each datagram that was sent so far has been passed on."""
+        if not self._passing.acquire(blocking=False):
+            return False
+        try:
+            return not select.select(self._sockets, [], [], 0)[0]
+        finally:
+            self._passing.release()
+
+    @property
+    def passed(self) -> int:
+        """How many submessages it has had."""
+        return len(self.seen)
+
     def of(self, name: str) -> list[tuple[int, int]]:
         """Return sender and session id of the submessages of a kind: `Heartbeat`."""
         return [(sender, session) for sender, session, sub in self.seen if type(sub).__name__ == name]
@@ -214,15 +230,19 @@ class Relay:
     def _serve(self) -> None:
         while not self._ends.is_set():
             for ready in select.select(self._sockets, [], [], 0.02)[0]:
-                sender = self._sockets.index(ready)
-                data, source = ready.recvfrom(65536)
-                if data.startswith(b"RTPS"):
-                    continue  # DDS of another test looks for participants at every port of its range
-                self._boards[sender] = source
-                self._note(sender, data)
-                target = self._boards[1 - sender]
-                for passed in self.fate(data) if target else ():
-                    self._sockets[1 - sender].sendto(passed, target or ("", 0))
+                with self._passing:
+                    self._pass_on(ready)
+
+    def _pass_on(self, ready: socket.socket) -> None:
+        sender = self._sockets.index(ready)
+        data, source = ready.recvfrom(65536)
+        if data.startswith(b"RTPS"):
+            return  # DDS of another test looks for participants at every port of its range
+        self._boards[sender] = source
+        self._note(sender, data)
+        target = self._boards[1 - sender]
+        for passed in self.fate(data) if target else ():
+            self._sockets[1 - sender].sendto(passed, target or ("", 0))
 
     def _note(self, sender: int, data: bytes) -> None:
         try:
@@ -230,6 +250,31 @@ class Relay:
             self.seen += [(sender, data[0], submessage) for submessage in found]
         except Exception as fault:  # a thread: the test reports it
             self.faults.append(f"{data.hex()}: {fault!r}")
+
+
+class Network(Protocol):
+    """What boards send passes through it."""
+
+    @property
+    def passed(self) -> int:
+        """How much that was so far."""
+
+    def is_idle(self) -> bool:
+        """Return whether all that was sent so far has been passed on."""
+
+
+def calm(network: Network, run: Callable[[], object]) -> None:
+    """Let boards `run` until nothing is under way any more: on a busy machine, a HEARTBEAT may follow much later.
+
+    They have nothing to send by then.
+    """
+    end = deadline(20)
+    while True:
+        before = network.passed
+        run()
+        if network.is_idle() and network.passed == before:
+            return
+        assert time.monotonic() < end, "boards do not end"
 
 
 def unreliable(seed: int) -> Fate:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from tests.support.e2e.commanded import CommandedProgram
 from tests.support.patience import deadline
+from tests.support.runtime.peers import Network, calm
 
 LONGEST = 3000
 """Characters of the longest text."""
@@ -107,6 +108,14 @@ def until(seen: Callable[[], object], *boards: TextBoard) -> None:
         assert time.monotonic() < end, [(board.received, board.replies, board.counts) for board in boards]
         for board in boards:
             board.tell("spin 1")
+
+
+def renumber(network: Network, first: TextBoard, second: TextBoard, number: int) -> None:
+    """Let both boards count from a number on, when nothing of the numbers before is under way."""
+    boards = (first, second)
+    calm(network, lambda: [board.tell("spin 1") for board in boards])
+    for board in boards:
+        assert not board.tell(f"numbers {number} {number}")
 
 
 def publish(board: TextBoard, other: TextBoard, texts: Sequence[Text]) -> None:
