@@ -21,7 +21,7 @@ from tests.support.agent.process import running_agent
 from tests.support.e2e.can_bus import EXTENDED, CanBus, record
 from tests.support.e2e.images import C_FILES, QUICK, Images, started
 from tests.support.e2e.loss import APPLICATION, echo
-from tests.support.e2e.programs import until
+from tests.support.e2e.programs import check_count, until
 from tests.support.patience import seconds
 from tests.support.slices import first
 
@@ -146,10 +146,8 @@ def test_a_bus_that_goes_away_and_returns(observer: Observer, domain: int, talke
             collect(observer, samples, {"/gone": counted["last"]})
             assert agent.stop() == 0
             assert any("2 faults of input" in line for line in agent.rest())
-    values = samples["/gone"]
-    assert values == sorted(values)
-    if not counted["reconnects"]:  # a busy machine may take longer than the liveliness timeout for an outage
-        assert len(values) == len(set(values))
+    # A busy machine may take longer than the liveliness timeout for an outage.
+    check_count(samples["/gone"], counted["reconnects"])
 
 
 def test_an_agent_that_restarts(observer: Observer, domain: int, bus: CanBus, talker: Path) -> None:
@@ -168,5 +166,4 @@ def test_an_agent_that_restarts(observer: Observer, domain: int, bus: CanBus, ta
             counted = end(running)
             collect(observer, samples, {"/again": counted["last"]})
     assert counted["reconnects"]
-    values = samples["/again"]
-    assert values == sorted(values)
+    check_count(samples["/again"], counted["reconnects"])
