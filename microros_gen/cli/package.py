@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -11,16 +12,15 @@ from microros_gen.cli.offers import package_names
 from microros_gen.cli.options import interface_path_option
 
 
-def _list(context: click.Context, _: click.Parameter, wanted: bool) -> None:
-    if wanted:
-        from microros_gen.cli.package_report import package_list
-
-        click.echo(package_list(), nl=False)
-        context.exit()
+def _required(context: click.Context, parameter: click.Parameter, value: Any) -> Any:
+    """Return the value of what is needed unless packages are listed; `--list` is read first."""
+    if value is None and not context.params["listed"]:
+        raise click.MissingParameter(ctx=context, param=parameter)
+    return value
 
 
 @click.command()
-@click.argument("name", metavar="NAME", shell_complete=package_names)
+@click.argument("name", metavar="NAME", required=False, callback=_required, shell_complete=package_names)
 @click.option(
     "-c",
     "--config",
@@ -31,17 +31,20 @@ def _list(context: click.Context, _: click.Parameter, wanted: bool) -> None:
 @click.option(
     "-o",
     "--output",
-    required=True,
+    callback=_required,
     type=click.Path(path_type=Path),
     metavar="DIR",
-    help="Folder of the package, managed by the tool.",
+    help="Folder of the package, managed by the tool.  [required]",
 )
 @click.option("--archive", "archived", is_flag=True, help="Write DIR.zip or DIR.tar.gz, too.")
-@click.option(
-    "--list", is_flag=True, is_eager=True, expose_value=False, callback=_list, help="List packages."
-)
+@click.option("--list", "listed", is_flag=True, is_eager=True, help="List the packages, or NAME alone.")
 def command(
-    name: str, config: Path | None, interface_paths: tuple[Path, ...], output: Path, archived: bool
+    name: str | None,
+    config: Path | None,
+    interface_paths: tuple[Path, ...],
+    output: Path | None,
+    archived: bool,
+    listed: bool,
 ) -> None:
     """Write the C sources of a plan to DIR, as a package that another build system takes.
 
@@ -52,6 +55,11 @@ def command(
     microros-gen package cmake -o build/microros
     microros-gen package cmake -c microros.yaml -o build/microros --archive
     """
-    from microros_gen.cli.package_report import write_package
+    from microros_gen.cli.package_report import package_list, write_package
 
+    if listed:
+        click.echo(package_list(name), nl=False)
+        return
+    assert name is not None
+    assert output is not None
     write_package(name, config, interface_paths, output, archived)

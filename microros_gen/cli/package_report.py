@@ -19,9 +19,13 @@ from microros_gen.package.render import PackagePlan, describe, plan_package, ren
 from microros_gen.package.view import buffers_of, package_view
 
 
-def package_list() -> str:
-    """Return a line for each package that ships with the tool."""
-    return table([(name, describe(name).summary) for name in builtin_packages()])
+def package_list(name: str | None = None) -> str:
+    """Return a line for each package that ships with the tool, or for package `name` alone.
+
+    Raises UserError if that does not exist.
+    """
+    names = builtin_packages() if name is None else (name,)
+    return table([(each, describe(each).summary) for each in names])
 
 
 def write_package(

@@ -19,6 +19,7 @@ from microros_gen.output.manifest import manifest_text
 from microros_gen.output.tree import MANIFEST
 from microros_gen.package.description import PackageDescription
 from microros_gen.package.find import read_package
+from microros_gen.package.licenses import licenses_of
 from microros_gen.package.sbom import SBOM, sbom
 from microros_gen.package.view import PackageView, holds, package_view
 from microros_gen.platform.find import read_target
@@ -129,7 +130,8 @@ def render_package(plan: PackagePlan) -> dict[str, bytes]:
         name.removesuffix(".j2"): _rendered(path, view) for name, path in own.items() if name.endswith(".j2")
     }
     files[LICENSE] = license_text()
-    files[SBOM] = sbom(view, files)
+    places = {entry.place.name: entry.place for entry in plan.planned.interfaces}
+    files[SBOM] = sbom(view, files, licenses_of(places.values()))
     files[MANIFEST] = _manifest(plan, output[MANIFEST], files)
     return files
 

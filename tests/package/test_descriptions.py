@@ -55,6 +55,25 @@ def test_the_list_has_all_of_them(run: Runner) -> None:
     assert [line.split()[0] for line in result.out.splitlines()] == list(builtin_packages())
 
 
+def test_one_of_them_is_listed(run: Runner, folder: Path) -> None:
+    """By its name or folder; before, a name was ignored, and all were listed."""
+    written(folder)
+    for name in ("cmake", "./mine"):
+        result = run("package", "--list", name)
+        assert result.status == 0
+        assert len(result.out.splitlines()) == 1
+        assert run("package", name, "--list").out == result.out
+    assert run("package", "--list", "cmake").out in run("package", "--list").out
+    assert "unknown package 'cmakee'" in run("package", "--list", "cmakee").err
+
+
+@pytest.mark.parametrize("words", [(), ("cmake",)])
+def test_name_and_folder_are_needed_otherwise(run: Runner, words: tuple[str, ...]) -> None:
+    result = run("package", *words)
+    assert result.status == 2
+    assert ("Missing option '-o' / '--output'." if words else "Missing argument 'NAME'.") in result.err
+
+
 def test_a_folder_is_a_package(run: Runner, folder: Path) -> None:
     package = written(folder)
     (package / "files").mkdir()

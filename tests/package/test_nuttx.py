@@ -124,7 +124,10 @@ def test_a_project_names_its_program(run: Runner, folder: Path) -> None:
     (old / "lib").mkdir(parents=True)
     source = describe("nuttx").folder / "files" / "examples" / "publisher" / "main.c"
     shutil.copy(source, old / "start.c")
-    (old / "lib" / "more.c").write_text("int more;\n")
+    for name in ("two words", "a$b", "c#d"):
+        (old / name).mkdir()
+        (old / name / f"{name[0]}.h").write_text("extern int more;\n")
+    (old / "lib" / "more.c").write_text('#include "t.h"\n#include "a.h"\n#include "c.h"\nint more;\n')
     (old / "lib" / "other.cpp").write_text("int other;\n")
     assert run("init", "apps/external", "--platform", "nuttx", "--from", "old").status == 0
     external = folder / "apps" / "external"
@@ -133,7 +136,8 @@ def test_a_project_names_its_program(run: Runner, folder: Path) -> None:
     text = (
         f"APPDIR := {folder}/apps\nCONFIG_MICROROSLIB := y\nCONFIG_EXTERNAL_EXTERNAL := y\n"
         f"include {external}/Make.defs\n$(info APPS=$(CONFIGURED_APPS))\ninclude Makefile\n"
-        "$(info PROGRAM=$(PROGNAME) $(MAINSRC) $(CSRCS) $(CXXSRCS))\nall:;\n"
+        "$(info PROGRAM=$(PROGNAME) $(MAINSRC) $(CSRCS) $(CXXSRCS))\n"
+        "all:; @gcc $(CFLAGS) -fsyntax-only lib/more.c && g++ $(CXXFLAGS) -fsyntax-only lib/more.c\n"
     )
     call = ["make", "--silent", "-C", str(external / "external"), "-f", "-"]
     done = subprocess.run(call, input=text, capture_output=True, text=True, check=True)

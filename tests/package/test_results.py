@@ -62,6 +62,64 @@ def test_the_bill_of_materials_is_valid(name: str, tmp_path: Path) -> None:
     assert library.verification_code.value == hashlib.sha1(sums.encode()).hexdigest()
 
 
+OWN_MESSAGES = """\
+version: 1
+profiles: [pure_sender]
+interface_paths: [own_msgs]
+nodes: [{name: n, publishers: [{topic: a, type: own_msgs/msg/Own}, {topic: b, type: std_msgs/msg/Int32}]}]
+"""
+
+
+@pytest.mark.parametrize(
+    ("said", "expected", "texts"),
+    [
+        ("<license>BSD-3-Clause</license>", "BSD-3-Clause", {}),
+        ("<license file='L'>Apache License 2.0</license><license>MIT</license>", "Apache-2.0 AND MIT", {}),
+        (
+            "<license>Own &amp; secret</license>",
+            "LicenseRef-own-msgs-1",
+            {"LicenseRef-own-msgs-1": "Own & secret"},
+        ),
+        ("<!-- <license>MIT</license> --><license></license>", "NOASSERTION", {}),
+        (None, "NOASSERTION", {}),
+    ],
+)
+def test_files_of_messages_have_the_license_of_their_package(
+    tmp_path: Path, said: str | None, expected: str, texts: dict[str, str]
+) -> None:
+    """Not that of the tool, which all other files have."""
+    own = tmp_path / "own_msgs"
+    (own / "msg").mkdir(parents=True)
+    (own / "msg" / "Own.msg").write_text("int32 a\n")
+    if said is not None:
+        (own / "package.xml").write_text(f"<package format='3'><name>own_msgs</name>{said}</package>\n")
+    config = tmp_path / "microros.yaml"
+    config.write_text(OWN_MESSAGES)
+    files = render_package(plan_package(describe("cmake"), config))
+    written = tmp_path / "sbom.spdx.json"
+    written.write_bytes(files["sbom.spdx.json"])
+    assert validate_full_spdx_document(parse_file(str(written))) == []
+    document = json.loads(files["sbom.spdx.json"])
+    concluded = {file["fileName"]: file["licenseConcluded"] for file in document["files"]}
+    of_messages = {name for name in concluded if "/own_msgs/" in name}
+    assert len(of_messages) == 6
+    assert {concluded[name] for name in of_messages} == {expected}
+    assert {name for name, found in concluded.items() if found != "Apache-2.0"} == of_messages
+    declared = {package["name"]: package["licenseDeclared"] for package in document["packages"]}
+    both = (
+        expected
+        if expected == "NOASSERTION"
+        else " AND ".join(sorted({"Apache-2.0", *expected.split(" AND ")}))
+    )
+    assert (declared["own_msgs"], declared["std_msgs"], declared["microros"]) == (
+        expected,
+        "Apache-2.0",
+        both,
+    )
+    extracted = document.get("hasExtractedLicensingInfos", [])
+    assert {each["licenseId"]: each["extractedText"] for each in extracted} == texts
+
+
 def test_archives_are_the_same_each_time() -> None:
     files = {"b/two": b"2" * 1000, "one": b"1"}
     again = dict(reversed(files.items()))
