@@ -17,6 +17,8 @@ from tests.support.firmware.running import started
 from tests.support.patience import deadline
 
 NAME = "qemu-mps2-an386"
+DONE = 1
+"""The state of the program once its node and timer are there."""
 USED = 3000
 """Bytes of the stack that the program uses after some seconds."""
 
@@ -52,6 +54,9 @@ def test_the_stack_is_what_the_memory_says(
     ):
         agent.wait_for("agent ready")
         running.go_on()
+        # A program that finds no agent in time ends, and nothing would be reported.
+        running.wait_for(lambda: running.words("diagnosis_report", 1)[0] != 0, 120)
+        assert running.words("diagnosis_report", 1) == [DONE]
         before = statuses(observer, "stack", lambda values, status: int(values["peak"]) > 0)
         heat = statuses(observer, "heat", lambda values, status: True)
         executor = statuses(observer, "executor", lambda values, status: values["cpu_percent"] != "unknown")

@@ -69,6 +69,22 @@ def test_what_failed_with_others_runs_alone(
     assert len(count.read_text()) == runs_of_it
 
 
+@pytest.mark.builds
+def test_a_test_that_hangs_fails_with_its_stack(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """And the tests after it run."""
+    monkeypatch.setenv("PYTEST_DEBUG_TEMPROOT", str(tmp_path))
+    (tmp_path / "test_x.py").write_text(
+        "import threading\ndef test_a():\n    threading.Event().wait()\ndef test_b():\n    pass\n"
+    )
+    options = ("-n", "1", "-o", "faulthandler_timeout=1", str(tmp_path))
+    assert carry_out(Run("not long"), options, tmp_path) == 1
+    output = "".join(capfd.readouterr())
+    assert "1 failed, 1 passed" in output
+    assert 'test_x.py", line 3 in test_a' in output
+
+
 @pytest.mark.parametrize("folder", FOLDERS)
 def test_make_system_runs_no_test_twice(folder: str) -> None:
     assert [markers for markers in SETS if len(runs("system", folder, markers)) > 1] == []

@@ -58,7 +58,13 @@ class Run:
 DEFAULT = "not long and not lint and not system and not variant"
 SANITIZED = ("runtime", "components", "e2e")
 """Folders whose programs `make test` compiles without sanitizers."""
-PYTEST = (sys.executable, "-m", "pytest", "-q")
+HANGS_S = 1800
+"""A test that takes longer hangs, even on a machine with much other work (tests/support/patience.py)."""
+PYTEST = (
+    *(sys.executable, "-m", "pytest", "-q"),
+    # It fails with the stacks of all threads; pytest goes on in another process.
+    *("-o", f"faulthandler_timeout={HANGS_S}", "-o", "faulthandler_exit_on_timeout=true"),
+)
 TESTS_FAILED = 1
 """pytest's exit status: all tests ran, some failed."""
 EVERYTHING = {EXAMPLES: "all", EVERYWHERE: "all"}

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import os
+import select
 import signal
 import subprocess
 import sys
@@ -13,6 +14,10 @@ from contextlib import contextmanager
 from typing import Any
 
 from tests.support.agent.process import environment
+from tests.support.patience import seconds
+
+ANSWER_S = 60.0
+"""A command may wait for a service itself, for half of that."""
 
 
 class LineProcess:
@@ -27,6 +32,8 @@ class LineProcess:
         assert self._process.stdout is not None
         self._process.stdin.write(json.dumps(command) + "\n")
         self._process.stdin.flush()
+        # One line an answer: nothing of it was read before.
+        assert select.select([self._process.stdout], [], [], seconds(ANSWER_S))[0], f"no answer to {command}"
         return json.loads(self._process.stdout.readline())
 
     @contextmanager

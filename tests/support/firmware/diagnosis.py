@@ -7,7 +7,7 @@ APPLICATION = """\
 version: 1
 profiles: [pure_sender]
 errors: code
-session: {connect_timeout: 20 s, create_timeout: 20 s, liveliness_timeout: 20 s}
+session: {connect_timeout: 60 s, create_timeout: 60 s, liveliness_timeout: 20 s}
 nodes:
   - name: device
     namespace: /arm
