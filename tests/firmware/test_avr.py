@@ -34,6 +34,7 @@ from tests.support.paths import ROOT
 from tests.support.patience import deadline, seconds
 from tests.support.quality.corpus import APPLICATIONS
 from tests.support.runtime.reading_agent import ReadingAgent
+from tests.support.slices import spread_rows
 
 FLASH, RAM = 32 * 1024, 2048
 ROOM = {UNO: (FLASH, RAM), MEGA: (256 * 1024, 8192)}
@@ -127,8 +128,10 @@ def test_the_stack_has_a_bound(builds: Builds, name: str, application: str) -> N
     assert 250 < bound < 700
 
 
-@pytest.mark.parametrize("entities", ["binary", "xml"])
-@pytest.mark.parametrize("errors", ["code", "text"])
+@pytest.mark.parametrize(
+    ("errors", "entities"),
+    spread_rows([("code", "binary"), ("code", "xml"), ("text", "xml"), ("text", "binary")], every=2),
+)
 def test_names_of_types_and_descriptions_stay_in_flash(builds: Builds, entities: str, errors: str) -> None:
     """What is copied to RAM before main contains neither a name of a type in DDS nor an element of XML."""
     need(MEGA)
