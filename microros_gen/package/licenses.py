@@ -50,12 +50,12 @@ def licenses_of(places: Iterable[PackagePlace]) -> Licenses:
     expressions: dict[str, str] = {}
     texts: dict[str, str] = {}
     for place in places:
-        said = (OWN,) if place.origin is Origin.SHIPPED else _said(place)
+        declared = (OWN,) if place.origin is Origin.SHIPPED else _declared(place)
         names = [
-            _NAMES.get(text.lower()) or _reference(place.name, number) for number, text in enumerate(said)
+            _NAMES.get(text.lower()) or _reference(place.name, number) for number, text in enumerate(declared)
         ]
         expressions[place.name] = " AND ".join(dict.fromkeys(names)) or UNKNOWN
-        texts |= {name: text for name, text in zip(names, said, strict=True) if name not in _IDENTIFIERS}
+        texts |= {name: text for name, text in zip(names, declared, strict=True) if name not in _IDENTIFIERS}
     return Licenses(expressions, texts)
 
 
@@ -65,7 +65,7 @@ def joined(expressions: Iterable[str]) -> str:
     return UNKNOWN if UNKNOWN in found else " AND ".join(found)
 
 
-def _said(place: PackagePlace) -> tuple[str, ...]:
+def _declared(place: PackagePlace) -> tuple[str, ...]:
     try:
         text = read_text(place.folder / "package.xml")
     except (OSError, UnicodeDecodeError):

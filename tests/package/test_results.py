@@ -71,7 +71,7 @@ nodes: [{name: n, publishers: [{topic: a, type: own_msgs/msg/Own}, {topic: b, ty
 
 
 @pytest.mark.parametrize(
-    ("said", "expected", "texts"),
+    ("element", "expected", "texts"),
     [
         ("<license>BSD-3-Clause</license>", "BSD-3-Clause", {}),
         ("<license file='L'>Apache License 2.0</license><license>MIT</license>", "Apache-2.0 AND MIT", {}),
@@ -85,14 +85,14 @@ nodes: [{name: n, publishers: [{topic: a, type: own_msgs/msg/Own}, {topic: b, ty
     ],
 )
 def test_files_of_messages_have_the_license_of_their_package(
-    tmp_path: Path, said: str | None, expected: str, texts: dict[str, str]
+    tmp_path: Path, element: str | None, expected: str, texts: dict[str, str]
 ) -> None:
     """Not that of the tool, which all other files have."""
     own = tmp_path / "own_msgs"
     (own / "msg").mkdir(parents=True)
     (own / "msg" / "Own.msg").write_text("int32 a\n")
-    if said is not None:
-        (own / "package.xml").write_text(f"<package format='3'><name>own_msgs</name>{said}</package>\n")
+    if element is not None:
+        (own / "package.xml").write_text(f"<package format='3'><name>own_msgs</name>{element}</package>\n")
     config = tmp_path / "microros.yaml"
     config.write_text(OWN_MESSAGES)
     files = render_package(plan_package(describe("cmake"), config))
