@@ -215,8 +215,14 @@ def check_unique(kind: str, named: list[tuple[str, Span | None]], diagnostics: D
     for name, span in named:
         first = seen.get(name)
         if name in seen and name:
-            where = f"; the first is in line {first.line}" if first else ""
+            where = f"; the first is in {_place(first, span)}" if first else ""
             diagnostics.error(
                 f"duplicate {kind} '{name}'{where}", span, "Give each a different name", id="MG-3011"
             )
         seen.setdefault(name, span)
+
+
+def _place(first: Span, span: Span | None) -> str:
+    """Return the line of a place, with its file where that is not the file of `span`."""
+    elsewhere = span is not None and first.source.name != span.source.name
+    return f"{first.source.name}:{first.line}" if elsewhere else f"line {first.line}"

@@ -8,16 +8,17 @@ error at its place, so that no file is accepted with less than it says.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from microros_gen.application.model import ParameterDecl
-from microros_gen.application.parameter_maps import MAP, Maps, is_group
+from microros_gen.application.parameter_hints import library_declaration, library_type, library_type_of
+from microros_gen.application.parameter_maps import MAP, Maps, is_group, name_of
 from microros_gen.application.parameter_validation import check_rules, with_rule
 from microros_gen.application.parameters import Places, check_declaration, value_of
-from microros_gen.diagnostics import Diagnostics, Source, Span, reads
+from microros_gen.diagnostics import Diagnostics, Source, Span, nearest, reads
 from microros_gen.documents.tree_values import bool_of, child, entries, items, span_of, text_of
-from microros_gen.documents.yaml_tree import Entry, MappingNode, YamlNode, parse_yaml
+from microros_gen.documents.yaml_tree import Entry, MappingNode, ScalarNode, YamlNode, parse_yaml
 
 _TYPES: Mapping[str, str] = {
     "bool": "bool",
@@ -32,6 +33,7 @@ _TYPES: Mapping[str, str] = {
 _ONLY_DOCUMENTED = "none"
 _FIXED = re.compile(r"(string|(?:bool|int|double|string)_array)_fixed_([0-9]{1,6})")
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_FIRST_VALUES: Mapping[str, str] = {"bool": "false", "integer": "0", "double": "0.0", "string": '""'}
 _KEYS = ("type", "default_value", "description", "read_only", "validation", "additional_constraints")
 
 
@@ -41,18 +43,25 @@ def parse_parameter_file(source: Source, diagnostics: Diagnostics) -> tuple[Para
     found = Diagnostics()
     tree = parse_yaml(source, found)
     roots = entries(tree)
-    if not found.has_errors() and (len(roots) != 1 or not isinstance(roots[0].value, MappingNode)):
-        found.error(
-            "a file of generate_parameter_library has one key, with the parameters below it",
-            span_of(tree) or Span(source, 1, 1),
-            "Write `motor:` above them, and indent them",
-            id="MG-3064",
-        )
-    else:
-        maps = Maps.of(roots[0].value)
-        declared = tuple(p for root in roots for p in _group(root.value, "", maps, found))
+    declared: tuple[ParameterDecl, ...] = ()
+    if not found.has_errors() and _has_one_group(roots, span_of(tree) or Span(source, 1, 1), found):
+        declared = tuple(_group(roots[0].value, "", Maps.of(roots[0].value), found))
     diagnostics.extend(found)
     return () if found.has_errors() else declared
+
+
+def _has_one_group(roots: tuple[Entry, ...], span: Span, diagnostics: Diagnostics) -> bool:
+    """Return whether a file has one key with the parameters below it; report at `span` that it has not."""
+    hint = "Write `motor: {gain: {type: double, default_value: 0.5}}`"
+    if any(isinstance(root.value, MappingNode) and not is_group(root) for root in roots):
+        span, hint = roots[0].key_span, "Write `motor:` above them, and indent them"
+    elif len(roots) > 1:
+        span, hint = roots[1].key_span, f"Move `{roots[1].key}:` to the parameter file of another node"
+    elif roots and isinstance(roots[0].value, MappingNode):
+        return True
+    message = "a file of generate_parameter_library has one key, with the parameters below it"
+    diagnostics.error(message, span, hint, id="MG-3064")
+    return False
 
 
 def _group(node: YamlNode, prefix: str, maps: Maps, diagnostics: Diagnostics) -> Iterator[ParameterDecl]:
@@ -66,14 +75,24 @@ def _group(node: YamlNode, prefix: str, maps: Maps, diagnostics: Diagnostics) ->
                 yield from _group(entry.value, f"{prefix}{value}.", within, found)
         elif not _NAME.fullmatch(entry.key) or entry.key.startswith(MAP):
             message = f"'{entry.key}' is no name of a parameter"
-            diagnostics.error(message, entry.key_span, "Use letters, digits and underscores", id="MG-3065")
+            hint = f"Write {name_of(entry.key.removeprefix(MAP))}: letters, digits and underscores"
+            diagnostics.error(message, entry.key_span, hint, id="MG-3065")
         elif text_of(child(entry.value, "type")) is not None:
             yield from _leaf(entry, name, maps, diagnostics)
+        elif (default := _default_without_type(entry)) is not None:
+            hint = f"Add `type: {library_type_of(default)}`"
+            diagnostics.error(f"'{name}' has no type", entry.key_span, hint, id="MG-3066")
         elif is_group(entry):
             yield from _group(entry.value, f"{name}.", maps, diagnostics)
         else:
-            message = f"'{name}' has no type"
-            diagnostics.error(message, entry.key_span, f"Write {entry.key}: {{type: int}}", id="MG-3066")
+            hint = f"Write {library_declaration(entry.key, entry.value)}"
+            diagnostics.error(f"'{name}' has no type", entry.key_span, hint, id="MG-3066")
+
+
+def _default_without_type(entry: Entry) -> YamlNode | None:
+    """Return the default of an entry that is a parameter without a type; None: it is none."""
+    default = child(entry.value, "default_value")
+    return None if isinstance(default, MappingNode) else default
 
 
 def _leaf(entry: Entry, name: str, maps: Maps, diagnostics: Diagnostics) -> Iterator[ParameterDecl]:
@@ -86,13 +105,18 @@ def _leaf(entry: Entry, name: str, maps: Maps, diagnostics: Diagnostics) -> Iter
     if type_text == _ONLY_DOCUMENTED:
         return
     if kind is None:
+        meant = library_type(type_text)
         hint = f"Available: {', '.join(_TYPES)}, with _fixed_8 behind strings and arrays"
+        hint = f"Write type: {meant}" if meant not in (None, type_text) else hint
         message = f"the type '{type_text}' of '{name}' is not supported"
         diagnostics.error(message, span_of(kind_node), hint, id="MG-3067")
         return
     if default is None:
+        if child(node, "default") is not None:
+            return  # reported: the key has another name
         message = f"'{name}' has no default_value, and nothing sets parameters when a device starts"
-        diagnostics.error(message, entry.key_span, "Write default_value:", id="MG-3068")
+        hint = f"Add `default_value: {_FIRST_VALUES.get(kind, '[]')}`"
+        diagnostics.error(message, entry.key_span, hint, id="MG-3068")
         return
     parameter = ParameterDecl(
         name=name,
@@ -113,13 +137,14 @@ def _leaf(entry: Entry, name: str, maps: Maps, diagnostics: Diagnostics) -> Iter
         parameter = replace(parameter, size=max(default_size, 1))
     if parameter.is_array and not parameter.size:
         message = f"the array '{name}' has no largest size"
-        hint = f"Write type: {type_text}_fixed_8, or validation: {{size_lt<>: [9]}}"
+        hint = f"Write type: {type_text.partition('_fixed_')[0]}_fixed_8, or validation: {{size_lt<>: [9]}}"
         diagnostics.error(message, entry.key_span, hint, id="MG-3069")
         return
     bounds = span_of(validation) if parameter.minimum is not None else None
     choices = items(child(validation, "one_of<>"))
     before = len(tuple(diagnostics))
-    check_declaration(parameter, Places(default, bounds, choices[0] if choices else None), diagnostics)
+    places = Places(default, bounds, choices[0] if choices else None, library=True)
+    check_declaration(parameter, places, diagnostics)
     if len(tuple(diagnostics)) == before and default is not None and parameter.default is not None:
         what = f"the default of the parameter '{parameter.name}'"
         check_rules(parameter, parameter.default, default.span, what, diagnostics)
@@ -129,20 +154,21 @@ def _leaf(entry: Entry, name: str, maps: Maps, diagnostics: Diagnostics) -> Iter
 def _check_keys(node: YamlNode, diagnostics: Diagnostics) -> None:
     for entry in entries(node):
         if entry.key not in _KEYS:
-            hint = f"Remove it; available: {', '.join(_KEYS)}"
+            known = nearest(entry.key, _KEYS)
+            hint = known or f"Remove it; available: {', '.join(_KEYS)}"
             message = f"'{entry.key}' of a parameter is not supported"
             diagnostics.error(message, entry.key_span, hint, id="MG-3070")
     for key in ("description", "additional_constraints"):
-        _check_kind(child(node, key), text_of, "a text", diagnostics)
-    _check_kind(child(node, "read_only"), bool_of, "true or false", diagnostics)
+        text = child(node, key)
+        if text is not None and text_of(text) is None:
+            shown = text.text if isinstance(text, ScalarNode) else "…"
+            message = f"this value must be a text: '{key}'"
+            diagnostics.error(message, text.span, f'Put it into quotes: "{shown}"', id="MG-3075")
+    read_only = child(node, "read_only")
+    if read_only is not None and bool_of(read_only) is None:
+        message = "this value must be true or false: 'read_only'"
+        diagnostics.error(message, read_only.span, "Write true, or remove `read_only`", id="MG-3075")
     validation = child(node, "validation")
     if validation is not None and not isinstance(validation, MappingNode):
         message = "'validation' must be a mapping of rules"
         diagnostics.error(message, validation.span, "Write {bounds<>: [0, 10]}", id="MG-3074")
-
-
-def _check_kind(
-    node: YamlNode | None, read: Callable[[YamlNode], object], what: str, diagnostics: Diagnostics
-) -> None:
-    if node is not None and read(node) is None:
-        diagnostics.error(f"this value must be {what}", node.span, f"Write {what}", id="MG-3075")

@@ -56,9 +56,16 @@ class Maps:
             value = scalar_of(node)
             if isinstance(value, str) and not _NAME.fullmatch(value):
                 message = f"'{value}' is no part of a name"
-                diagnostics.error(message, node.span, "Use letters, digits and underscores", id="MG-3078")
+                hint = f"Write {name_of(value)}: letters, digits and underscores"
+                diagnostics.error(message, node.span, hint, id="MG-3078")
                 return ()
         return tuple(dict.fromkeys(v for v in map(scalar_of, nodes) if isinstance(v, str)))
+
+
+def name_of(text: str) -> str:
+    """Return a name that is like a text which is none."""
+    letters = re.sub(r"[^A-Za-z0-9_]+", "_", text).strip("_")
+    return f"_{letters}" if not letters or letters[0].isdigit() else letters
 
 
 def is_group(entry: Entry) -> bool:

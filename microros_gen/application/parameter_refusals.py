@@ -42,9 +42,11 @@ def refusals(parameter: ParameterDecl, value: Scalar | tuple[Scalar, ...]) -> It
     low, high = parameter.minimum, parameter.maximum
     if isinstance(value, (int, float)) and low is not None and high is not None:
         if not low <= value <= high:
-            yield Refusal(Cause.RANGE, _range_words(parameter))
+            yield Refusal(Cause.RANGE, _range_words(parameter, low if value < low else high))
         elif parameter.step and value != high and not _is_step(value - low, parameter.step):
-            yield Refusal(Cause.STEP, f"Its values are {parameter.step} apart, from {low}")
+            closest = min(low + round((value - low) / parameter.step) * parameter.step, high)
+            shown = closest if isinstance(closest, int) else f"{closest:.12g}"
+            yield Refusal(Cause.STEP, f"Write {shown}: its values are {parameter.step} apart, from {low}")
     size = size_of_value(value)
     if parameter.size is not None and size > parameter.size:
         yield Refusal(Cause.SIZE, f"Set size: {size}")
@@ -59,8 +61,11 @@ def size_of_value(value: Scalar | tuple[Scalar, ...]) -> int:
     return len(value) if isinstance(value, tuple) else 0
 
 
-def _range_words(parameter: ParameterDecl) -> str:
-    """Return a hint with the ends of a range; rules of a parameter file may set one end, or exclude it."""
+def _range_words(parameter: ParameterDecl, closest: int | float) -> str:
+    """Return a hint with the ends of a range, of which `closest` is the nearer one.
+
+    Rules of a parameter file may set one end, or exclude it.
+    """
     excluded = {rule.name: rule.values[0] for rule in parameter.rules if rule.name in ("gt", "lt")}
     first, last = RANGE_ENDS[parameter.type]
     low = f"above {excluded['gt']}" if "gt" in excluded else f"from {parameter.minimum} on"
@@ -71,7 +76,7 @@ def _range_words(parameter: ParameterDecl) -> str:
         return f"Write a number {low}"
     if excluded:
         return f"Write a number {low} and {high}"
-    return f"It goes from {parameter.minimum} to {parameter.maximum}"
+    return f"Write {closest}: it goes from {parameter.minimum} to {parameter.maximum}"
 
 
 def _is_step(distance: int | float, step: int | float) -> bool:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -11,7 +12,7 @@ from microros_gen.application.model import ParameterDecl, ParameterRule, Scalar
 from microros_gen.application.parameter_refusals import RANGE_ENDS
 from microros_gen.application.parameter_rules import refusal
 from microros_gen.application.parameters import scalar_of
-from microros_gen.diagnostics import Diagnostics, Span
+from microros_gen.diagnostics import Diagnostics, Span, nearest
 from microros_gen.documents.tree_values import items
 from microros_gen.documents.yaml_tree import Entry, SequenceNode, YamlNode
 
@@ -29,15 +30,24 @@ def with_rule(parameter: ParameterDecl, rule: Entry, diagnostics: Diagnostics) -
     name = rule.key.removesuffix("<>")
     apply = _RULES.get(name)
     if apply is None or not rule.key.endswith("<>"):
-        known = ", ".join(f"{known}<>" for known in _RULES)
+        known = [f"{known}<>" for known in _RULES]
         message = f"a device does not check '{rule.key}'"
-        hint = f"Check it in the callback of rclc_executor_add_parameter_server; available: {known}"
+        hint = (
+            f"Check it in the callback of rclc_executor_add_parameter_server; available: {', '.join(known)}"
+        )
+        if rule.key in _RULES:
+            hint = f"Write {rule.key}<>"
+        elif "::" not in rule.key:
+            hint = nearest(rule.key, known) or hint
         diagnostics.error(message, rule.key_span, hint, id="MG-3071")
         return parameter
     ruled = apply(parameter, name, rule.value)
     if ruled is None:
         message = f"'{rule.key}' does not fit '{parameter.name}' of type {parameter.type}"
-        diagnostics.error(message, rule.value.span, f"Write {rule.key}: {_USES[name]}", id="MG-3072")
+        hint = f"Write {rule.key}: {_USES[name]}"
+        if name == "one_of" and (values := _arguments(rule.value)):
+            hint = f"Write {rule.key}: [{json.dumps(values, ensure_ascii=False)}]"
+        diagnostics.error(message, rule.value.span, hint, id="MG-3072")
     return ruled or parameter
 
 

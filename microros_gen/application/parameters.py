@@ -5,9 +5,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from microros_gen.application.model import ParameterDecl
-from microros_gen.application.parameter_refusals import RANGE_ENDS, Cause, Refusal, refusals
+from microros_gen.application.parameter_hints import scalar_hint, size_hint, type_hint
+from microros_gen.application.parameter_refusals import (
+    RANGE_ENDS,
+    Cause,
+    Refusal,
+    refusals,
+    size_of_value,
+)
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Span
 from microros_gen.documents.tree_values import bool_of, child, items, number_of, size_of, span_of, text_of
 from microros_gen.documents.yaml_tree import ScalarNode, SequenceNode, YamlNode
@@ -68,17 +76,23 @@ def scalar_of(node: YamlNode | None) -> _Scalar | None:
 
 @dataclass(frozen=True)
 class Places:
-    """Where the default, the range and the choice of a declaration are; None: it has none."""
+    """Where the default, the range and the choice of a declaration are; None: it has none.
+
+    `library`: in a file of generate_parameter_library, whose words hints have.
+    """
 
     default: YamlNode | None
     bounds: Span | None
     choice: YamlNode | None
+    library: bool = False
 
 
 def check_declaration(parameter: ParameterDecl, places: Places, diagnostics: Diagnostics) -> None:
     """Report what contradicts itself in a declaration."""
+    if parameter.type.removesuffix("[]") not in _VALUE_TYPES:
+        return  # the schema says so
     before = len(tuple(diagnostics))
-    _check_range(parameter, places.bounds, diagnostics)
+    _check_range(parameter, places, diagnostics)
     _check_choice(parameter, places, diagnostics)
     if parameter.is_array and not parameter.size:
         message = f"the array '{parameter.name}' has no size: how many elements it has at most"
@@ -89,9 +103,15 @@ def check_declaration(parameter: ParameterDecl, places: Places, diagnostics: Dia
         diagnostics.error(message, parameter.span, "Remove `size`", id="MG-3055")
     if places.default is not None and parameter.default is not None:
         what = f"the default of the parameter '{parameter.name}'"
-        check_value(parameter, parameter.default, places.default.span, what, diagnostics)
+        sound = parameter if len(tuple(diagnostics)) == before else _without_constraints(parameter)
+        check_value(sound, parameter.default, places.default.span, what, diagnostics, library=places.library)
     elif len(tuple(diagnostics)) == before:
         diagnostics.extend(_missing_default(parameter))
+
+
+def _without_constraints(parameter: ParameterDecl) -> ParameterDecl:
+    """Return a parameter whose constraints are wrong themselves without them: no value is right for them."""
+    return replace(parameter, minimum=None, maximum=None, step=None, one_of=())
 
 
 def _missing_default(parameter: ParameterDecl) -> Iterator[Diagnostic]:
@@ -125,30 +145,27 @@ def check_value(
     span: Span,
     what: str,
     diagnostics: Diagnostics,
+    library: bool = False,
 ) -> None:
-    """Report why the parameter does not accept a value; `what` names it at the beginning of a sentence."""
+    """Report why the parameter does not accept a value; `what` names it at the beginning of a sentence.
+
+    `library`: the parameter is declared in a file of generate_parameter_library.
+    """
     kind = parameter.type.removesuffix("[]")
     elements = value if isinstance(value, tuple) else (value,)
     fits = all(element is not None and _fits(element, kind) for element in elements)
     if isinstance(value, tuple) != parameter.is_array or not fits:
         message = f"{what} is not of type {parameter.type}"
-        hint = "Write true or false" if parameter.type == "bool" else "Change it, or the type"
-        hint = f"Write a list of values of type {kind}" if parameter.is_array else hint
-        diagnostics.error(message, span, hint, id="MG-3005")
+        diagnostics.error(message, span, type_hint(parameter, value, library), id="MG-3005")
         return
     if not all(map(_is_finite, elements)):
         message = f"{what} is not a finite number"
         diagnostics.error(message, span, "Set it in the program", id="MG-3063")
         return
-    diagnostics.extend(_refusals(parameter, value, span, what))
-
-
-def _refusals(
-    parameter: ParameterDecl, value: _Scalar | tuple[_Scalar, ...], span: Span, what: str
-) -> Iterator[Diagnostic]:
-    """Yield why the device would refuse the value."""
     for refusal in refusals(parameter, value):
-        yield _refused(refusal, what, span)
+        if library and refusal.cause is Cause.SIZE:
+            refusal = Refusal(refusal.cause, size_hint(parameter, size_of_value(value)))
+        diagnostics.extend([_refused(refusal, what, span)])
 
 
 def _refused(refusal: Refusal, what: str, span: Span) -> Diagnostic:
@@ -161,7 +178,8 @@ def _refused(refusal: Refusal, what: str, span: Span) -> Diagnostic:
     return Diagnostic(f"{what} is none of its values", span, refusal.hint, id="MG-3056")
 
 
-def _check_range(parameter: ParameterDecl, span: Span | None, diagnostics: Diagnostics) -> None:
+def _check_range(parameter: ParameterDecl, places: Places, diagnostics: Diagnostics) -> None:
+    span = places.bounds
     if span is None:
         return
     low, high, step = parameter.minimum, parameter.maximum, parameter.step
@@ -171,13 +189,22 @@ def _check_range(parameter: ParameterDecl, span: Span | None, diagnostics: Diagn
         diagnostics.error(message, span, "Remove `range`", id="MG-3008")
     elif low is not None and high is not None and low > high:
         message = f"the range of the parameter '{parameter.name}' is empty: min is above max"
-        diagnostics.error(message, span, "Swap them", id="MG-3009")
+        diagnostics.error(message, span, _swapped(parameter, places.library), id="MG-3009")
     elif not all(map(_is_finite, (low, high, step))):
         message = f"the range of the parameter '{parameter.name}' has a number that is not finite"
         diagnostics.error(message, span, "Write finite numbers", id="MG-3099")
     elif parameter.type == "integer" and not all(_is_int64(v) for v in (low, high, step)):
         message = f"the range of the parameter '{parameter.name}' has a number that is no integer of 64 bits"
         diagnostics.error(message, span, "Write whole numbers, or type: double", id="MG-3057")
+
+
+def _swapped(parameter: ParameterDecl, library: bool) -> str:
+    """Return the range that was meant where its smallest number is above its largest."""
+    low, high = parameter.minimum, parameter.maximum
+    if library:
+        return f"Write bounds<>: [{high}, {low}], or remove one of the rules"
+    step = "" if parameter.step is None else f", step: {parameter.step}"
+    return f"Write {{min: {high}, max: {low}{step}}}"
 
 
 def _is_finite(value: _Scalar | None) -> bool:
@@ -206,7 +233,7 @@ def _check_choices(parameter: ParameterDecl, choice: YamlNode, diagnostics: Diag
         value = scalar_of(node)
         if value is None or not _fits(value, parameter.type):
             message = f"a value of `one_of` is not of type {parameter.type}"
-            diagnostics.error(message, node.span, "Change it, or the type", id="MG-3060")
+            diagnostics.error(message, node.span, scalar_hint(parameter.type, value), id="MG-3060")
         elif not _is_finite(value):
             message = f"a value of the parameter '{parameter.name}' is not a finite number"
             diagnostics.error(

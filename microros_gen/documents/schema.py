@@ -3,8 +3,10 @@
 
 Each schema is a file next to the parser that uses it, for editors too. Keywords of this project in them, which
 other tools take as annotations: `x-expects` (what a value must be, in words), `x-keys` (what keys must be),
-`x-reserved` (what a key is kept for), `x-format` (for hints). A key with `deprecated: true` works and gives a warning
-with the hint `deprecationMessage`, which editors show, too; `x-replacement` says what `init --migrate` writes instead.
+`x-reserved` (what a key is kept for), `x-format` (for hints), `x-meant` (words of other programs, and what to write),
+`x-other-keys` (the hint for a key that is none, with KEY for it). A key with `deprecated: true` works and gives a
+warning with the hint `deprecationMessage`, which editors show, too; `x-replacement` says what `init --migrate` writes
+instead.
 """
 
 from __future__ import annotations
@@ -59,8 +61,7 @@ def _report(tree: YamlNode, difference: Difference, root: Schema, diagnostics: D
             meant = any(key_without_space(entry.key, schema) == key for entry in node)
             if key not in node.entries and not meant:
                 where = f"'{label}'" if label else "the file"
-                value = schema.get("properties", {}).get(key, {}).get("const", "…")
-                hint = f"Add `{key}: {value}`"
+                hint = f"Add `{key}: {_first_value(schema.get('properties', {}).get(key, {}))}`"
                 diagnostics.error(f"missing key '{key}' in {where}", node.span, hint, id="MG-1003")
     elif keyword == "not" and "x-reserved" in schema:
         message = (
@@ -72,6 +73,12 @@ def _report(tree: YamlNode, difference: Difference, root: Schema, diagnostics: D
     else:
         message, hint = describe_mismatch(node, label, schema, root)
         diagnostics.error(message, node.span, hint, id="MG-1005")
+
+
+def _first_value(schema: Schema) -> object:
+    """Return a value that a schema names; else an ellipsis."""
+    named = [schema[keyword][0] for keyword in ("examples", "enum") if keyword in schema]
+    return schema.get("const", next(iter(named), "…"))
 
 
 def _warn_of_deprecated(tree: YamlNode, part: Difference, diagnostics: Diagnostics) -> None:

@@ -129,7 +129,7 @@ def _size(text: str) -> str | None:
     found = _WITH_UNIT.fullmatch(text)
     unit = _BYTES.get(found["unit"].lower() or "b") if found else None
     if found is None or unit is None:
-        return None
+        return "Write a size such as 2 kB"
     size = round(float(found["number"]) * _FACTORS[unit])
     if not size:
         return "Write a size above 0 such as 2 kB"
@@ -156,5 +156,10 @@ def _decimal(value: float) -> str:
     return text if text != "0" and value < _MOST else ""
 
 
-_FORMS = {"time": _time, "rate": _rate, "size": _size, "on_full": _on_full}
+def _parameter_name(text: str) -> str:
+    name = re.sub(r"[^A-Za-z0-9_.]+", "_", text).strip("_")
+    return f"Write {name}" if re.match(r"[A-Za-z_]", name) else f"Write p_{name}" if name else "Write gain"
+
+
+_FORMS = {"parameter_name": _parameter_name, "time": _time, "rate": _rate, "size": _size, "on_full": _on_full}
 """Values of `x-format` → what makes the hint for a text."""

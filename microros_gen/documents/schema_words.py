@@ -11,7 +11,7 @@ from typing import Any
 from microros_gen.diagnostics import nearest
 from microros_gen.documents.schema_check import differences
 from microros_gen.documents.schema_values import value_hint
-from microros_gen.documents.yaml_tree import MappingNode, ScalarNode, SequenceNode, YamlNode
+from microros_gen.documents.yaml_tree import MappingNode, ScalarNode, SequenceNode, YamlNode, to_data
 
 _TYPES = {
     "string": "a text",
@@ -44,6 +44,8 @@ _ANY_KIND = "interface"
 """`x-format` of a package or a type of any kind."""
 _WORDS = re.compile(r"\^\(([a-z_|]+)\)\$")
 """A pattern of words, one of which may stand in place of a list."""
+_DEFAULT = re.compile(r"\bDefault: ([0-9][0-9.]*(?: [A-Za-zµ]+)?)(?![A-Za-z0-9])")
+"""What the description of a number says of its default."""
 _OLD_NUMBER = re.compile(r"[-+]?([0-9][0-9_]*(:[0-5]?[0-9])+|[0-9]+(_[0-9]+)+|0b[01]+)")
 
 
@@ -78,6 +80,8 @@ def describe_unknown_key(
     known = [k for k, value in schema.get("properties", {}).items() if "x-reserved" not in value]
     if get_close_matches(key, known, cutoff=_MISSPELLED):
         return f"unknown key '{key}' in {where}", nearest(key, known)
+    if "x-other-keys" in schema:
+        return f"unknown key '{key}' in {where}", schema["x-other-keys"].replace("KEY", key)
     place = re.sub(r"\[[0-9]+\]", "[]", label)
     owners = {
         owner: (up := _levels_up(place, owner), -len(keys & {*known}) if up else 0, len(owner), owner)
@@ -164,8 +168,37 @@ def _hint(node: YamlNode, schema: dict[str, Any], root: dict[str, Any]) -> str |
     if isinstance(node, SequenceNode) and not node.items and "array" in kinds:
         return "Add an item, or remove the key"
     if isinstance(node, MappingNode) and "array" in kinds and "object" not in kinds:
-        return "Begin each item with '- ', or write [ … ]"
+        return _list_hint(node, schema, root)
     return None
+
+
+def _list_hint(node: MappingNode, schema: dict[str, Any], root: dict[str, Any]) -> str:
+    """Return how a list is written of which there is one item without its bracket."""
+    span = node.span
+    text = span.source.line(span.line)[span.column - 1 : (span.end_column or span.column) - 1]
+    item = {**schema.get("items", {}), "$defs": root.get("$defs", {})}
+    if (
+        text.startswith("{")
+        and text.endswith("}")
+        and not any(True for _ in differences(to_data(node), item))
+    ):
+        return f"Write [{text}]"
+    return "Begin each item with '- ', or write [ … ]"
+
+
+def _example_hint(schema: dict[str, Any]) -> str | None:
+    """Return what can be written in any case: an example of the schema, or the default that it describes."""
+    if "examples" in schema:
+        return f"Write {schema['examples'][0]}"
+    default = _DEFAULT.search(schema.get("description", ""))
+    return f"Write {default[1]}, the default" if default else None
+
+
+def _meant(text: str, schema: dict[str, Any]) -> str | None:
+    """Return the value that somebody meant who wrote a word of another program (`x-meant`)."""
+    words: dict[str, str] = schema.get("x-meant", {})
+    found = next((value for pattern, value in words.items() if re.fullmatch(pattern, text)), None)
+    return None if found is None else f"Write {found}" if re.fullmatch(r"\w+", found) else f"Write '{found}'"
 
 
 def _empty_hint(kinds: list[str]) -> str:
@@ -186,10 +219,14 @@ def _scalar_hint(
             return "Remove the quotes"
         later = isinstance(node.value, int) and node.value > schema["const"]
         return "A later microros-gen wrote the file: update microros-gen" if later else None
+    if meant := _meant(text, schema):
+        return meant
     if "enum" in schema:
         return nearest(text, [str(value) for value in schema["enum"]])
-    if "array" in kinds and (words := _WORDS.fullmatch(schema.get("pattern", ""))):
-        return nearest(text, words[1].split("|"))
+    if words := _WORDS.fullmatch(schema.get("pattern", "")):
+        found = nearest(text, words[1].split("|"))
+        if found or "array" in kinds:
+            return found or _example_hint(schema)
     if "array" in kinds and node.value is not None:
         return f"Write it as a list: [{text}]"
     if "boolean" in kinds and text.lower() in _OLD_BOOLEANS:
@@ -210,7 +247,8 @@ def _scalar_hint(
     if kinds == ["object"]:
         return _item_hint(node, schema, root)
     corrected = _full_type(text, schema.get("x-format"))
-    return f"Write {corrected}" if corrected else value_hint(node, schema)
+    hint = f"Write {corrected}" if corrected else value_hint(node, schema)
+    return hint or (_example_hint(schema) if isinstance(node.value, (str, bool)) else None)
 
 
 def _item_hint(node: ScalarNode, schema: dict[str, Any], root: dict[str, Any]) -> str | None:

@@ -215,15 +215,15 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "integer default with a part": (
         f"{NODE}    parameters: [{{name: p, type: integer, default: 1.5}}]\n",
-        "f:3:52: error: the default of the parameter 'p' is not of type integer. Change it, or the type",
+        "f:3:52: error: the default of the parameter 'p' is not of type integer. Write 2, or type: double",
     ),
     "boolean default of a number": (
         f"{NODE}    parameters: [{{name: p, type: double, default: true}}]\n",
-        "f:3:51: error: the default of the parameter 'p' is not of type double. Change it, or the type",
+        "f:3:51: error: the default of the parameter 'p' is not of type double. Write 1, or type: bool",
     ),
     "default outside the range": (
         f"{NODE}    parameters: [{{name: p, type: integer, default: 9, range: {{min: 1, max: 5}}}}]\n",
-        "f:3:52: error: the default of the parameter 'p' is not in its range. It goes from 1 to 5",
+        "f:3:52: error: the default of the parameter 'p' is not in its range. Write 5: it goes from 1 to 5",
     ),
     "no default, and a range without 0": (
         f"{NODE}    parameters: [{{name: p, type: integer, range: {{min: 1, max: 5}}}}]\n",
@@ -266,11 +266,13 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "list for a number": (
         f"{NODE}    parameters: [{{name: p, type: integer, default: [1]}}]\n",
-        "f:3:52: error: the default of the parameter 'p' is not of type integer. Change it, or the type",
+        "f:3:52: error: the default of the parameter 'p' is not of type integer. "
+        'Write type: "integer[]", size: 1, or a single value',
     ),
     "integer above 64 bits": (
         f"{NODE}    parameters: [{{name: p, type: integer, default: 9223372036854775808}}]\n",
-        "f:3:52: error: the default of the parameter 'p' is not of type integer. Change it, or the type",
+        "f:3:52: error: the default of the parameter 'p' is not of type integer. "
+        "Write 9223372036854775807, or type: double",
     ),
     "infinite default": (
         f"{NODE}    parameters: [{{name: p, type: double, default: .inf}}]\n",
@@ -310,7 +312,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     "default between steps": (
         f"{NODE}    parameters: [{{name: p, type: double, default: 0.35, range: {{min: 0, max: 1, step: 0.1}}}}]\n",
         "f:3:51: error: the default of the parameter 'p' is between two steps of its range. "
-        "Its values are 0.1 apart, from 0",
+        "Write 0.3: its values are 0.1 apart, from 0",
     ),
     "range with a part": (
         f"{NODE}    parameters: [{{name: p, type: integer, range: {{min: 0.5, max: 5}}}}]\n",
@@ -327,7 +329,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "choice of another type": (
         f"{NODE}    parameters: [{{name: p, type: integer, one_of: [1, a]}}]\n",
-        "f:3:55: error: a value of `one_of` is not of type integer. Change it, or the type",
+        "f:3:55: error: a value of `one_of` is not of type integer. Write a number such as 1, or type: string",
     ),
     "choice above the size": (
         f"{NODE}    parameters: [{{name: p, type: string, size: 2, one_of: [abc]}}]\n",
@@ -339,7 +341,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "empty range": (
         f"{NODE}    parameters: [{{name: p, type: integer, range: {{min: 5, max: 1}}}}]\n",
-        "f:3:50: error: the range of the parameter 'p' is empty: min is above max. Swap them",
+        "f:3:50: error: the range of the parameter 'p' is empty: min is above max. Write {min: 1, max: 5}",
     ),
     "unknown handle": (
         f"{NODE}    timers: [{{name: tick, period: 1 s}}]\n    executors: [{{name: e, handles: [tik]}}]\n",

@@ -90,13 +90,73 @@ FAULTS = {
     ),
     "constraints that are no text": (
         "a:\n  x: {type: int, default_value: 1, additional_constraints: [odd]}\n",
-        "p.yaml:2:60: error: this value must be a text. Write a text",
+        "p.yaml:2:60: error: this value must be a text: 'additional_constraints'. Put it into quotes",
     ),
     "a list": ("- 1\n", "p.yaml:1:1: error: a file of generate_parameter_library has one key"),
-    "two roots": ("a: {}\nb: {}\n", "p.yaml:1:1: error: a file of generate_parameter_library has one key"),
+    "two roots": (
+        "a: {}\nb: {}\n",
+        "p.yaml:2:1: error: a file of generate_parameter_library has one key, with the parameters below it. "
+        "Move `b:` to the parameter file of another node",
+    ),
+    "parameters without a root": (
+        "x: {type: int, default_value: 1}\ny: {type: int, default_value: 1}\n",
+        "p.yaml:1:1: error: a file of generate_parameter_library has one key, with the parameters below it. "
+        "Write `motor:` above them, and indent them",
+    ),
+    "YAML without an end": (
+        "a:\n  x: {type: int\n",
+        "p.yaml:2:6: error: not valid YAML: a mapping in { } is not closed",
+    ),
+    "a tab": ("a:\n\tx: {type: int}\n", "p.yaml:2:1: error: "),
+    "a default without a type": (
+        "a:\n  x: {default_value: [1, 2]}\n",
+        "p.yaml:2:3: error: 'x' has no type. Add `type: int_array_fixed_2`",
+    ),
+    "values of a node's parameter file": (
+        "a:\n  ros__parameters: {x: fast}\n",
+        "p.yaml:2:21: error: 'ros__parameters.x' has no type. Write x: {type: string, default_value: \"fast\"}",
+    ),
+    "an array of another program": (
+        "a:\n  x: {type: 'float64[]', default_value: [1.0]}\n",
+        "p.yaml:2:13: error: the type 'float64[]' of 'x' is not supported. Write type: double_array_fixed_8",
+    ),
+    "the key of an application file": (
+        "a:\n  x: {type: int, default: 1}\n",
+        "p.yaml:2:18: error: 'default' of a parameter is not supported. Did you mean 'default_value'?",
+    ),
+    "no room for any element": (
+        "a:\n  x: {type: int_array_fixed_0, default_value: []}\n",
+        "p.yaml:2:3: error: the array 'x' has no largest size. Write type: int_array_fixed_8, or validation",
+    ),
+    "default longer than its type": (
+        "a:\n  x: {type: int_array_fixed_1, default_value: [1, 2]}\n",
+        "p.yaml:2:47: error: the default of the parameter 'x' is longer than its size. Write type: int_array_fixed_2",
+    ),
+    "default longer than its rule": (
+        "a:\n  x: {type: string, default_value: abc, validation: {size_lt<>: [3]}}\n",
+        "p.yaml:2:36: error: the default of the parameter 'x' is longer than its size. Write size_lt<>: [4]",
+    ),
+    "default that is a list": (
+        "a:\n  x: {type: int, default_value: [1, 2]}\n",
+        "p.yaml:2:33: error: the default of the parameter 'x' is not of type integer. "
+        "Write type: int_array_fixed_2, or a single value",
+    ),
+    "rules that exclude each other": (
+        "a:\n  x: {type: int, default_value: 3, validation: {gt<>: [5], lt<>: [2]}}\n",
+        "p.yaml:2:48: error: the range of the parameter 'x' is empty: min is above max. Write bounds<>: [1, 6], or "
+        "remove one of the rules",
+    ),
+    "a rule that is misspelled": (
+        "a:\n  x: {type: int, default_value: 3, validation: {bound<>: [0, 5]}}\n",
+        "p.yaml:2:49: error: a device does not check 'bound<>'. Did you mean 'bounds<>'?",
+    ),
+    "a name with a dash": (
+        "a:\n  x-y: {type: int, default_value: 3}\n",
+        "p.yaml:2:3: error: 'x-y' is no name of a parameter. Write x_y: letters, digits and underscores",
+    ),
     "mapped without a group": (
         "a:\n  __map_joints: {type: int, default_value: 1}\n",
-        "p.yaml:2:3: error: '__map_joints' is no name of a parameter. Use letters, digits and underscores",
+        "p.yaml:2:3: error: '__map_joints' is no name of a parameter. Write joints: letters, digits and underscores",
     ),
     "mapped by nothing": (
         "a:\n  joints: {type: int, default_value: 1}\n  b:\n    __map_joints: {x: {type: int, default_value: 1}}\n",
@@ -104,20 +164,25 @@ FAULTS = {
     ),
     "mapped by what is no name": (
         'a:\n  j: {type: string_array, default_value: ["b c"]}\n  __map_j: {x: {type: int, default_value: 1}}\n',
-        "p.yaml:2:43: error: 'b c' is no part of a name. Use letters, digits and underscores",
+        "p.yaml:2:43: error: 'b c' is no part of a name. Write b_c: letters, digits and underscores",
     ),
     "mapped, wrong for each": (
         "a:\n  j: {type: string_array, default_value: [b, c]}\n  __map_j: {x: {type: float}}\n",
         "p.yaml:3:23: error: the type 'float' of 'b.x' is not supported",
     ),
-    "no type": ("a:\n  x: 3\n", "p.yaml:2:3: error: 'x' has no type. Write x: {type: int}"),
+    "no type": ("a:\n  x: 3\n", "p.yaml:2:3: error: 'x' has no type. Write x: {type: int, default_value: 3}"),
     "unknown type": (
         "a:\n  x: {type: float, default_value: 1.0}\n",
-        "p.yaml:2:13: error: the type 'float' of 'x' is not supported. Available: bool, int, double",
+        "p.yaml:2:13: error: the type 'float' of 'x' is not supported. Write type: double",
+    ),
+    "a type that is nothing": (
+        "a:\n  x: {type: color, default_value: 1.0}\n",
+        "p.yaml:2:13: error: the type 'color' of 'x' is not supported. Available: bool, int, double",
     ),
     "no default": (
         "a:\n  x: {type: int}\n",
-        "p.yaml:2:3: error: 'x' has no default_value, and nothing sets parameters when a device starts",
+        "p.yaml:2:3: error: 'x' has no default_value, and nothing sets parameters when a device starts. "
+        "Add `default_value: 0`",
     ),
     "array without an end": (
         "a:\n  x: {type: int_array, default_value: [1]}\n",
@@ -134,7 +199,7 @@ FAULTS = {
     ),
     "a rule without its brackets": (
         "a:\n  x: {type: string, default_value: a, validation: {not_empty: []}}\n",
-        "p.yaml:2:52: error: a device does not check 'not_empty'",
+        "p.yaml:2:52: error: a device does not check 'not_empty'. Write not_empty<>",
     ),
     "a rule of another program": (
         'a:\n  x: {type: int, default_value: 1, validation: {"own::even": []}}\n',
@@ -158,7 +223,7 @@ FAULTS = {
     ),
     "list of values without its list": (
         "a:\n  x: {type: int, default_value: 1, validation: {one_of<>: [1, 2]}}\n",
-        "p.yaml:2:59: error: 'one_of<>' does not fit 'x' of type integer",
+        "p.yaml:2:59: error: 'one_of<>' does not fit 'x' of type integer. Write one_of<>: [[1, 2]]",
     ),
     "a value of another type": (
         "a:\n  x: {type: int, default_value: 1, validation: {one_of<>: [[1, b]]}}\n",
@@ -166,15 +231,15 @@ FAULTS = {
     ),
     "default out of range": (
         "a:\n  x: {type: int, default_value: 11, validation: {bounds<>: [0, 10]}}\n",
-        "p.yaml:2:33: error: the default of the parameter 'x' is not in its range. It goes from 0 to 10",
+        "p.yaml:2:33: error: the default of the parameter 'x' is not in its range. Write 10: it goes from 0 to 10",
     ),
     "default of another type": (
         "a:\n  x: {type: int, default_value: 1.5}\n",
-        "p.yaml:2:33: error: the default of the parameter 'x' is not of type integer",
+        "p.yaml:2:33: error: the default of the parameter 'x' is not of type integer. Write 2, or type: double",
     ),
     "YAML 1.1": (
         "a:\n  x: {type: int, default_value: 1, read_only: yes}\n",
-        "p.yaml:2:47: error: this value must be true or false. Write true or false",
+        "p.yaml:2:47: error: this value must be true or false: 'read_only'. Write true, or remove `read_only`",
     ),
     "rules in a list": (
         "a:\n  x: {type: int, default_value: 1, validation: [bounds]}\n",
@@ -222,7 +287,7 @@ def test_a_default_follows_the_rules(kind: str, default: str, rule: str, reason:
     expected = (
         f"{what} does not follow its validation. Change one of them: {reason}"
         if reason
-        else f"{what} is longer than its size. Set size: 2"
+        else f"{what} is longer than its size. Write fixed_size<>: [2]"
     )
     column = len(f"  x: {{type: {kind}, default_value: ") + 1
     assert faults == [f"p.yaml:2:{column}: error: {expected}"]
@@ -343,7 +408,7 @@ def test_a_file_is_read_once(tmp_path: Path) -> None:
         (None, "cannot read the parameter file"),
         (
             "m:\n  own: {type: bool, default_value: true}\n",
-            "duplicate parameter 'own'; the first is in line 2",
+            "motor.yaml:2. Give each a different name",
         ),
     ],
     ids=["missing", "twice"],

@@ -93,7 +93,7 @@ def test_a_model_may_repeat_them(tmp_path: Path) -> None:
     [
         ("active.RUSH", "active.RUSHED", "MG-8817", "Did you mean 'RUSH'?"),
         ("parts: [arm/joint]", "parts: [arm/jiont]", "MG-8806", "Did you mean 'arm/joint'?"),
-        ("limit: 2.5", "limit: 5.5", "MG-8855", "It goes from 0.0 to 5.0"),
+        ("limit: 2.5", "limit: 5.5", "MG-8855", "Write 5.0: it goes from 0.0 to 5.0"),
         (", ros__parameters: {limit: 1.0}", "", "MG-8828", "the system 'robot' has no parameter 'limit'"),
         ("active.CRAWL", "active", "MG-8843", "the mode 'CRAWL' of 'arm/joint' is never reached"),
     ],

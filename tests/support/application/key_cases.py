@@ -679,7 +679,7 @@ _TOP = {
         ["a", "b"],
         "nodes: {name: a}",
         "1:8",
-        "'nodes' must be a list; it is a mapping. Begin each item with '- ', or write [ … ]",
+        "'nodes' must be a list; it is a mapping. Write [{name: a}]",
     ),
 }
 
@@ -1042,7 +1042,7 @@ _NODES = {
         (1, 5, 2),
         _in_node("parameters: [{name: a, type: integer, range: {min: 1}}]"),
         "3:50",
-        "missing key 'max' in 'nodes[0].parameters[0].range'. Add `max: …`",
+        "missing key 'max' in 'nodes[0].parameters[0].range'. Add `max: 10`",
     ),
     "nodes[].parameters[].range.min": KeyCase(
         _in_node("parameters: [{name: a, type: double, range: {min: -1.5, max: 5}}]"),
