@@ -8,7 +8,7 @@ error at its place, so that no file is accepted with less than it says.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 from microros_gen.application.model import ParameterDecl
@@ -34,6 +34,11 @@ _ONLY_DOCUMENTED = "none"
 _FIXED = re.compile(r"(string|(?:bool|int|double|string)_array)_fixed_([0-9]{1,6})")
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _FIRST_VALUES: Mapping[str, str] = {"bool": "false", "integer": "0", "double": "0.0", "string": '""'}
+_READ: tuple[tuple[str, str, Callable[[YamlNode], object]], ...] = (
+    ("description", "a text", text_of),
+    ("additional_constraints", "a text", text_of),
+    ("read_only", "true or false", bool_of),
+)
 _KEYS = ("type", "default_value", "description", "read_only", "validation", "additional_constraints")
 
 
@@ -79,13 +84,12 @@ def _group(node: YamlNode, prefix: str, maps: Maps, diagnostics: Diagnostics) ->
             diagnostics.error(message, entry.key_span, hint, id="MG-3065")
         elif text_of(child(entry.value, "type")) is not None:
             yield from _leaf(entry, name, maps, diagnostics)
-        elif (default := _default_without_type(entry)) is not None:
-            hint = f"Add `type: {library_type_of(default)}`"
-            diagnostics.error(f"'{name}' has no type", entry.key_span, hint, id="MG-3066")
-        elif is_group(entry):
+        elif is_group(entry) and _default_without_type(entry) is None:
             yield from _group(entry.value, f"{name}.", maps, diagnostics)
         else:
+            default = _default_without_type(entry)
             hint = f"Write {library_declaration(entry.key, entry.value)}"
+            hint = hint if default is None else f"Add `type: {library_type_of(default)}`"
             diagnostics.error(f"'{name}' has no type", entry.key_span, hint, id="MG-3066")
 
 
@@ -158,16 +162,12 @@ def _check_keys(node: YamlNode, diagnostics: Diagnostics) -> None:
             hint = known or f"Remove it; available: {', '.join(_KEYS)}"
             message = f"'{entry.key}' of a parameter is not supported"
             diagnostics.error(message, entry.key_span, hint, id="MG-3070")
-    for key in ("description", "additional_constraints"):
-        text = child(node, key)
-        if text is not None and text_of(text) is None:
-            shown = text.text if isinstance(text, ScalarNode) else "…"
-            message = f"this value must be a text: '{key}'"
-            diagnostics.error(message, text.span, f'Put it into quotes: "{shown}"', id="MG-3075")
-    read_only = child(node, "read_only")
-    if read_only is not None and bool_of(read_only) is None:
-        message = "this value must be true or false: 'read_only'"
-        diagnostics.error(message, read_only.span, "Write true, or remove `read_only`", id="MG-3075")
+    for key, kind, read in _READ:
+        value = child(node, key)
+        if value is not None and read(value) is None:
+            shown = value.text if isinstance(value, ScalarNode) else "…"
+            hint = f'Put it into quotes: "{shown}"' if read is text_of else f"Write true, or remove `{key}`"
+            diagnostics.error(f"this value must be {kind}: '{key}'", value.span, hint, id="MG-3075")
     validation = child(node, "validation")
     if validation is not None and not isinstance(validation, MappingNode):
         message = "'validation' must be a mapping of rules"

@@ -12,8 +12,9 @@ from microros_gen.application.kinds import TOPIC_KINDS
 from microros_gen.application.model import Application
 from microros_gen.application.system_can import CANFD_LINK_MTU, bus_boards, bus_links, can_ends
 from microros_gen.application.system_decl import BusSender, PeerEnd
+from microros_gen.application.system_ends import end_of, peer_ends
 from microros_gen.application.system_file import SystemFile
-from microros_gen.application.system_find import end_of, has_agent, other_board, peer_ends, read_system
+from microros_gen.application.system_find import has_agent, other_board, read_system
 from microros_gen.diagnostics import Diagnostics, Source
 from microros_gen.documents.named import Named
 from microros_gen.interfaces.closure import resolve_interfaces

@@ -9,17 +9,17 @@ from dataclasses import replace
 from pathlib import Path, PurePath
 
 from microros_gen.application.find import APPLICATION_FILE
-from microros_gen.application.kinds import KIND, NAMES, other_end
-from microros_gen.application.model import Application, Chip, ChipImage, EndpointDecl, NodeDecl
-from microros_gen.application.names import expand_topic_name
+from microros_gen.application.kinds import other_end
+from microros_gen.application.model import Application, Chip, ChipImage
 from microros_gen.application.parser import parse_application
 from microros_gen.application.system_can import bus_identifiers, can_ends, identifier
 from microros_gen.application.system_decl import CanFrames, Link, LinkDecl, PeerEnd, SystemRef
+from microros_gen.application.system_ends import check_other_ends, end_of, peer_ends
 from microros_gen.application.system_file import SystemFile, parse_system
 from microros_gen.diagnostics import Diagnostics, Source, Span, nearest
 from microros_gen.documents.files import read_text, reason_of
 from microros_gen.documents.named import Named
-from microros_gen.interfaces.closure import resolve_interfaces, split_type_name
+from microros_gen.interfaces.closure import resolve_interfaces
 from microros_gen.interfaces.derived import SERVICE_PARTS, derived_name
 from microros_gen.interfaces.find import InterfaceFinder
 from microros_gen.interfaces.types import Message, TypeName
@@ -60,6 +60,7 @@ def with_system(
                 links.append(linked)
             else:
                 idle += linked.files
+    check_other_ends(application, links, system, diagnostics)
     _check_pairs([link for link in links if _exchanges(application, link)], own_place.board, diagnostics)
     chip = _chip(own_place, interface_paths, files, diagnostics)
     return replace(application, links=tuple(links), bus_files=tuple(idle), chip=chip), files
@@ -101,36 +102,9 @@ def system_paths(application: Application, near: Path) -> Iterator[Path]:
         yield from image.files
 
 
-def peer_ends(application: Application) -> Iterator[tuple[int, EndpointDecl, PeerEnd]]:
-    """Yield the endpoints of an application that have `peer:`, and the index of each in its kind."""
-    for kind in NAMES:
-        declared = [(node, e) for node in application.nodes for e in node.endpoints if e.kind == kind]
-        for index, (node, endpoint) in enumerate(declared):
-            if endpoint.peer != "never":
-                yield index, endpoint, end_of(node, endpoint)
-
-
 def exchanged(name: TypeName) -> tuple[TypeName, ...]:
     """Return the messages of a type: itself, or the request and the response of a service."""
     return tuple(derived_name(name, part) for part in SERVICE_PARTS) if name.kind == "srv" else (name,)
-
-
-def end_of(node: NodeDecl, endpoint: EndpointDecl) -> PeerEnd:
-    """Return an endpoint of a node as another board sees it."""
-    type_name = split_type_name(endpoint.type, KIND[endpoint.kind].type_kind)
-    return PeerEnd(
-        kind=endpoint.kind,
-        domain_id=node.domain_id,
-        topic=expand_topic_name(endpoint.topic, node.name, node.namespace),
-        type=str(type_name or endpoint.type),
-        reliability=endpoint.qos.reliability,
-        peer=endpoint.peer,
-        span=endpoint.span,
-        limits=endpoint.limits,
-        queue=endpoint.queue,
-        interval_us=endpoint.interval_us,
-        rate_span=endpoint.rate_span,
-    )
 
 
 def client_key(application: Application) -> int | None:

@@ -80,6 +80,7 @@ def test_everything_in_one_run(tmp_path: Path) -> None:
     [
         (SENSOR.replace("only}", "only, qos: {reliability: best_effort}}"), MOTOR),
         (SENSOR, MOTOR.replace("/a", "/z")),
+        (SENSOR, MOTOR.replace(", peer: only", "")),
         (SENSOR, MOTOR.replace("string: 20", "string: 10")),
         (SENSOR.replace("pure_sender", "pure_sendr"), MOTOR),
         (SENSOR, MOTOR + "transport: {type: tcp}\n"),

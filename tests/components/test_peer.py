@@ -214,7 +214,7 @@ def test_faults_of_a_system_file(tmp_path: Path, system: str, words: str) -> Non
             "",
             "`peer:` needs the system in which this board is",
         ),
-        (", peer: only", "", "the component 'peer' is for endpoints with `peer:`"),
+        ("topic: /a, peer: only", "topic: /b", "the component 'peer' is for endpoints with `peer:`"),
         ("version: 1\n", "version: 1\non_full: drop_oldest\n", "`on_full: drop_oldest` is not for links"),
         (
             "version: 1\n",

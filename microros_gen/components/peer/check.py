@@ -8,8 +8,9 @@ from collections.abc import Iterator
 from microros_gen.application.kinds import KIND, NAMES, other_end
 from microros_gen.application.model import EndpointDecl
 from microros_gen.application.system_decl import CanFrames, Link, PeerEnd
+from microros_gen.application.system_ends import peer_ends
 from microros_gen.application.system_file import LARGEST_MTU, UART
-from microros_gen.application.system_find import exchanged, peer_ends
+from microros_gen.application.system_find import exchanged
 from microros_gen.application.transport_decl import Transport
 from microros_gen.client.plan.creation import MESSAGE_HEADER
 from microros_gen.client.plan.declared import type_name
