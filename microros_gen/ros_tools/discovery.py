@@ -22,6 +22,12 @@ _FIRST_S = 1.0
 _QUIET_S = 0.4
 """Without a change for this time, a graph in which other nodes were discovered is likely to be complete."""
 _TURN_S = 0.05
+_LONGEST_TURN_S = 2 * _TURN_S
+"""What a turn counts at most: on a busy machine a process stands still for seconds, in which it discovers nothing."""
+_LONGEST = 3
+"""How many times the longest wait a search lasts at most, by the clock."""
+_PROOFS = {"get_state": "lifecycle_msgs/srv/GetState", "get_parameters": "rcl_interfaces/srv/GetParameters"}
+"""Services that a node itself serves, and their types: they may be discovered before its name."""
 Found = TypeVar("Found")
 _ACTION = "/_action/"
 
@@ -33,6 +39,7 @@ class Discovery:
         """Watch the graph of `peer`, which has been created just before."""
         self._peer = peer
         self._wait_s = wait_s
+        self._waited = 0.0
         self._began = self._changed = time.monotonic()
         self.graph: Graph = peer.graph()
         peer.on_graph_change(self._note)
@@ -48,11 +55,17 @@ class Discovery:
     def settle(self) -> None:
         """Spin until the graph is likely to be complete, for at most `wait_s` seconds."""
         while not self._settled():
-            self._peer.spin_once(_TURN_S)
+            self._turn()
+
+    def _turn(self) -> None:
+        """Spin for a moment, and count the time in which something could be discovered."""
+        began = time.monotonic()
+        self._peer.spin_once(_TURN_S)
+        self._waited += min(time.monotonic() - began, _LONGEST_TURN_S)
 
     def _settled(self) -> bool:
         now = time.monotonic()
-        if now - self._began >= self._wait_s:
+        if self._waited >= self._wait_s or now - self._began >= _LONGEST * self._wait_s:
             return True
         quiet = now - self._began >= _FIRST_S and now - self._changed >= _QUIET_S
         return quiet and any(name != self.own_node for name in self.graph.nodes())
@@ -63,14 +76,19 @@ class Discovery:
         """Spin until `look` returns something, for at most `wait_s` seconds; return it, or None.
 
         That other nodes are discovered says nothing about the one that is looked for: the whole time is waited.
-        With `given_up`, wait until that is true instead.
+        With `given_up`, wait until that is true instead. Time in which this process stood still does not count, and a
+        graph that is still changing is waited for, both for at most `_LONGEST` times as long.
         """
-        end = time.monotonic() + self._wait_s
+        end, waited = time.monotonic() + _LONGEST * self._wait_s, self._waited
         while (found := look()) is None:
-            if time.monotonic() >= end if given_up is None else given_up():
+            if self._is_over(self._waited - waited, end) if given_up is None else given_up():
                 break
-            self._peer.spin_once(_TURN_S)
+            self._turn()
         return found
+
+    def _is_over(self, waited: float, end: float) -> bool:
+        now = time.monotonic()
+        return now >= end or (waited >= self._wait_s and now - self._changed >= _QUIET_S)
 
     def topics(self, hidden: bool = False) -> Names:
         """Return all topics of ROS after `settle`; `hidden` ones have a part that begins with `_`."""
@@ -101,7 +119,12 @@ class Discovery:
 
     def has_node(self, node: str) -> bool:
         """Return whether a node of this name is discovered in time."""
-        return bool(self.find(lambda: node in self.graph.nodes() or None))
+        return bool(self.find(lambda: node in self.graph.nodes() or self._serves_own(node) or None))
+
+    def _serves_own(self, node: str) -> bool:
+        """Return whether a service is there that a node of this name has for itself."""
+        services = dict(self.graph.services())
+        return any(type_name in services.get(f"{node}/{name}", ()) for name, type_name in _PROOFS.items())
 
     def publishers(self, topic: str) -> tuple[GraphEndpoint, ...]:
         """Return the publishers of a topic."""
