@@ -98,6 +98,10 @@ def check_declaration(parameter: ParameterDecl, places: Places, diagnostics: Dia
         message = f"the array '{parameter.name}' has no size: how many elements it has at most"
         count = len(parameter.default) if isinstance(parameter.default, tuple) else 0
         diagnostics.error(message, parameter.span, f"Write size: {count or 8}", id="MG-3054")
+    elif parameter.size == 0 and parameter.type == "string":
+        hint = "Write type: string_fixed_8" if places.library else "Write size: 20, or remove `size`"
+        message = f"the string '{parameter.name}' has a size of 0: it holds nothing"
+        diagnostics.error(message, parameter.span, hint, id="MG-9851")
     elif parameter.size is not None and not (parameter.is_array or parameter.type == "string"):
         message = f"the parameter '{parameter.name}' is of type {parameter.type}, which has no size"
         diagnostics.error(message, parameter.span, "Remove `size`", id="MG-3055")

@@ -331,6 +331,10 @@ ERRORS: dict[str, tuple[str, str]] = {
         f"{NODE}    parameters: [{{name: p, type: integer, one_of: [1, a]}}]\n",
         "f:3:55: error: a value of `one_of` is not of type integer. Write a number such as 1, or type: string",
     ),
+    "string for nothing": (
+        f"{NODE}    parameters: [{{name: p, type: string, size: 0}}]\n",
+        "f:3:18: error: the string 'p' has a size of 0: it holds nothing. Write size: 20, or remove `size`",
+    ),
     "choice above the size": (
         f"{NODE}    parameters: [{{name: p, type: string, size: 2, one_of: [abc]}}]\n",
         "f:3:60: error: 'abc' is longer than the size of the parameter 'p'. Set size: 3",

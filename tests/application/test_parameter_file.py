@@ -150,6 +150,10 @@ FAULTS = {
         "a:\n  x: {type: int, default_value: 3, validation: {bound<>: [0, 5]}}\n",
         "p.yaml:2:49: error: a device does not check 'bound<>'. Did you mean 'bounds<>'?",
     ),
+    "a string for nothing": (
+        "a:\n  x: {type: string_fixed_0, default_value: ''}\n",
+        "p.yaml:2:3: error: the string 'x' has a size of 0: it holds nothing. Write type: string_fixed_8",
+    ),
     "a name with a dash": (
         "a:\n  x-y: {type: int, default_value: 3}\n",
         "p.yaml:2:3: error: 'x-y' is no name of a parameter. Write x_y: letters, digits and underscores",

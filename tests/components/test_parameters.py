@@ -235,7 +235,7 @@ def test_arrays_and_lists_of_values_take_what_is_declared(tmp_path: Path) -> Non
             "{name: p, type: string, size: 20, default: fifteen letters}",
             "string_value: {string: 10}",
             "the default of the parameter 'p' has a text of 15 bytes, and the limit of string_value is 10",
-            "string_value: {string: 15}",
+            "string_value: {string: 20}",
         ),
         (
             '{name: p, type: "string[]", size: 3, default: [a, fifteen letters]}',
@@ -258,6 +258,41 @@ def test_a_default_above_a_limit(tmp_path: Path, parameter: str, limit: str, mes
     [found] = error.value.diagnostics
     assert (found.message, found.id) == (message, "MG-3098")
     assert found.hint == f"Raise it: `limits: {{rcl_interfaces/msg/ParameterValue: {{{hint}}}}}`"
+
+
+@pytest.mark.parametrize(
+    ("parameter", "limit", "message", "hint"),
+    [
+        (
+            "{name: p, type: string, size: 20}",
+            "string_value: 3",
+            "the size of the parameter 'p' is 20, and the limit of string_value is 3",
+            "size: 3",
+        ),
+        (
+            '{name: p, type: "double[]", size: 5, default: [1.0]}',
+            "double_array_value: 4",
+            "the size of the parameter 'p' is 5, and the limit of double_array_value is 4",
+            "size: 4",
+        ),
+        (
+            '{name: p, type: "string[]", size: 5}',
+            "string_array_value: {sequence: 2, string: 9}",
+            "the size of the parameter 'p' is 5, and the limit of string_array_value is 2",
+            "size: 2",
+        ),
+    ],
+)
+def test_a_size_above_a_limit(tmp_path: Path, parameter: str, limit: str, message: str, hint: str) -> None:
+    """It would promise room that the server does not have; the size of the hint is one that is accepted."""
+    text = EVERY.split("    parameters:")[0] + f"    parameters: [{parameter}]\n"
+    limits = f"limits: {{rcl_interfaces/msg/ParameterValue: {{{limit}}}}}\n"
+    with pytest.raises(UserError) as error:
+        planned(tmp_path, text + limits)
+    [found] = error.value.diagnostics
+    assert (found.message, found.id) == (message, "MG-9852")
+    assert found.hint == f"Write {hint}, or raise the limit"
+    assert planned(tmp_path, re.sub("size: [0-9]+", hint, text) + limits).project
 
 
 LABELED = """\

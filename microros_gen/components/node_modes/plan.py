@@ -11,7 +11,7 @@ from microros_gen.application.model import Application, EndpointDecl, LimitRule,
 from microros_gen.application.modes import set_parameters, start_value, value_in
 from microros_gen.client.plan.features import PlanContext, refuse_own_limits
 from microros_gen.components.parameters.constants import KINDS, start_table, start_value_of, string_limit
-from microros_gen.components.parameters.plan import longer_than_limits
+from microros_gen.components.parameters.sizes import longer_than_limits
 from microros_gen.components.parameters.values import Identifiers
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.records import dataclass

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 from microros_gen.application.model import Application, LimitRule, ParameterDecl
 from microros_gen.application.parameter_rules import words_of
@@ -18,8 +18,17 @@ from microros_gen.components.parameters.constants import (
     tables,
     texts_of,
 )
+from microros_gen.components.parameters.sizes import (
+    ARRAYS,
+    STRINGS,
+    array_string_size,
+    elements_of,
+    longer_than_limits,
+    sizes_above_limits,
+    string_size,
+)
 from microros_gen.components.parameters.values import Identifiers, copies, members
-from microros_gen.diagnostics import Diagnostic, Diagnostics
+from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
 
@@ -37,15 +46,6 @@ _PACKAGE, _HELD = "rcl_interfaces", "microros_parameter_msgs"
 _NAMES = {"GetParameters": "values", "GetParameterTypes": "types", "DescribeParameters": "descriptors"}
 """Services that are asked for names, and the list of their response."""
 _SETS = ("SetParameters", "SetParametersAtomically")
-_STRING_VALUE = (f"{_PACKAGE}/msg/ParameterValue", "string_value")
-_STRINGS = (f"{_PACKAGE}/msg/ParameterValue", "string_array_value")
-_ARRAYS = {
-    "byte[]": ("byte_array_value", 1),
-    "bool[]": ("bool_array_value", 1),
-    "integer[]": ("integer_array_value", 8),
-    "double[]": ("double_array_value", 8),
-}
-"""Type of an array → its member of a ParameterValue, and the bytes of an element."""
 
 
 @dataclass(frozen=True)
@@ -129,6 +129,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> ParametersPlan:
     _refuse_small_pools(application, 1 if context.selection.has("parameters_held") else 6, diagnostics)
     declared = [parameter for node in application.nodes for parameter in node.parameters]
     diagnostics.extend(longer_than_limits(application, declared, "the default"))
+    diagnostics.extend(sizes_above_limits(application, declared))
     held = context.selection.has("parameters_held")
     requests = [TypeName(_PACKAGE, "srv", f"{name}_Request") for name in (*_NAMES, *_SETS, "ListParameters")]
     requests = [TypeName(_HELD, "srv", "Exchange_Request")] if held else requests
@@ -137,11 +138,11 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> ParametersPlan:
         max=max(pool(application, "parameters", _count(application), diagnostics), _declared(application)),
         name_size=_longest(application, "name") + 1,
         text_size=_longest(application, "description") + 1,
-        string_size=_string_size(application),
+        string_size=string_size(application),
         one_of=any(p.one_of for node in application.nodes for p in node.parameters),
         array_size=_array_size(application),
-        strings_max=_elements(application, "string[]"),
-        array_string_size=_array_string(application) + 1 if _elements(application, "string[]") else 0,
+        strings_max=elements_of(application, "string[]"),
+        array_string_size=array_string_size(application) + 1 if elements_of(application, "string[]") else 0,
         request_size=largest,
         outcomes_max=largest // _SHORTEST_PARAMETER + 1,
         held=held,
@@ -149,36 +150,6 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> ParametersPlan:
         rules=rules_of(_parameters(application)),
         shown_size=_shown_size(application),
     )
-
-
-def longer_than_limits(
-    application: Application, parameters: Iterable[ParameterDecl], what: str
-) -> Iterator[Diagnostic]:
-    """Yield the defaults that the application's own limits of a value do not hold; `what` they are called."""
-    for parameter in parameters:
-        default = parameter.default
-        texts = default if isinstance(default, tuple) else (default,)
-        longest = max((len(text.encode()) for text in texts if isinstance(text, str)), default=0)
-        member, most = "string_value", _string_size(application) - 1
-        if parameter.type == "string[]":
-            member, most = _STRINGS[1], _array_string(application)
-        if longest > most and parameter.type in ("string", "string[]"):
-            yield _too_long(
-                parameter, what, f"a text of {longest} bytes", member, most, f"{{string: {longest}}}"
-            )
-        elements = _elements(application, parameter.type) if parameter.is_array else 0
-        if isinstance(default, tuple) and len(default) > elements:
-            member = _ARRAYS[parameter.type][0] if parameter.type in _ARRAYS else member
-            count = len(default)
-            yield _too_long(parameter, what, f"{count} elements", member, elements, f"{{sequence: {count}}}")
-
-
-def _too_long(
-    parameter: ParameterDecl, what: str, has: str, member: str, most: int, limit: str
-) -> Diagnostic:
-    message = f"{what} of the parameter '{parameter.name}' has {has}, and the limit of {member} is {most}"
-    hint = f"Raise it: `limits: {{{_PACKAGE}/msg/ParameterValue: {{{member}: {limit}}}}}`"
-    return Diagnostic(message, parameter.span, hint, id="MG-3098")
 
 
 def _servers(application: Application) -> Iterator[ServerPlan]:
@@ -192,7 +163,7 @@ def _servers(application: Application) -> Iterator[ServerPlan]:
             symbol,
             tuple(entries(node.parameters, symbol)),
             tuple(tables(node.parameters, symbol)),
-            tuple(members(node.parameters, _array_string(application) + 1)),
+            tuple(members(node.parameters, array_string_size(application) + 1)),
             tuple(copies(node.parameters)),
             has_floating_range(node.parameters),
         )
@@ -221,10 +192,10 @@ def limits(application: Application) -> tuple[LimitRule, ...]:
         _rule("msg/ParameterDescriptor", "name", name),
         *(_rule("msg/ParameterDescriptor", part, text) for part in ("description", "additional_constraints")),
         _rule("msg/Parameter", "name", name),
-        _rule("msg/ParameterValue", "string_value", max(_string_size(application) - 1, 0)),
+        _rule("msg/ParameterValue", "string_value", max(string_size(application) - 1, 0)),
         *(
-            _rule("msg/ParameterValue", _ARRAYS[kind][0], None, _elements(application, kind))
-            for kind in _ARRAYS
+            _rule("msg/ParameterValue", ARRAYS[kind][0], None, elements_of(application, kind))
+            for kind in ARRAYS
         ),
         _strings_rule(application),
     ]
@@ -264,7 +235,7 @@ def _shown_size(application: Application) -> int:
     if not any(p.rules for p in declared):
         return 0
     strings = [string_limit(p) for p in declared if p.rules and p.type == "string"]
-    arrays = [_array_string(application) for p in declared if p.rules and p.type == "string[]"]
+    arrays = [array_string_size(application) for p in declared if p.rules and p.type == "string[]"]
     return max([_SHOWN_NUMBER, *strings, *arrays])
 
 
@@ -341,50 +312,16 @@ def _longest(application: Application, part: str) -> int:
     return max([LONGEST_TEXT if is_free else 0, *(len(text.encode()) for text in texts)])
 
 
-def _string_size(application: Application) -> int:
-    """Return the bytes of the longest value with its NUL: what is declared, or the application's own limit."""
-    own = next(
-        (rule.string for rule in application.limits if rule.path == _STRING_VALUE and rule.string), None
-    )
-    sizes = [string_limit(p) for node in application.nodes for p in node.parameters if p.type == "string"]
-    longest = own if own is not None else max(sizes, default=0)
-    return longest + 1 if longest else 0
-
-
-def _elements(application: Application, kind: str) -> int:
-    """Return the most elements of an array of a type: what is declared, or the application's own limit."""
-    member = _ARRAYS[kind][0] if kind in _ARRAYS else _STRINGS[1]
-    path = (f"{_PACKAGE}/msg/ParameterValue", member)
-    own = next((rule.sequence for rule in application.limits if rule.path == path), None)
-    if own is not None:
-        return own
-    sizes = (p.size or 0 for node in application.nodes for p in node.parameters if p.type == kind)
-    return max(sizes, default=0)
-
-
-def _array_string(application: Application) -> int:
-    """Return the most bytes of a string in an array, without the NUL."""
-    own = next((rule.string for rule in application.limits if rule.path == _STRINGS and rule.string), None)
-    defaults = (
-        len(str(text).encode())
-        for node in application.nodes
-        for p in node.parameters
-        if p.type == "string[]" and isinstance(p.default, tuple)
-        for text in p.default
-    )
-    return own if own is not None else max(LONGEST_TEXT, *defaults, 0)
-
-
 def _array_size(application: Application) -> int:
     """Return the bytes of the elements of the largest array."""
-    sizes = [_elements(application, kind) * width for kind, (_, width) in _ARRAYS.items()]
-    strings = _elements(application, "string[]") * (_array_string(application) + 1)
+    sizes = [elements_of(application, kind) * width for kind, (_, width) in ARRAYS.items()]
+    strings = elements_of(application, "string[]") * (array_string_size(application) + 1)
     return max(*sizes, strings)
 
 
 def _strings_rule(application: Application) -> LimitRule:
-    count = _elements(application, "string[]")
-    return LimitRule(_STRINGS, _array_string(application) if count else 0, count)
+    count = elements_of(application, "string[]")
+    return LimitRule(STRINGS, array_string_size(application) if count else 0, count)
 
 
 def _rule(
