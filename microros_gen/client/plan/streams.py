@@ -376,7 +376,7 @@ def _check_received(
     if sample.max_size > LARGEST_BODY:
         diagnostics.too_large(
             f"{sample.label} takes up to {sample.max_size} bytes, but a message holds at most {LARGEST_BODY}",
-            span,
+            span or application.spans.get("limits"),  # what a component opens by itself has no place
             "Lower its limits",
             id="MG-7029",
         )
