@@ -188,7 +188,11 @@ class Agent:
             self._begin(began)
         self._payer = self._strangers
         try:
-            self._receive(data, address, transport, began)
+            acknowledges = self._processor.acknack(data, address, began)
+            if acknowledges is not None:
+                self._payer = acknowledges
+            else:
+                self._receive(data, address, transport, began)
         except Exception as error:
             self._refuse(error, data, address, transport)
         now = self._clock()

@@ -27,6 +27,8 @@ START_S: Final = 0.02
 """Initial cost of an unknown client, in seconds."""
 REFUSED: Final = 8
 """Factor for work that was refused in the end."""
+FADE_S: Final = 0.0005
+"""Seconds for which a cost is not reduced between two charges: a five-hundredth of MEMORY_S, 0.2 % of the cost."""
 TURN_S: Final = 0.004
 """Maximum seconds for the clients of one descriptor, and for one round, before other work gets its turn."""
 
@@ -62,7 +64,8 @@ class Account:
         if self.refused:
             self.refused = False
             seconds *= REFUSED
-        self.fade(now)
+        if now > self.used_at + FADE_S:
+            self.fade(now)
         self.used += seconds
 
     def fade(self, now: float) -> None:

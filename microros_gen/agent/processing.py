@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from typing import Final
 
 from microros_gen.agent.admission import Admission
 from microros_gen.agent.clients import Client, ClientTable, Job
 from microros_gen.agent.cutting import TurnOverError
+from microros_gen.agent.fairness import Account
 from microros_gen.agent.graph_work import GraphWork
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.operations import Operations
@@ -33,6 +34,8 @@ from microros_gen.agent.wire.submessages import decode
 WRITE_DATA: Final = int(SubmessageId.WRITE_DATA)
 ACKNACK: Final = int(SubmessageId.ACKNACK)
 ACKNACK_HEAD: Final = bytes((ACKNACK, FLAG_LITTLE, 5, 0))
+ACKNACK_BYTES: Final = 13
+"""Size of a message that is one ACKNACK, with a header of 4 bytes."""
 FRAGMENT: Final = int(SubmessageId.FRAGMENT)
 COSTLY: Final = (SubmessageId.CREATE, SubmessageId.DELETE)
 """Submessages that change the ROS graph, limited by a rate per client and a share of the agent's time for all."""
@@ -93,11 +96,34 @@ class Processor:
             self._to_acknowledge.add(client)
         self.process(client)
 
+    def acknack(self, data: bytes, address: Hashable, now: float) -> Account | None:
+        """Process a message of a client with nothing else to do that is one ACKNACK; return the account to charge.
+
+        Return None for all other messages, of which nothing is done. A client sends an ACKNACK for each message that
+        it receives: here it goes without the questions whose answers are known.
+        """
+        if len(data) != ACKNACK_BYTES or data[0] < 0x80 or data[1] or data[4:8] != ACKNACK_HEAD:
+            return None
+        client = self._clients.at(address)
+        if client is None or data[0] != client.session.link.session or client.asleep or not client.claimed:
+            return None
+        account = client.account
+        if account.work is not None or now >= account.second or account.messages >= client.messages_per_second:
+            return None
+        if client.ready or self._turns.waits(client):
+            return None
+        account.messages += 1
+        client.received += 1
+        client.received_bytes += ACKNACK_BYTES
+        client.last_received = now
+        first, missing = data[8] | data[9] << 8, data[10] << 8 | data[11]
+        self._operations.acknowledged(client, data[12], first, missing, now)
+        return account
+
     def process_alone(self, client: Client, data: bytes, start: int, stream: int) -> None:
         """Process one message of a client that has no other ready input."""
         try:
             at = start + SUBMESSAGE_HEADER
-            # A client sends one for each message that it receives.
             if data[start:at] == ACKNACK_HEAD and len(data) == at + 5:
                 self._acknowledged(client, data, at)
                 return

@@ -92,6 +92,10 @@ class Reading:
         self._next_at = now
         self._apart_s = entity.separation_s
         self._received_at = -NEVER
+        self._plain = not (self._calls or self._format or self._apart_s)
+        """Whether each sample is a DATA in FORMAT_DATA, and none is skipped."""
+        self._lead, self._lead_of = b"", (-1, -1)
+        """What precedes a sample in its DATA; flag and size for which it was made."""
 
     def attach(self, source: Readable | None) -> None:
         """Read from `source` from now on."""
@@ -110,7 +114,7 @@ class Reading:
         """
         client = self.client
         output = client.session.output(self.stream)
-        send = client.transport.send
+        send, address = client.transport.send, client.address
         for _ in range(TURN):
             if self._left <= 0 or now >= self._until:
                 self.over = True
@@ -141,10 +145,10 @@ class Reading:
                 self._too_large(len(submessage))
                 continue
             self._pending = None
+            client.sent += len(messages)
             for message in messages:
-                send(message, client.address)
-                client.sent += 1
                 client.sent_bytes += len(message)
+                send(message, address)
             self.entity.delivered += count
             self._left -= count
             if self._limited:
@@ -174,9 +178,15 @@ class Reading:
         """Return the next DATA (empty: ROS 2 has no data) and its number of samples (0: one was skipped)."""
         if self._calls:
             return self._next_call()
-        taken = self._take()
+        taken = self.entity.next_kept(self.client.shares) if self.entity.kept else self._from_ros()
         if taken is None:
             return b"", 0
+        if self._plain:
+            self._raw = (taken,)
+            flag, size = taken[1] & FLAG_LITTLE, len(taken)
+            if self._lead_of != (flag, size):
+                self._lead, self._lead_of = self._lead_for(flag, size), (flag, size)
+            return self._lead + taken[4:], 1
         if self._apart_s:
             if now - self._received_at < self._apart_s:
                 return taken, 0
@@ -206,11 +216,13 @@ class Reading:
 
     def _data(self, prefix: bytes, data: bytes) -> bytes:
         """Return a DATA with a sample of ROS 2, whose first four bytes are the encapsulation header."""
-        size = len(prefix) + len(data)  # the ids take the place of the header
+        return self._lead_for(data[1] & FLAG_LITTLE, len(prefix) + len(data)) + prefix + data[4:]
+
+    def _lead_for(self, little: int, size: int) -> bytes:
+        """Return the header and the ids of a DATA with `size` bytes: the ids take the place of the sample's header."""
         if size > 0xFFFF:
             size = 0  # length 0 extends to the end: as clients send it, and in fragments anyway
-        head = bytes((DATA, data[1] & FLAG_LITTLE, size & 0xFF, size >> 8))
-        return head + self._head + prefix + data[4:]
+        return bytes((DATA, little, size & 0xFF, size >> 8)) + self._head
 
     def _gather(self, first: bytes, now: float) -> tuple[bytes, int]:
         """Return a DATA in one of the other formats, as full as the client's message size allows."""

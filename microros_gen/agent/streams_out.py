@@ -121,6 +121,8 @@ class ReliableOut:
         self._room = link.room()
         self._heartbeat_at = 0.0
         self._round_trip = 0.0
+        self._pause_s = self._pause()
+        """Seconds to wait for an answer of a client that was not silent before."""
         self._timed: tuple[int, float] | None = None
         """Number and time of a message whose acknowledgement will measure the round trip."""
         self._progress_at = 0.0
@@ -191,14 +193,15 @@ class ReliableOut:
                 self._report()
             self._went_on(first, now)
         again = self._repeat(first, missing, now) if missing else []
-        return again + self._release(now)
+        return again + self._release(now) if self._backlog else again
 
     def _went_on(self, first: int, now: float) -> None:
         """Record that the client has received everything before `first`."""
         if self._timed is not None and 0 < (first - self._timed[0]) & 0xFFFF < HALF:
             self._round_trip, self._timed = now - self._timed[1], None
+            self._pause_s = self._pause()
         self._progress_at = now
-        self._heartbeat_at = now + self._pause()
+        self._heartbeat_at = now + self._pause_s
 
     def _pause(self, silent: float = 0.0) -> float:
         """Return the seconds to wait for an answer: more than the last round trip and a quarter of the silence."""
@@ -289,7 +292,7 @@ class ReliableOut:
         self._sequence = (self._sequence + 1) & 0xFFFF
         if not self._unacknowledged:
             self._progress_at = now
-            self._heartbeat_at = now + self._pause()
+            self._heartbeat_at = now + self._pause_s
         if self._timed is None:
             self._timed = (self._sequence - 1) & 0xFFFF, now
         self._numbered += 1

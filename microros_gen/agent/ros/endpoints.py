@@ -7,7 +7,7 @@ import contextlib
 import os
 import time
 from collections.abc import Callable
-from ctypes import addressof, byref
+from ctypes import addressof, byref, c_void_p
 from typing import Any
 
 from microros_gen.agent.ros.bridge import BridgeError, BusyError, GraphReport
@@ -146,7 +146,8 @@ class RawReader(RawSource):
     def __init__(self, handle: Any, ros: Ros, events: Events, endpoints: tuple[Endpoint, ...]) -> None:
         super().__init__(handle, ros, ros.libraries.notify_subscription, events, endpoints)
         self._message = ros.taken
-        self._arguments = (self._pointer, addressof(ros.taken), None, None)
+        # Objects of ctypes are passed as they are; an int would be converted in each call.
+        self._arguments = (c_void_p(self._pointer), c_void_p(addressof(ros.taken)), None, None)
         self._take = ros.libraries.take
 
     def take(self) -> bytes | None:

@@ -79,6 +79,9 @@ class Udp:
         self._unsent: list[Queue] = []
         """The queues with collected datagrams."""
         self._several = takes_several(self._socket)
+        self._datagram = bytearray(MAXIMUM_DATAGRAM)
+        """Where a datagram arrives: memory of the largest size for each one would take longer than a copy of most."""
+        self._view = memoryview(self._datagram)
         self._epoll = select.epoll()
         self._epoll.register(self._socket, select.EPOLLIN)
 
@@ -206,22 +209,23 @@ class Udp:
         self._epoll.close()
 
     def _read(self, queue: Queue, receive: Receive) -> None:
-        take, account, address = queue.socket.recvfrom, queue.account, queue.address
-        receive_only, clock = queue.socket.recv, time.monotonic
+        take, account, address = queue.socket.recvfrom_into, queue.account, queue.address
+        receive_only, clock = queue.socket.recv_into, time.monotonic
+        datagram, view = self._datagram, self._view
         end = clock() + SHARE_S
         for _ in range(BATCH):
             try:
                 if address is not None:
-                    data = receive_only(MAXIMUM_DATAGRAM)
+                    size = receive_only(datagram)
                 else:
-                    data, peer = take(MAXIMUM_DATAGRAM)
+                    size, peer = take(datagram)
             except BlockingIOError:
                 return
             except OSError:
                 if queue.socket.fileno() < 0:
                     return  # its client left with the previous message
                 continue  # an ICMP error for something sent earlier
-            receive(data, address or (self, peer), self)
+            receive(bytes(view[:size]), address or (self, peer), self)
             if account.busy or clock() > end:
                 return
 
