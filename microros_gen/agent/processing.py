@@ -108,7 +108,11 @@ class Processor:
         if client is None or data[0] != client.session.link.session or client.asleep or not client.claimed:
             return None
         account = client.account
-        if account.work is not None or now >= account.second or account.messages >= client.messages_per_second:
+        if (
+            account.work is not None
+            or now >= account.second
+            or account.messages >= client.messages_per_second
+        ):
             return None
         if client.ready or self._turns.waits(client):
             return None

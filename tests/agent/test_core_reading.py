@@ -457,3 +457,25 @@ def test_a_fault_with_one_source_leaves_the_others_alone(monkeypatch: pytest.Mon
     other.put(sample(2))
     assert values(listener.take()) == [2]
     assert set(bench.log.counters) == {"internal_KeyError"}
+
+
+def test_an_acknowledgement_counts_like_every_message() -> None:
+    bench = subscribing()
+    listener = Listener(bench)
+    listener.read(0x80)
+    (client,) = bench.agent.clients
+    put(bench, *range(20))
+    assert values(listener.take()) == list(range(16))
+    before = client.received, client.received_bytes, client.account.messages
+    assert values(listener.acknowledge(2)) == [16, 17]
+    assert (client.received, client.received_bytes, client.account.messages) == (
+        before[0] + 1,
+        before[1] + 13,
+        before[2] + 1,
+    )
+    assert client.last_received == bench.now
+    client.messages_per_second = client.account.messages
+    assert listener.acknowledge(4) == []
+    assert "too_many_messages" in bench.log.counters
+    bench.wait(1.1)
+    assert values(listener.acknowledge(4)) == [18, 19]
