@@ -82,29 +82,24 @@ class EntitiesPlan:
         return 1 + max((len(node.logger_name) for node in self.nodes.declared), default=0)
 
     @property
-    def services_by_place(self) -> bool:
-        """Whether components open services by themselves, whose places are known."""
-        return self.declared and self.services.implied > 0
-
-    @property
-    def publishers_by_place(self) -> bool:
-        """Whether components open publishers by themselves, whose places are known."""
-        return self.declared and self.publishers.implied > 0
-
-    @property
-    def opens_by_place(self) -> bool:
-        """Whether components open publishers or services by themselves, whose places are known."""
-        return self.services_by_place or self.publishers_by_place
-
-    @property
     def serves(self) -> bool:
         """Whether there are places of services or of clients."""
         return self.services.any or self.clients.any
 
     @property
+    def served(self) -> tuple[ServicePlan, ...]:
+        """The declared services, then clients, in the order of their places."""
+        return (*self.services.declared, *self.clients.declared)
+
+    @property
+    def service_text_max(self) -> int:
+        """Bytes of the longest name of a declared service or client, or of its type."""
+        return max((len(text) for s in self.served for text in (s.name, s.dds_type)), default=0)
+
+    @property
     def limits_services(self) -> bool:
         """Whether what some declared service or client sends has its own limits."""
-        return any(s.limited for s in (*self.services.declared, *self.clients.declared))
+        return any(s.limited for s in self.served)
 
     @property
     def stores_of_services(self) -> bool:
@@ -119,8 +114,7 @@ class EntitiesPlan:
     @property
     def service_storage_headers(self) -> tuple[str, ...]:
         """Headers with the storage of messages of declared services and clients, sorted."""
-        served = (*self.services.declared, *self.clients.declared)
-        return tuple(sorted({message.header for s in served for message in s.stored}))
+        return tuple(sorted({message.header for s in self.served for message in s.stored}))
 
     @property
     def node_places(self) -> int:
@@ -146,7 +140,7 @@ class EntitiesPlan:
         subscriptions += [EndpointRow()] * (self.subscriptions.max - len(subscriptions))
         services = [
             EndpointRow(s.name, s.dds_type, s.node, s.limited, s.declared_as)
-            for s in (*self.services.declared, *self.clients.declared)
+            for s in self.served
         ]
         return (*rows, *subscriptions, *services)
 
@@ -173,8 +167,7 @@ class EntitiesPlan:
         """Headers that declare the types of senders with their own limits; empty if there are no such senders."""
         senders: list[PublisherPlan | ServicePlan] = [
             *self.publishers.declared,
-            *self.services.declared,
-            *self.clients.declared,
+            *self.served,
         ]
         headers = {type_files(s.type).type_support for s in senders if s.limited}
         return tuple(sorted(map(include_path, headers)))

@@ -2,69 +2,73 @@
 /* Repliers and requesters in binary (OMG DDS-XRCE 1.0, annex A). */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
+#include "microros/xrce_service_sizes.h"
 #include "microros/xrce_wire.h"
 
 #include <string.h>
 
 /* Before the characters of a string: their number, with the NUL. */
-enum { SERVICE_LENGTH = 4, SERVICE_NUL = 1 };
+enum { SERVICE_LENGTH = 4 };
 
-/* Padding to a multiple of four from the start of the blob. */
-static uint8_t * service_align(const uint8_t * blob, uint8_t * at)
+/* After a name, or after the two letters in front of one. */
+static const char request_type[] = "Request_";
+static const char reply_type[] = "Response_";
+static const char request_topic[] = "Request";
+static const char reply_topic[] = "Reply";
+
+/* Writes the length of the string between these two, its NUL included, in front of it. */
+static void service_count(uint8_t * begin, const uint8_t * end)
 {
-  while (xrce_size_between(blob, at) % 4u != 0u) { /* at most 3 rounds */
-    *at++ = 0;
-  }
-  return at;
-}
-
-/* A part of the blob, to be repeated. */
-typedef struct service_part_t {
-  const uint8_t * bytes;
-  size_t size;
-} service_part_t;
-
-/* An aligned string: a text, what is repeated, another text. */
-static uint8_t * service_put_string(
-  const uint8_t * blob, uint8_t * at, const MICROROS_ANYWHERE char * first, const service_part_t * repeated,
-  const char * last)
-{
-  uint8_t * const begin = service_align(blob, at);
-  uint8_t * end = xrce_describe_text(&begin[SERVICE_LENGTH], first);
-
-  if (repeated->size != 0u) {
-    /* at most MICROROS_CREATION_SIZE or MICROROS_MTU bytes */
-    (void)memcpy(end, repeated->bytes, repeated->size);
-  }
-  end = xrce_describe_text(&end[repeated->size], last);
-  *end++ = 0;
-  xrce_put_le16(&begin[0], xrce_size_between(&begin[SERVICE_LENGTH], end));
-  xrce_put_le16(&begin[2], 0);
-  return end;
+  xrce_put_le16(&begin[-SERVICE_LENGTH], xrce_size_between(begin, end));
+  xrce_put_le16(&begin[2 - SERVICE_LENGTH], 0);
 }
 
 /*
- * Service name, message types; then the topics of requests and replies, both present. Name and type are repeated from
- * their first place, where their sizes are known. */
+ * Ends a string that another one follows: `present` is 1 if what follows is optional, which takes a byte, otherwise 0.
+ * Then pads to a multiple of four from the start of the blob. Returns where the characters of the next string begin. */
+static uint8_t * service_next(uint8_t * blob, uint8_t * begin, uint8_t * end, uint8_t present)
+{
+  const size_t at = ((size_t)xrce_size_between(blob, end) + present + 3u) & ~(size_t)3u;
+
+  service_count(begin, end);
+  end[0] = present;
+  end[1] = 0; /* of these, what is no padding is in the length that follows */
+  end[2] = 0;
+  end[3] = 0;
+  return &blob[at + (size_t)SERVICE_LENGTH];
+}
+
+/*
+ * Service name, message types; then the topics of requests and replies, both present. The endings are copied by their
+ * constant sizes, which takes a few stores. */
 uint8_t * xrce_describe_service(
   const xrce_client_t * client, uint16_t place, uint8_t * blob, uint8_t * format)
 {
-  service_part_t name;
-  service_part_t type = {blob, 0};
-  uint8_t * end =
-    service_put_string(blob, blob, client->endpoints[place - MICROROS_NODES_MAX].name, &type, "");
+  const char * name = client->endpoints[place - MICROROS_NODES_MAX].name;
+  const MICROROS_FLASH char * type = client->services[place - XRCE_REPLIERS_AT].type->dds_type_name;
+  const xrce_service_sizes_t sizes = xrce_service_sizes_of(client, place);
+  uint8_t * begin = &blob[SERVICE_LENGTH];
+  uint8_t * end = xrce_describe_sized(begin, name, sizes.name);
 
   *format = XRCE_FORMAT_BINARY;
-  name.bytes = &blob[SERVICE_LENGTH];
-  name.size = (size_t)xrce_size_between(name.bytes, end) - (size_t)SERVICE_NUL;
-  end = service_align(blob, end);
-  type.bytes = &end[SERVICE_LENGTH];
-  end = service_put_string(
-    blob, end, client->services[place - XRCE_REPLIERS_AT].type->dds_type_name, &type, "Request_");
-  type.size = (size_t)xrce_size_between(type.bytes, end) - sizeof("Request_");
-  end = service_put_string(blob, end, "", &type, "Response_");
-  *end++ = 1;
-  end = service_put_string(blob, end, "rq", &name, "Request");
-  *end++ = 1;
-  return service_put_string(blob, end, "rr", &name, "Reply");
+  *end++ = 0;
+  begin = service_next(blob, begin, end, 0);
+  end = xrce_describe_sized(begin, type, sizes.type);
+  (void)memcpy(end, request_type, sizeof(request_type));
+  begin = service_next(blob, begin, &end[sizeof(request_type)], 0);
+  end = xrce_describe_sized(begin, type, sizes.type);
+  (void)memcpy(end, reply_type, sizeof(reply_type));
+  begin = service_next(blob, begin, &end[sizeof(reply_type)], 1);
+  begin[0] = (uint8_t)'r';
+  begin[1] = (uint8_t)'q';
+  end = xrce_describe_sized(&begin[2], name, sizes.name);
+  (void)memcpy(end, request_topic, sizeof(request_topic));
+  begin = service_next(blob, begin, &end[sizeof(request_topic)], 1);
+  begin[0] = (uint8_t)'r';
+  begin[1] = (uint8_t)'r';
+  end = xrce_describe_sized(&begin[2], name, sizes.name);
+  (void)memcpy(end, reply_topic, sizeof(reply_topic));
+  end += sizeof(reply_topic);
+  service_count(begin, end);
+  return end;
 }

@@ -8,9 +8,8 @@
 #include "microros/rcl_lifecycle_states.h"
 #include "microros/rcl_lifecycle_timers.h"
 #include "microros/rcl_lifecycle_types.h"
+#include "microros/rmw_by_place.h"
 #include "microros/rmw_lifecycle.h"
-#include "microros/rmw_publisher.h"
-#include "microros/rmw_service.h"
 #include "microros/text.h"
 
 #include <stddef.h>
@@ -37,6 +36,9 @@ rcl_lifecycle_state_machine_t rcl_lifecycle_get_zero_initialized_state_machine(v
 }
 
 enum { MACHINE_SERVICES = 5 };
+
+/* As in rmw_qos_profile_services_default and in that of the publisher. */
+enum { MACHINE_DEPTH = 10 };
 
 /* The services, in the order in which they are opened. */
 static void machine_list(rcl_lifecycle_com_interface_t * offers, rcl_service_t * services[MACHINE_SERVICES])
@@ -66,22 +68,20 @@ static rcl_ret_t machine_close(rcl_lifecycle_com_interface_t * offers, rcl_node_
   return first;
 }
 
-/* Opens the services of these types. All names here are valid, and the node was looked at. */
+/* Opens the services of these types; the node was looked at. They are in the order of the plan, which has their places. */
 static rcl_ret_t machine_offer(
   rcl_lifecycle_com_interface_t * offers, const rosidl_service_type_support_t * const types[MACHINE_SERVICES])
 {
-  static const char * const names[MACHINE_SERVICES] = {
-    "~/change_state", "~/get_available_states", "~/get_available_transitions", "~/get_state",
-    "~/get_transition_graph"};
   rcl_service_t * services[MACHINE_SERVICES];
   rcl_ret_t result = RCL_RET_OK;
+  uint16_t at = 0;
 
   machine_list(offers, services);
   for (size_t i = 0; i < (size_t)MACHINE_SERVICES && result == RCL_RET_OK; ++i) {
-    result = types[i] != NULL ? rmw_replier_open(
-                                  offers->node_handle->impl, types[i], names[i],
-                                  &rmw_qos_profile_services_default, &services[i]->impl)
-                              : microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "type of a service");
+    result = types[i] != NULL
+               ? rmw_replier_open_by_place(
+                   offers->node_handle->impl, types[i], (uint16_t)MACHINE_DEPTH, &at, &services[i]->impl)
+               : microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "type of a service");
   }
   if (result == RCL_RET_OK) {
     rmw_lifecycle_answer_large(offers->srv_change_state.impl, true);
@@ -140,10 +140,8 @@ rcl_ret_t rcl_lifecycle_state_machine_init(
   state_machine->options = *state_machine_options;
   offers = &state_machine->com_interface;
   offers->node_handle = node_handle;
-  /* QoS: the values of the default, which would be a second constant. */
-  result = rmw_publisher_open(
-    node_handle->impl, ts_pub_notify, "~/transition_event", &rmw_qos_profile_services_default,
-    &offers->pub_transition_event.impl);
+  result = rmw_publisher_open_by_place(
+    node_handle->impl, ts_pub_notify, (uint16_t)MACHINE_DEPTH, &offers->pub_transition_event.impl);
   if (result == RCL_RET_OK && state_machine->options.enable_com_interface) {
     const rosidl_service_type_support_t * const types[MACHINE_SERVICES] = {
       ts_srv_change_state, ts_srv_get_available_states, &rcl_lifecycle_transitions_type, ts_srv_get_state,

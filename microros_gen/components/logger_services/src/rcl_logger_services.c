@@ -3,7 +3,7 @@
 #include "microros/rcl_logger_services.h"
 
 #include "microros/lock.h"
-#include "microros/rcl_service_open.h"
+#include "microros/rmw_by_place.h"
 #include "microros/rmw_node.h"
 #include "microros/rmw_service.h"
 #include "microros/text.h"
@@ -29,25 +29,26 @@ static char logger_names[MICROROS_LOGGER_REQUEST_MAX][MICROROS_LOGGER_NAME_SIZE]
 static char logger_reasons[MICROROS_LOGGER_REQUEST_MAX][MICROROS_LOGGER_REASON_SIZE];
 static bool logger_services_busy;
 
+/* As in rmw_qos_profile_services_default. */
+enum { LOGGER_SERVICES_DEPTH = 10 };
+
 static rcl_ret_t services_open(
-  rcl_service_t * service, const rcl_node_t * node, const rosidl_service_type_support_t * type,
-  const char * name)
+  rcl_service_t * service, const rcl_node_t * node, const rosidl_service_type_support_t * type, uint16_t * at)
 {
   *service = rcl_get_zero_initialized_service();
-  return rcl_service_open(service, node, type, name, &rmw_qos_profile_services_default);
+  return rmw_replier_open_by_place(node->impl, type, (uint16_t)LOGGER_SERVICES_DEPTH, at, &service->impl);
 }
 
 rcl_ret_t rcl_logger_services_open(rcl_node_t * node)
 {
   logger_services_t * const services = &logger_services[rmw_node_index(node->impl)];
+  uint16_t at = 0;
   rcl_ret_t result = services_open(
-    &services->get, node, ROSIDL_GET_SRV_TYPE_SUPPORT(rcl_interfaces, srv, GetLoggerLevels),
-    "~/get_logger_levels");
+    &services->get, node, ROSIDL_GET_SRV_TYPE_SUPPORT(rcl_interfaces, srv, GetLoggerLevels), &at);
 
   if (result == RCL_RET_OK) {
     result = services_open(
-      &services->set, node, ROSIDL_GET_SRV_TYPE_SUPPORT(rcl_interfaces, srv, SetLoggerLevels),
-      "~/set_logger_levels");
+      &services->set, node, ROSIDL_GET_SRV_TYPE_SUPPORT(rcl_interfaces, srv, SetLoggerLevels), &at);
     if (result != RCL_RET_OK) {
       (void)rcl_service_fini(&services->get, node); /* cannot fail: it was opened above */
     }

@@ -2,8 +2,8 @@
 #include "microros/error.h"
 #include "microros/executor_handles.h"
 #include "microros/rclc_parameters.h"
+#include "microros/rmw_by_place.h"
 #include "microros/rmw_parameters.h"
-#include "microros/rmw_publisher.h"
 #include "microros/rmw_service.h"
 #if MICROROS_PARAMETERS_HELD
 #include "microros/rclc_parameter_held.h"

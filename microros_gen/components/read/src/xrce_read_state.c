@@ -4,8 +4,6 @@
 #include "microros/xrce_loan.h"
 #include "microros/xrce_read.h"
 
-#include <string.h>
-
 static xrce_receiver_t * state_of(const xrce_endpoint_t * endpoint)
 {
   return &endpoint->client->receivers[endpoint->index - MICROROS_PUBLISHERS_MAX];
@@ -15,7 +13,7 @@ void xrce_read_open(const xrce_endpoint_t * endpoint)
 {
   xrce_receiver_t * receiver = state_of(endpoint);
 
-  (void)memset(receiver, 0, sizeof(*receiver));
+  xrce_receiver_clear(receiver);
   xrce_loan_clear(endpoint->client, receiver);
 }
 

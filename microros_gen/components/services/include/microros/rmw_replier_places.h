@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The handles of service servers by place. For this component only. */
+/* The handles of service servers by place. For this component and `by_place` only. */
 #ifndef MICROROS_RMW_REPLIER_PLACES_H
 #define MICROROS_RMW_REPLIER_PLACES_H
 

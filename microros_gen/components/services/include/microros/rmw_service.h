@@ -30,14 +30,6 @@ rmw_ret_t rmw_requester_open(
   const rmw_node_t * node, const rosidl_service_type_support_t * type_support, const char * name,
   const rmw_qos_profile_t * qos, rmw_client_t ** client);
 
-/*
- * For a component that opens its services by itself, in the order in which it declares them, if MICROROS_SERVICES_BY_PLACE: as
- * rmw_replier_open, with the next service of this type that the plan has for the node, at or after the endpoint with index *at
- * (at first 0), which becomes the one after it. */
-rmw_ret_t rmw_replier_open_by_place(
-  const rmw_node_t * node, const rosidl_service_type_support_t * type_support, uint16_t depth, uint16_t * at,
-  rmw_service_t ** service);
-
 /* Release the place. */
 void rmw_replier_close(rmw_service_t * service);
 void rmw_requester_close(rmw_client_t * client);
@@ -107,9 +99,6 @@ void rmw_requester_bind(const rmw_client_t * client, void * ros_response);
 rmw_ret_t rmw_service_open(
   xrce_endpoint_t * wanted, const xrce_service_t * service, const rmw_section_t * section,
   const rmw_node_t * node, const char * name, const rmw_qos_profile_t * qos);
-
-/* The same for rmw_replier_open_by_place; QoS is filled in as well. */
-rmw_ret_t rmw_service_open_by_place(xrce_endpoint_t * wanted, const xrce_service_t * service, uint16_t * at);
 
 /* Returns RMW_RET_OK, or RMW_RET_ERROR with the text for the outcome of a write. */
 rmw_ret_t rmw_service_report(

@@ -2,10 +2,10 @@
 /* Publishers that a component opens by itself: the plan has their places. */
 #include "microros/error.h"
 #include "microros/lock.h"
+#include "microros/rmw_by_place.h"
 #include "microros/rmw_declared.h"
 #include "microros/rmw_node.h"
 #include "microros/rmw_publish_parts.h"
-#include "microros/rmw_publisher.h"
 #include "microros/rmw_publisher_places.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_drops.h"
