@@ -47,6 +47,7 @@
 #define MICROROS_PRECONFIGURED 0u
 
 /* places */
+#define MICROROS_SERVICE_TEXT_MAX 29u /* bytes of the longest name of a service or of its type */
 #define MICROROS_NODES_MAX 1u
 #define MICROROS_PUBLISHERS_MAX 0u
 #define MICROROS_SUBSCRIPTIONS_MAX 0u
@@ -58,7 +59,6 @@
 #define MICROROS_HANDLES_MAX 2u /* of each executor */
 #define MICROROS_GUARD_CONDITIONS_MAX 0u
 #define MICROROS_WAIT_SETS_MAX 1u
-#define MICROROS_SERVICES_BY_PLACE 0u /* components open theirs without a name */
 #define MICROROS_REQUESTS_MAX 2u /* outstanding, of all clients */
 
 /* memory */

@@ -191,6 +191,29 @@ static inline uint16_t xrce_read_room(const xrce_client_t * client, const xrce_r
   return 2u * free >= queue->slots ? free : 0u;
 }
 
+static inline void xrce_receiver_clear_bytes(xrce_receiver_t * receiver)
+{
+  (void)receiver;
+}
+
+/* Makes it zero: member by member, which takes a few stores instead of a call of memset. */
+static inline void xrce_receiver_clear(xrce_receiver_t * receiver)
+{
+  receiver->dropped = 0;
+  receiver->refused = 0;
+  receiver->due_ms = 0;
+  xrce_receiver_clear_bytes(receiver);
+  receiver->request = 0;
+  receiver->before = 0;
+  receiver->granted = 0;
+  receiver->large = 0;
+  receiver->status = 0;
+  receiver->head = 0;
+  receiver->count = 0;
+  receiver->resting = false;
+  receiver->arriving = false;
+}
+
 /* Stores a sample that is not larger than the largest, or counts it as dropped. */
 void xrce_read_keep(
   xrce_client_t * client, xrce_receiver_t * receiver, const xrce_sample_t * sample, bool reliable);
