@@ -138,10 +138,7 @@ class EntitiesPlan:
         ]
         rows = publishers + [EndpointRow()] * (self.publisher_places - len(publishers))
         subscriptions += [EndpointRow()] * (self.subscriptions.max - len(subscriptions))
-        services = [
-            EndpointRow(s.name, s.dds_type, s.node, s.limited, s.declared_as)
-            for s in self.served
-        ]
+        services = [EndpointRow(s.name, s.dds_type, s.node, s.limited, s.declared_as) for s in self.served]
         return (*rows, *subscriptions, *services)
 
     @property
