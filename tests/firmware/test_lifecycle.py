@@ -96,7 +96,7 @@ def test_its_instructions(builds: Builds) -> None:
     """Of init, and from request to reply."""
     need(NAME, emulator=True)
     found = work(builds, NAME)
-    assert found.init <= 16_479
+    assert found.init <= 11_892
     assert found.change <= 7_043
     assert found.get <= 3_197
 
