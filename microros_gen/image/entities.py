@@ -162,7 +162,8 @@ def _own_use(manifest: Mapping[str, Any], owner: str, symbol: str, kind: str, pa
     is_client = kind == _CLIENT
     for component, feature in manifest.get("features", {}).items():
         text = path.removeprefix(".") if is_client else f"{symbol}{path}" if owner == component else ""
-        for variable, use in feature.get("size", {}).items():
+        # A part of a variable has a longer name than the variable.
+        for variable, use in sorted(feature.get("size", {}).items(), key=lambda item: -len(item[0])):
             match = re.match(_pattern(variable), text)
             if match:
                 return str(use).replace("{}", match[1]) if match.groups() else str(use)
