@@ -129,8 +129,9 @@ def restart_in_turn(
     return restarted
 
 
+@pytest.mark.parametrize("workers", [1, 2])
 def test_a_rolling_restart_loses_nothing(
-    images: Images, observer: Observer, domain: int, tmp_path: Path
+    images: Images, observer: Observer, domain: int, tmp_path: Path, workers: int
 ) -> None:
     ports = free_ports(2)
     image = images.build(0, listed(ports, TIMES, APPLICATION))
@@ -141,7 +142,7 @@ def test_a_rolling_restart_loses_nothing(
     with ExitStack() as stack:
 
         def start(index: int) -> AgentProcess:
-            options = ("--domain", str(domain))
+            options = ("--domain", str(domain), "--workers", str(workers))
             return stack.enter_context(
                 running_agent(domain, *options, transport=("udp4", "--port", str(ports[index])))
             )
