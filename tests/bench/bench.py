@@ -19,6 +19,7 @@ from tests.bench.agent_attacks import bench_attacks
 from tests.bench.agent_bench import bench_agent
 from tests.bench.agent_fleet import bench_fleet
 from tests.bench.agent_sides import Target
+from tests.bench.agent_workers import bench_workers
 from tests.bench.avr import bench_avr
 from tests.bench.changed_limits import times_of_changed_limits
 from tests.bench.client import bench_client
@@ -53,6 +54,7 @@ PARTS = (
     "tasks",
     "agent",
     "fleet",
+    "workers",
     "attacks",
 )
 
@@ -105,6 +107,8 @@ def main() -> int:
             bench_agent(work / "agent", Target(*options.agent) if options.agent else None)
         if "fleet" in options.parts:
             bench_fleet()
+        if "workers" in options.parts:
+            bench_workers()
         if "attacks" in options.parts:
             bench_attacks()
     return 0
