@@ -88,7 +88,6 @@ class Admission:
         self._conflicts = KeyConflicts(log, limits.clients)
         self._newcomers = Newcomers(limits.newcomers)
         self._full_until = 0.0
-        self._never_adopted: set[bytes] = set()
         self._strangers = Strangers(limits.adopt_after_s, limits.clients, limits.strangers_per_second)
         self._places = Places(clients, limits, budgets, self.dismiss)
         self.welcome: Answer = answer
@@ -186,10 +185,9 @@ class Admission:
 
     def send_away(self, client: Client) -> None:
         """Remove an adopted client that turned out to be a different one; it is not adopted again."""
-        self._never_adopted.add(client.session.link.key)
-        self.dismiss(
-            client, "disconnected: it is not the client that its samples suggested; it is not adopted again"
-        )
+        self._held.preconfigured.never_adopt(client.session.link.key)
+        why = "it is not the client that its samples suggested; it is not adopted again"
+        self.dismiss(client, f"disconnected: {why}")
 
     def put_to_sleep(self, client: Client) -> None:
         """Remove the entities of a silent client from the ROS graph; its session stays."""
@@ -356,9 +354,8 @@ class Admission:
             writer, fits = None, is_reliable(submessage.stream)
         else:
             writer, fits = submessage.object, not is_reliable(header.stream)
-        known = [*self._never_adopted, *(client.session.link.key for client in self._clients)]
         proved = header.key or transport.proved_key(address)
-        key = self._held.preconfigured.to_adopt(proved, writer, known)
+        key = self._held.preconfigured.to_adopt(proved, writer, self._clients.keys())
         if key is None or not fits or self._clients.at(address) or header.session in OUT_OF_SESSION:
             raise MalformedError("no_session", f"{submessage.ID.name} without a session")
         access = self.gatekeeper.decide(key, transport, address)
@@ -377,6 +374,10 @@ class Admission:
         self._report(client, "client_adopted", text, peer=client.place)
         self._give(client)
         return client
+
+    def missing(self) -> frozenset[bytes]:
+        """Return the keys of the clients to adopt that are not in session."""
+        return self._held.preconfigured.missing(self._clients.keys())
 
     def _welcome_back(
         self, client: Client, link: Link, address: Hashable, transport: Transport, now: float

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Hashable, Iterator
+from collections.abc import Callable, Hashable, Iterator, KeysView
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -148,6 +148,10 @@ class ClientTable:
 
     def __iter__(self) -> Iterator[Client]:
         return iter(list(self._by_key.values()))
+
+    def keys(self) -> KeysView[bytes]:
+        """Return the keys of all clients."""
+        return self._by_key.keys()
 
     def with_key(self, key: bytes) -> Client | None:
         """Return the client with a key, or None."""

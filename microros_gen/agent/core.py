@@ -141,6 +141,10 @@ class Agent:
         if client is not None:
             self._guarded(partial(self._admission.dismiss, client, "replaced by another at its address"))
 
+    def missing(self) -> frozenset[bytes]:
+        """Return the keys of the clients to adopt (see `Preconfigured`) that are not in session."""
+        return self._admission.missing()
+
     def client_states(self) -> tuple[ClientState, ...]:
         """Return the view of all clients, also of those that have left; empty unless the agent is `watched`."""
         return self._states.snapshot() if self._states is not None else ()

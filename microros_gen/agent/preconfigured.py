@@ -70,25 +70,34 @@ class Preconfigured:
                 _check_names(item, diagnostics)
         diagnostics.check()
         self._by_key = {c.key: tuple(_creation(item) for item in c.objects) for c in clients}
-        self._adopted = {c.key for c in clients if c.adopt and c.key is not None}
-
-    @property
-    def adopts(self) -> bool:
-        """Whether clients are adopted that have not opened their session with this agent."""
-        return bool(self._adopted)
+        self.adopted = frozenset(c.key for c in clients if c.adopt and c.key is not None)
+        """Keys of the clients that are adopted if they have not opened their session with this agent."""
+        self._only: frozenset[bytes] | None = None
 
     def objects(self, key: bytes) -> tuple[PreconfiguredCreation, ...]:
         """Return the objects of the client `key`, parents first."""
         found = self._by_key.get(key)
         return self._by_key.get(None, ()) if found is None else found
 
+    def adopt_only(self, keys: frozenset[bytes]) -> None:
+        """In a worker: adopt these (at most one) alone from messages without a key."""
+        self._only = keys
+
+    def never_adopt(self, key: bytes) -> None:
+        """Adopt a client no longer."""
+        self.adopted -= {key}
+
+    def missing(self, in_session: Iterable[bytes]) -> frozenset[bytes]:
+        """Return the keys of the clients to adopt without those that are in session."""
+        return self.adopted.difference(in_session) if self.adopted else self.adopted
+
     def to_adopt(self, key: bytes, writer: int | None, in_session: Iterable[bytes]) -> bytes | None:
         """Return the key of the client to adopt for a message without a session, or None.
 
         `key` is that of the message's header (may be empty), `writer` the object that it writes to (None: a HEARTBEAT).
         """
-        missing = self._adopted.difference(in_session)
-        candidates = missing & {key} if key else missing
+        missing = self.missing(in_session)
+        candidates = missing & {key} if key else missing if self._only is None else missing & self._only
         if len(candidates) != 1:
             return None
         (found,) = candidates

@@ -30,10 +30,6 @@ class TracedTransport(ObservedTransport):
         super().__init__(inner)
         self._log = log
 
-    def show_sent(self, data: bytes, address: Hashable) -> None:
-        """Write a message that is sent to an address in another way."""
-        self._observe(data, address, inbound=False)
-
     def _observe(self, data: bytes, address: Hashable, inbound: bool) -> None:
         peer = self._inner.name_of(address)
         head = {"way": "from" if inbound else "to", "peer": peer, "transport": self.label}

@@ -20,8 +20,8 @@ from microros_gen.agent.configuration.model import (
 from microros_gen.agent.fairness import Account
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.seal.keys import read_keys
+from microros_gen.agent.seal.layout import FIRST, LABEL, RECORD, Kind
 from microros_gen.agent.seal.noise import NAME
-from microros_gen.agent.seal.session import FIRST, LABEL, RECORD, Kind
 from microros_gen.agent.transport.base import Receive, SealedAddress, Transport
 from microros_gen.agent.transport.observed import ObservedTransport
 from microros_gen.agent.transport.outbox import SealedRecord

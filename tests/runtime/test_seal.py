@@ -16,18 +16,9 @@ from cryptography.hazmat.primitives.asymmetric.x25519 import X25519PrivateKey
 from noise.connection import NoiseConnection
 
 from microros_gen.agent.seal.handshakes import HANDSHAKES_PER_SECOND, UNCONFIRMED, Handshakes
+from microros_gen.agent.seal.layout import FIRST, LABEL, RECORD, REFUSAL, Kind, Reason
 from microros_gen.agent.seal.noise import NAME, HandshakeError, _State, respond
-from microros_gen.agent.seal.session import (
-    FIRST,
-    LABEL,
-    LAST_RECORD,
-    RECORD,
-    REFUSAL,
-    WINDOW,
-    Kind,
-    Reason,
-    RecordError,
-)
+from microros_gen.agent.seal.session import LAST_RECORD, WINDOW, RecordError
 from tests.support.paths import ROOT
 from tests.support.runtime.sealed import CLIENT_KEY, Device, build_device
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from microros_gen.agent.seal.handshakes import Handshakes
-from microros_gen.agent.seal.session import Kind
+from microros_gen.agent.seal.layout import Kind
 from tests.support.runtime.sealed import CLIENT_KEY, Device, build_device
 
 pytestmark = [pytest.mark.builds, pytest.mark.variant]

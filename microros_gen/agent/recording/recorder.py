@@ -2,7 +2,8 @@
 """Recorder: writes every message of an agent's clients, in both directions, to a pcapng file.
 
 Each packet is one write to the file, at its end, so a process that is killed leaves whole packets, and nothing waits in
-memory. What the file system does not take is lost and counted; the agent continues.
+memory. What the file system does not take is lost and counted; the agent continues. Workers of one agent write the same
+file in turn (`shared`), each packet with the time of its turn, so the packets are in the order of their times.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import fcntl
 import os
 import stat
 import time
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Sequence
 from functools import lru_cache
 from pathlib import Path
 
@@ -19,6 +20,7 @@ from microros_gen import __version__
 from microros_gen.agent.log import EventLog, Level, printable
 from microros_gen.agent.recording import packets, pcapng
 from microros_gen.agent.recording.packets import Datagram, Endpoint
+from microros_gen.agent.recording.shared import End, SharedEnd
 from microros_gen.agent.representation import References, describe
 from microros_gen.agent.representation.description import (
     Participant,
@@ -26,7 +28,7 @@ from microros_gen.agent.representation.description import (
     UnsupportedKindError,
 )
 from microros_gen.agent.representation.reference import UnknownReferenceError
-from microros_gen.agent.transport.base import SealedAddress, Transport
+from microros_gen.agent.transport.base import Transport, number_at
 from microros_gen.agent.transport.observed import ObservedTransport
 from microros_gen.agent.wire.constants import ObjectKind, SubmessageId
 from microros_gen.agent.wire.entity_messages import Create
@@ -35,6 +37,7 @@ from microros_gen.agent.wire.message import header_size, split
 from microros_gen.agent.wire.session_messages import CreateClient
 from microros_gen.agent.wire.submessages import decode
 from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.records import dataclass
 
 MOST_KEYS = 4_096
 """Maximum number of addresses whose client key is kept for comments."""
@@ -51,6 +54,21 @@ _DESCRIPTIONS = {
 }
 
 
+@dataclass(frozen=True)
+class SharedFile:
+    """What another process that writes the same file needs."""
+
+    path: Path
+    file: int
+    """Descriptor of the file."""
+    memory: int
+    """Descriptor of the memory that all of them share (`shared.SharedEnd`)."""
+    head: bytes
+    """First blocks of the file."""
+    labels: tuple[str, ...]
+    """Those of the transports, in the order of the interfaces in the file."""
+
+
 class Recorder:
     """A file that is being written; one writer at a time."""
 
@@ -63,15 +81,46 @@ class Recorder:
         self._log = log
         self._clock = clock
         self._file, self._is_new = _open(path)
-        self._size = 0
+        self._end = End()
         self._interfaces: dict[str, int] = {}
         self._head = pcapng.section(f"microros-gen {__version__}")
         self._keys: dict[str, str] = {}
         self._dropped = 0
-        self.written = 0
+        """Messages that were lost since the last one in the file."""
+        self._reported = False
+
+    def shared(self, labels: Sequence[str]) -> SharedFile:
+        """Let other processes write, too, all of them about the transports with these labels. Raises OSError."""
+        end = self._end = SharedEnd(0)
+        self._interfaces = {label: number for number, label in enumerate(labels)}
+        self._head += b"".join(map(_interface, labels))
+        return SharedFile(self._path, self._file, end.descriptor, self._head, tuple(labels))
+
+    @staticmethod
+    def of_shared(shared: SharedFile, writer: int, log: EventLog) -> Recorder:
+        """Return the recorder of another process, which has the descriptors; each has a number from 1."""
+        recorder = Recorder.__new__(Recorder)
+        recorder._path = shared.path
+        recorder._log = log
+        recorder._clock = time.time_ns
+        recorder._file, recorder._is_new = shared.file, False
+        recorder._end = SharedEnd(writer, shared.memory)
+        recorder._interfaces = {label: number for number, label in enumerate(shared.labels)}
+        recorder._head = shared.head
+        recorder._keys = {}
+        recorder._dropped = 0
+        recorder._reported = False
+        return recorder
+
+    @property
+    def written(self) -> int:
         """Number of messages in the file."""
-        self.lost = 0
+        return self._end.totals[0]
+
+    @property
+    def lost(self) -> int:
         """Number of messages that the file system did not take."""
+        return self._end.totals[1]
 
     def begin(self) -> None:
         """Replace what the file holds. Call it when nothing else can fail any more, and before the first `write`."""
@@ -88,51 +137,64 @@ class Recorder:
         """Append a message from (`inbound`) or to the client at an address of `transport`. Never raises."""
         label = transport.label
         name = transport.name_of(address)
-        agent, client = _places(label, name, _number(address))
+        agent, client = _places(label, name, number_at(address))
         new = label not in self._interfaces
         number = len(self._interfaces) if new else self._interfaces[label]
-        about = _DESCRIPTIONS.get(label.partition(" ")[0], "XRCE")
-        described = pcapng.interface(label, about) if new else b""
+        described = _interface(label) if new else b""
         datagram = Datagram(client, agent, message) if inbound else Datagram(agent, client, message)
-        block = pcapng.packet(
-            number,
-            self._clock(),
-            packets.encode(datagram),
-            pcapng.INBOUND if inbound else pcapng.OUTBOUND,
-            self._comment(message, name) if inbound else "",
-            self._dropped,
-        )
-        if self._append(described + block):
-            self._interfaces[label] = number
-            self._dropped = 0
-            self.written += 1
+        packet = packets.encode(datagram)
+        direction = pcapng.INBOUND if inbound else pcapng.OUTBOUND
+        comment = self._comment(message, name) if inbound else ""
+        is_written = False
+        if self._end.acquire():  # the time of what follows in the file is not earlier
+            try:
+                time_ns = self._clock()
+                block = pcapng.packet(number, time_ns, packet, direction, comment, self._dropped)
+                is_written = self._append(described + block)
+            finally:
+                self._end.release()
         else:
-            self._dropped += 1
-            self.lost += 1
+            self._report_lost("another process of the agent does not end its turn")
+        if is_written:
+            self._interfaces[label] = number
+        self._dropped = 0 if is_written else self._dropped + 1
+        self._end.count(is_written)
 
     def close(self) -> None:
-        """Close the file and log what it has."""
+        """Close the file and log what it has, of all processes."""
+        if self._end.is_cut:
+            os.ftruncate(self._file, self._end.size)
         os.close(self._file)
+        written, lost = self._end.totals
         text = "recorded {count} messages in {path}; {lost} lost"
-        self._log.emit(Level.INFO, "recorded", text, count=self.written, lost=self.lost, path=str(self._path))
+        self._log.emit(Level.INFO, "recorded", text, count=written, lost=lost, path=str(self._path))
 
     def _append(self, blocks: bytes) -> bool:
         """Write blocks at the end of the whole ones; return whether the file took them."""
-        data = self._head + blocks
+        end = self._end
+        data = blocks if end.size else self._head + blocks
         try:
-            taken = os.pwrite(self._file, data, self._size)
+            if end.is_cut:  # another process was killed while it wrote
+                os.ftruncate(self._file, end.size)
+            end.is_cut = True
+            taken = os.pwrite(self._file, data, end.size)
             if taken == len(data):
-                self._size += taken
-                self._head = b""
+                end.size += taken
+                end.is_cut = False
                 return True
             why = "only a part was written"
-            os.ftruncate(self._file, self._size)
+            os.ftruncate(self._file, end.size)
         except OSError as error:
             why = error.strerror or str(error)
-        if blocks and not self.lost:
+        if blocks:
+            self._report_lost(why)
+        return False
+
+    def _report_lost(self, why: str) -> None:
+        if not self._reported:
+            self._reported = True
             text = "recording: {path} takes no more ({why}): messages are missing in it, and counted"
             self._log.emit(Level.WARNING, "record_lost", text, path=str(self._path), why=why)
-        return False
 
     def _comment(self, message: bytes, name: str) -> str:
         """Return what a message says about its client: its key, or the name of its node; else nothing."""
@@ -206,11 +268,8 @@ def _refused(path: Path, why: str) -> Diagnostic:
     )
 
 
-def _number(address: Hashable) -> int:
-    """Return a client's address on a line, or its identifier on a bus; 0 for others."""
-    place = address.within if isinstance(address, SealedAddress) else address
-    number = place[1] if isinstance(place, tuple) and len(place) == 2 else 0
-    return number if isinstance(number, int) else 0
+def _interface(label: str) -> bytes:
+    return pcapng.interface(label, _DESCRIPTIONS.get(label.partition(" ")[0], "XRCE"))
 
 
 @lru_cache(maxsize=1024)

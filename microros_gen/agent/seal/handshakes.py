@@ -7,24 +7,16 @@ import secrets
 from collections.abc import Hashable, Mapping
 
 from microros_gen.agent.rates import Rate
+from microros_gen.agent.seal.layout import FIRST, LABEL, RECORD, REFUSAL, VERSION, Kind, Reason
 from microros_gen.agent.seal.noise import HandshakeError, respond
-from microros_gen.agent.seal.session import (
-    FIRST,
-    FIRST_BYTES,
-    LABEL,
-    RECORD,
-    REFUSAL,
-    VERSION,
-    Kind,
-    Reason,
-    RecordError,
-    Session,
-)
+from microros_gen.agent.seal.session import FIRST_BYTES, RecordError, Session
 
 HANDSHAKES_PER_SECOND = 100
 """Handshakes of all clients that are answered, on average: each takes the agent some 0.3 ms."""
 UNCONFIRMED = 4
 """Sessions of a client without a record yet: anyone who sees a first message can send it again."""
+INDICES = range(1 << 32)
+"""Those of sessions; a worker has the ones that show that they are its own (`layout.worker_of`)."""
 Peer = Hashable
 
 
@@ -35,9 +27,10 @@ class Handshakes:
     first message that is sent again ends no session.
     """
 
-    def __init__(self, keys: Mapping[int, bytes]) -> None:
-        """Use the pre-shared key (32 bytes) of each client key."""
+    def __init__(self, keys: Mapping[int, bytes], indices: range = INDICES) -> None:
+        """Use the pre-shared key (32 bytes) of each client key, and an index of `indices` for each session."""
         self._keys = keys
+        self._indices = indices
         self._rate = Rate(HANDSHAKES_PER_SECOND)
         self._current: dict[int, tuple[Session, Peer]] = {}
         self._unconfirmed: dict[int, list[tuple[Session, Peer]]] = {}
@@ -111,7 +104,7 @@ class Handshakes:
 
     def _new_index(self) -> int:
         while True:
-            index = secrets.randbits(32)
+            index = secrets.choice(self._indices)
             if index not in self._by_index:
                 return index
 

@@ -1,30 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Messages of sealed links: their layouts, the records of one session, and its replay window.
-
-All numbers are little endian. Each of them begins with its type, the version 1 and two zero bytes:
-
-- first message of a handshake: index of the client (4 bytes), client key (4), then 48 bytes of Noise;
-- second message: index of the agent (4), index of the client (4), then 48 bytes of Noise;
-- record: index of the receiver (4), counter (8), then the sealed message and its tag (16);
-- refusal: index of the client (4), and the reason in place of the first zero byte.
-"""
+"""The records of one session of a sealed link, and its replay window."""
 
 from __future__ import annotations
 
 import struct
-from enum import IntEnum
 
 from cryptography.exceptions import InvalidTag
 from cryptography.hazmat.primitives.ciphers.aead import ChaCha20Poly1305
 
+from microros_gen.agent.seal.layout import FIRST, RECORD, VERSION, Kind
 from microros_gen.agent.seal.noise import MESSAGE_BYTES, TAG_BYTES, SessionKeys
 
-VERSION = 1
-LABEL = b"microros-gen seal"
-"""First part of the prologue; the second one is what precedes Noise in the first message."""
-FIRST = struct.Struct("<BBHII")
-RECORD = struct.Struct("<BBHIQ")
-REFUSAL = struct.Struct("<BBBBI")
 FIRST_BYTES = FIRST.size + MESSAGE_BYTES
 OVERHEAD_BYTES = RECORD.size + TAG_BYTES
 """Bytes of a record around its message."""
@@ -32,23 +18,6 @@ LAST_RECORD = 0xFFFF_0000
 """Number of records in one direction after which a session ends."""
 WINDOW = 64
 """Counters below the highest one that are still accepted."""
-
-
-class Kind(IntEnum):
-    """First byte of a message of a sealed link."""
-
-    FIRST = 1
-    SECOND = 2
-    RECORD = 3
-    REFUSAL = 4
-
-
-class Reason(IntEnum):
-    """Why a handshake is refused."""
-
-    UNKNOWN_KEY = 1
-    OTHER_KEY = 2
-    OTHER_VERSION = 3
 
 
 class RecordError(ValueError):

@@ -22,6 +22,27 @@ class SealedAddress(NamedTuple):
     client_key: int
 
 
+class RemoteAddress(NamedTuple):
+    """An address at a transport of another process of the agent."""
+
+    transport: str
+    """Its label."""
+    number: int
+    name: str
+    origin: str
+    place: int
+    """What `number_at` is for it there."""
+
+
+def number_at(address: Hashable) -> int:
+    """Return a client's address on a line, or its identifier on a bus; 0 for others."""
+    place = address.within if isinstance(address, SealedAddress) else address
+    if isinstance(place, RemoteAddress):
+        return place.place
+    number = place[1] if isinstance(place, tuple) and len(place) == 2 else 0
+    return number if isinstance(number, int) else 0
+
+
 class Transport(Protocol):
     """A transport. Its addresses are hashable and differ from those of other transports."""
 

@@ -30,6 +30,12 @@ class ObservedTransport(ABC):
     def _observe(self, data: bytes, address: Hashable, inbound: bool) -> None:
         """See a message before it is received from (`inbound`) or sent to the client at an address."""
 
+    def show_sent(self, data: bytes, address: Hashable) -> None:
+        """See a message that is sent to an address in another way."""
+        self._observe(data, address, inbound=False)
+        if isinstance(self._inner, ObservedTransport):
+            self._inner.show_sent(data, address)
+
     @property
     def ready(self) -> bool:
         """See Transport."""

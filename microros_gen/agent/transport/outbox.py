@@ -28,6 +28,12 @@ class SealedRecord(bytes):
     is_sample = False
 
 
+class SealedSample(SealedRecord):
+    """One with a best-effort sample in it."""
+
+    is_sample = True
+
+
 class Refusal(bytes):
     """A message to somebody whose message was not accepted: it is no sign that the sender is a client."""
 

@@ -12,11 +12,12 @@ from collections.abc import Callable, Hashable, Mapping
 
 from microros_gen.agent.fairness import Account
 from microros_gen.agent.log import EventLog
-from microros_gen.agent.seal.handshakes import Handshakes
-from microros_gen.agent.seal.session import Kind, RecordError
+from microros_gen.agent.seal.handshakes import INDICES, Handshakes
+from microros_gen.agent.seal.layout import Kind
+from microros_gen.agent.seal.session import RecordError
 from microros_gen.agent.transport.base import Origin, Receive, SealedAddress, Transport
 from microros_gen.agent.transport.observed import ObservedTransport
-from microros_gen.agent.transport.outbox import Refusal, SealedRecord, is_sample
+from microros_gen.agent.transport.outbox import Refusal, SealedRecord, SealedSample, is_sample
 from microros_gen.agent.wire.constants import STREAM_NONE, Status, SubmessageId
 from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.message import Header, header_size, split
@@ -34,14 +35,17 @@ class SealedTransport(ObservedTransport):
         log: EventLog,
         clock: Callable[[], float] = time.monotonic,
         strangers: Account | None = None,
+        indices: range = INDICES,
     ) -> None:
         """Wrap `inner`; `keys` has the pre-shared key of each client key. `clock`: seconds, monotonic.
+
+        `indices`: those that its sessions may have.
 
         The account `strangers`, which is the agent's, is charged for handshakes and for what is refused.
         """
         super().__init__(inner)
         self.forgeable = False  # who sends a record has received the second message of a handshake
-        self._handshakes = Handshakes(keys)
+        self._handshakes = Handshakes(keys, indices)
         self._log = log
         self._clock = clock
         self._strangers = strangers or Account()
@@ -81,9 +85,7 @@ class SealedTransport(ObservedTransport):
         within, client_key = _parts(address)
         record = self._handshakes.seal(data, client_key, within)
         if record is not None:
-            sealed = SealedRecord(record)
-            sealed.is_sample = is_sample(data)
-            self._inner.send(sealed, within)
+            self._inner.send(SealedSample(record) if is_sample(data) else SealedRecord(record), within)
 
     def _name_of(self, address: Hashable) -> str:
         return self._inner.name_of(_within(address))

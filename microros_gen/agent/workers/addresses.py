@@ -2,15 +2,15 @@
 """Addresses of clients as bytes, which the front and its workers exchange.
 
 Over UDP the code of an address is the socket address, with which a worker sends by itself. Elsewhere it is a number
-that the front gave to the address, its name in the log, and its origin for the policy.
+that the front gave to the address, its name in the log, its origin for the policy, and its number on a line or bus.
 """
 
 from __future__ import annotations
 
 from collections.abc import Hashable
-from typing import Any, NamedTuple
+from typing import Any
 
-from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.transport.base import RemoteAddress, Transport, number_at
 from microros_gen.agent.transport.udp import Udp
 
 KNOWN = 16_384
@@ -18,16 +18,6 @@ KNOWN = 16_384
 SHARE_BYTES = 512 << 10
 """Maximum bytes from one address that wait for a worker, while more than `FREE_BYTES` wait for it."""
 FREE_BYTES = 64 << 10
-
-
-class RemoteAddress(NamedTuple):
-    """An address at a transport of the front."""
-
-    transport: str
-    """Its label."""
-    number: int
-    name: str
-    origin: str
 
 
 class Known:
@@ -72,7 +62,8 @@ class AddressBook:
         if found is None:
             self._next += 1
             name, origin = self._transport.name_of(address), str(self._transport.origin(address))
-            found = Known(_joined(str(self._next), name, origin), address)
+            place = str(number_at(address))
+            found = Known(_joined(str(self._next), name, origin, place), address)
             self._by_code[found.code] = found
             if len(self._known) >= KNOWN:
                 oldest = next(iter(self._known))
@@ -107,13 +98,13 @@ def udp_peer(code: bytes) -> Any:
 
 def remote_address(label: str, code: bytes) -> RemoteAddress:
     """Return the address with a code at the transport that has this label."""
-    number, name, origin = _parts(code)
-    return RemoteAddress(label, int(number), name, origin)
+    number, name, origin, place = _parts(code)
+    return RemoteAddress(label, int(number), name, origin, int(place))
 
 
 def remote_code(address: RemoteAddress) -> bytes:
     """Return the code of such an address."""
-    return _joined(str(address.number), address.name, address.origin)
+    return _joined(str(address.number), address.name, address.origin, str(address.place))
 
 
 def _joined(*parts: str) -> bytes:

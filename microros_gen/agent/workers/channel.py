@@ -54,6 +54,18 @@ class Kind(IntEnum):
     """To a worker: end."""
     NEWCOMER = 14
     """From a worker: the answer to a CREATE_CLIENT; no other worker may have a client at this address by then."""
+    SEALED = 15
+    """From a worker: a sealed message to a client."""
+    SEALED_SAMPLE = 16
+    """The same, with a best-effort sample in it."""
+    REFUSAL = 17
+    """From a worker: a message to somebody whose message was not accepted."""
+    KEYS = 18
+    """To a worker: the pre-shared keys (pickled) that are in force now."""
+    MISSING = 19
+    """From a worker: the keys (4 bytes each) of its clients to adopt that are not in session."""
+    ADOPT = 20
+    """To a worker: the key of its client to adopt that is the only one of all workers; empty: none is."""
 
 
 class Channel:

@@ -18,9 +18,11 @@ from microros_gen.agent.limits import Limits
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.states import ClientState
 from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.transport.outbox import Refusal, SealedRecord, SealedSample
 from microros_gen.agent.transport.tcp import Connection, Tcp
 from microros_gen.agent.transport.udp import Udp
 from microros_gen.agent.workers.addresses import AddressBook
+from microros_gen.agent.workers.adoption import Adoption
 from microros_gen.agent.workers.channel import WAITING_BYTES, Kind, message_frame, message_of
 from microros_gen.agent.workers.report import Report, Totals
 from microros_gen.agent.workers.routing import Place, Router
@@ -36,6 +38,13 @@ MOST_ROUNDS = 64
 """Reads of a UDP socket until a new client is read by its worker: each takes up to 64 datagrams."""
 LATE_S = 5.0
 """Seconds that workers have to end beyond the time that they give to readers."""
+_FORMS: dict[Kind, Callable[[bytes], bytes]] = {
+    Kind.MESSAGE: bytes,
+    Kind.SEALED: SealedRecord,
+    Kind.SEALED_SAMPLE: SealedSample,
+    Kind.REFUSAL: Refusal,
+}
+"""Messages to clients, as their transports distinguish them."""
 
 
 class Front:
@@ -48,8 +57,13 @@ class Front:
         log: EventLog,
         limits: Limits,
         clock: Callable[[], float] = time.monotonic,
+        is_sealed: bool = False,
+        adopted: frozenset[bytes] = frozenset(),
     ) -> None:
-        """`transports`: in the order in which workers number them. `limits`: those of each worker."""
+        """`transports`: in the order in which workers number them. `limits`: those of each worker.
+
+        `is_sealed`: messages of clients are sealed. `adopted`: keys of the clients to adopt.
+        """
         self.workers = workers
         self._log = log
         self._clock = clock
@@ -57,13 +71,14 @@ class Front:
         self._transports = tuple(transports)
         self._numbers = {id(transport): number for number, transport in enumerate(transports)}
         self._books = tuple(AddressBook(transport) for transport in transports)
-        self._router = Router(len(workers))
+        self._router = Router(len(workers), is_sealed)
+        self._adoption = Adoption(workers, adopted)
         self._epoll = select.epoll()
         self._by_descriptor: dict[int, WorkerProcess] = {}
         self._before = Totals()
         """The counts of workers that have ended."""
-        self._welcomes: dict[Place, bytes] = {}
-        """Answers to newcomers that wait until another worker has removed its client at that address."""
+        self._welcomes: dict[Place, tuple[int, bytes]] = {}
+        """Answers to newcomers, and their worker, until another one has removed its client at that address."""
         self._views = Views(workers, limits, clock)
         self._views.on_complete = self._viewed
         self._ask_at = self._sweep_at = clock()
@@ -121,7 +136,7 @@ class Front:
         """Pass a message on. Never raises."""
         number = self._numbers[id(transport)]
         known = self._books[number].known(address)
-        worker = self.workers[self._router.worker_for(data, (number, known.code))]
+        worker = self.workers[self._router.worker_for(data, (number, known.code), self._adoption.worker)]
         channel = worker.channel
         if channel is None or not worker.ready:
             text = "a message from {peer} is lost: worker {worker} does not run"
@@ -212,11 +227,11 @@ class Front:
                 raise UserError([_not_started(number, "", hint)])
         self._has_started = True
 
-    def reload(self, content: bytes) -> None:
-        """Let all workers that run replace their policy by `content`. Others get it by their `start_data`."""
+    def tell(self, kind: Kind, content: bytes) -> None:
+        """Send all workers that run what is in force now. Others get it by their `start_data`."""
         for worker in self.workers:
             if worker.channel is not None:
-                worker.channel.send(Kind.RELOAD, content)
+                worker.channel.send(kind, content)
 
     def has_new_view(self) -> bool:
         """Ask for a view of the clients with the first call, and return whether it is there; then begin again."""
@@ -270,9 +285,12 @@ class Front:
         if was_ready and not self._ends:
             text = "worker {worker} ended ({how}) and is started again; its clients must open new sessions"
             self._log.emit(Level.ERROR, "worker_ended", text, worker=number, how=how)
+        for place in [place for place, (of, _) in self._welcomes.items() if of == number - 1]:
+            del self._welcomes[place]  # its client asks the next process
         for place in self._router.forget(number - 1):
             self._hang_up(*place)
             self._welcome(place)
+        self._adoption.ended(worker)
         self._views.ended(number, report, keeps=not self._ends)
 
     def _hang_up(self, number: int, code: bytes) -> None:
@@ -281,11 +299,12 @@ class Front:
             transport.drop(address, "its worker ended")
 
     def _do(self, worker: WorkerProcess, kind: Kind, content: bytes) -> None:
-        if kind is Kind.MESSAGE:
+        form = _FORMS.get(kind)
+        if form is not None:
             number, code, data = message_of(content)
             address = self._books[number].address(code)
             if address is not None:
-                self._transports[number].send(data, address)
+                self._transports[number].send(form(data), address)
         elif kind is Kind.BACK:
             self._again(content)
         elif kind in (Kind.CLAIMED, Kind.RELEASED):
@@ -294,6 +313,8 @@ class Front:
             self._make_way(worker, content)
         elif kind is Kind.STATUS:
             self._views.answered(worker, Report.decode(content))
+        elif kind is Kind.MISSING:
+            self._adoption.reported(worker, content)
         elif kind is Kind.TYPE:
             self.on_type(content.decode())
         elif kind is Kind.FAILED:
@@ -349,7 +370,7 @@ class Front:
         number, code, data = message_of(content)
         place: Place = (number, code)
         before = self._router.other_at(place, worker.number - 1)
-        self._welcomes[place] = data
+        self._welcomes[place] = worker.number - 1, data
         other = self.workers[before].channel if before is not None else None
         if other is None:
             self._welcome(place)
@@ -357,11 +378,15 @@ class Front:
             other.send(Kind.LEFT, message_frame(number, code))
 
     def _welcome(self, place: Place) -> None:
-        """Send the answer that waits for a newcomer, if any."""
-        data = self._welcomes.pop(place, None)
+        """Send the answer that waits for a newcomer, if any; what comes from there then is for its worker."""
+        found = self._welcomes.pop(place, None)
+        if found is None:
+            return
+        worker, data = found
         number, code = place
-        address = self._books[number].address(code) if data is not None else None
-        if data is not None and address is not None:
+        self._router.admit(place, worker, data[0])
+        address = self._books[number].address(code)
+        if address is not None:
             self._transports[number].send(data, address)
 
 

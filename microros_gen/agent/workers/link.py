@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import pickle
 import time
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import replace
 
 from microros_gen.agent.core import Agent
@@ -44,6 +44,12 @@ class FrontLink:
         self._clock = clock
         self.stop: Callable[[], object] = _nothing
         """Called when the worker is to end."""
+        self.on_keys: Callable[[Mapping[int, bytes]], object] = _ignore
+        """Called with the pre-shared keys that are in force."""
+        self.on_adopt: Callable[[frozenset[bytes]], object] = _ignore
+        """Called with the keys (at most one) of which a client without a key in its messages may be adopted."""
+        self._missing: frozenset[bytes] | None = None
+        """What was reported of it."""
         self.label = "front"
         self.ready = True
         self.forgeable = False
@@ -70,6 +76,10 @@ class FrontLink:
                 self.report(states=bool(content))
             elif kind is Kind.RELOAD:
                 self._agent.apply_policy(pickle.loads(content))
+            elif kind is Kind.KEYS:
+                self.on_keys(pickle.loads(content))
+            elif kind is Kind.ADOPT:
+                self.on_adopt(frozenset({content} - {b""}))
             elif kind is Kind.STOP:
                 self.stop()
         for number in reached:
@@ -92,7 +102,11 @@ class FrontLink:
             own.direct(code)
 
     def tick(self, now: float) -> None:
-        """See Transport."""
+        """See Transport; report which clients to adopt are missing, if this has changed."""
+        missing = self._agent.missing()
+        if missing != self._missing:
+            self._missing = missing
+            self._channel.send(Kind.MISSING, b"".join(sorted(missing)))
 
     def claim(self, address: Hashable, account: Account) -> None:
         """See Transport."""
@@ -124,4 +138,8 @@ class FrontLink:
 
 
 def _nothing() -> None:
+    """Do nothing; the default."""
+
+
+def _ignore(_value: object) -> None:
     """Do nothing; the default."""

@@ -12,12 +12,11 @@ from functools import lru_cache
 from microros_gen.agent.fairness import Account
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.transport.addresses import parse_address
-from microros_gen.agent.transport.base import Origin, Receive
-from microros_gen.agent.transport.outbox import is_sample
+from microros_gen.agent.transport.base import Origin, Receive, RemoteAddress
+from microros_gen.agent.transport.outbox import Refusal, SealedRecord, SealedSample, is_sample
 from microros_gen.agent.transport.sockets import PROTOCOLS, open_connected
 from microros_gen.agent.transport.udp import BATCH, MAXIMUM_DATAGRAM, Peer, Queue, Udp
 from microros_gen.agent.workers.addresses import (
-    RemoteAddress,
     remote_address,
     remote_code,
     udp_code,
@@ -80,7 +79,7 @@ class RemoteTransport:
             text = "{transport}: a message to {peer} is lost: more are sent than the agent passes on"
             self._log.count("front_full", text, transport=self.label, peer=self.name_of(address))
             return
-        self._channel.send(Kind.MESSAGE, message_frame(self._number, _code(address), data))
+        self._channel.send(_kind(data), message_frame(self._number, _code(address), data))
 
     def flush(self) -> None:
         """See Transport."""
@@ -227,6 +226,13 @@ class WorkerUdp(Udp):
 def _code(address: Hashable) -> bytes:
     assert isinstance(address, RemoteAddress)
     return remote_code(address)
+
+
+def _kind(data: bytes) -> Kind:
+    """Return the kind of frame that has a message to a client."""
+    if isinstance(data, SealedRecord):
+        return Kind.SEALED_SAMPLE if isinstance(data, SealedSample) else Kind.SEALED
+    return Kind.REFUSAL if isinstance(data, Refusal) else Kind.MESSAGE
 
 
 def _never(_data: bytes, _address: Hashable) -> bool:

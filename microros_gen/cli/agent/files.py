@@ -64,8 +64,8 @@ def read_files(options: AgentOptions) -> AgentFiles:
 
 
 def without_types(files: AgentFiles) -> AgentFiles:
-    """Return the part of `files` that can be given to another process: all but the types and the keys."""
-    return replace(files, hashes=TypeHashes(_no_hash, files.clients.common), keys=None)
+    """Return the part of `files` that can be given to another process: all but the types."""
+    return replace(files, hashes=TypeHashes(_no_hash, files.clients.common))
 
 
 def with_types(files: AgentFiles, options: AgentOptions) -> AgentFiles:

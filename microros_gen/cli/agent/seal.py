@@ -48,25 +48,14 @@ class PskFile:
         self._options = options
         self._keys = keys
         self._log = log
-        self._transports: list[SealedTransport] = []
+        if keys is not None:
+            self._report(len(keys))
 
-    def sealed(self, transports: Sequence[Transport], strangers: Account) -> list[Transport]:
-        """Return the transports, sealed where there are keys; the account `strangers` pays for what is refused."""
-        if self._keys is None:
-            return list(transports)
-        from microros_gen.agent.transport.sealed import SealedTransport  # needs cryptography
+    def reloading(self, use: Callable[[Mapping[int, bytes]], object]) -> Callable[[], None] | None:
+        """Return the function that reads the file again and gives it to `use`; None without a file."""
+        return partial(self._reload, use) if self._keys is not None else None
 
-        self._report(len(self._keys))
-        self._transports = [
-            SealedTransport(transport, self._keys, self._log, strangers=strangers) for transport in transports
-        ]
-        return list(self._transports)
-
-    def reloading(self, agent: Agent) -> Callable[[], None] | None:
-        """Return the function that reads the file again and applies it; None without a file."""
-        return partial(self._reload, agent) if self._keys is not None else None
-
-    def _reload(self, agent: Agent) -> None:
+    def _reload(self, use: Callable[[Mapping[int, bytes]], object]) -> None:
         diagnostics = Diagnostics()
         keys = read_psk_file(self._options, diagnostics)
         for diagnostic in diagnostics:
@@ -75,15 +64,48 @@ class PskFile:
             text = "the new file of keys has faults; the keys before it stay in force"
             self._log.emit(Level.WARNING, "seal_kept", text)
             return
-        before, self._keys = self._keys or {}, keys
-        ended = {client for client, key in before.items() if keys.get(client) != key}
-        # They are told so while that can still be sealed.
-        agent.end_sessions(ended, "disconnected: its key was removed or changed")
-        for transport in self._transports:
-            transport.use_keys(keys)
+        use(keys)
         self._report(len(keys))
 
     def _report(self, clients: int) -> None:
         self._log.emit(
             Level.INFO, "sealed", "sealed: keys of {clients} clients; others are refused", clients=clients
         )
+
+
+class Seals:
+    """The sealed transports of an agent, or of one of its workers."""
+
+    def __init__(self, keys: Mapping[int, bytes] | None, log: EventLog) -> None:
+        """Begin with `keys`; None: nothing is sealed."""
+        self._keys = keys
+        self._log = log
+        self._transports: list[SealedTransport] = []
+
+    def sealed(
+        self, transports: Sequence[Transport], strangers: Account, indices: range | None = None
+    ) -> list[Transport]:
+        """Return the transports, sealed where there are keys; the account `strangers` pays for what is refused.
+
+        `indices`: those that sessions may have; None: all.
+        """
+        if self._keys is None:
+            return list(transports)
+        from microros_gen.agent.seal.handshakes import INDICES
+        from microros_gen.agent.transport.sealed import SealedTransport  # needs cryptography
+
+        allowed = INDICES if indices is None else indices
+        self._transports = [
+            SealedTransport(transport, self._keys, self._log, strangers=strangers, indices=allowed)
+            for transport in transports
+        ]
+        return list(self._transports)
+
+    def use(self, agent: Agent, keys: Mapping[int, bytes]) -> None:
+        """Replace the keys; sessions of a client whose key is another one now, or is missing, end."""
+        before, self._keys = self._keys or {}, keys
+        ended = {client for client, key in before.items() if keys.get(client) != key}
+        # They are told so while that can still be sealed.
+        agent.end_sessions(ended, "disconnected: its key was removed or changed")
+        for transport in self._transports:
+            transport.use_keys(keys)

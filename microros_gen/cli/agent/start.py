@@ -6,7 +6,6 @@ from __future__ import annotations
 import gc
 import sys
 import time
-from dataclasses import replace
 from functools import partial
 
 import click
@@ -17,7 +16,7 @@ from microros_gen.agent.input_pool import InputPool
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.own_time import Waited
 from microros_gen.agent.readiness import notify, watchdog
-from microros_gen.agent.recording.recorder import RecordedTransport, Recorder
+from microros_gen.agent.recording.recorder import RecordedTransport
 from microros_gen.agent.ros.rclpy_bridge import open_bridge
 from microros_gen.agent.ros.reports import graph_reporter
 from microros_gen.agent.server import Server, reloaded_by_signal, stopped_by_signals
@@ -31,9 +30,10 @@ from microros_gen.cli.agent.monitoring import checked_places, monitoring
 from microros_gen.cli.agent.options import AgentOptions
 from microros_gen.cli.agent.parameters import ParametersOnDemand
 from microros_gen.cli.agent.policy import reloading, report_policy
-from microros_gen.cli.agent.seal import PskFile
+from microros_gen.cli.agent.recording import open_recorder
+from microros_gen.cli.agent.seal import PskFile, Seals
 from microros_gen.cli.agent.transports import Shared, close_all, connections, open_transports
-from microros_gen.cli.agent.workers import check_workers, serve_with_workers
+from microros_gen.cli.agent.workers import serve_with_workers
 from microros_gen.cli.terminal import echo_found
 from microros_gen.diagnostics import Diagnostic, UserError
 
@@ -45,7 +45,6 @@ def serve(options: AgentOptions) -> None:
     for diagnostic in files.warnings:
         echo_found(f"{diagnostic.render()}\n")
     checked_places(options)
-    check_workers(options, files)
     if options.check:
         click.echo("no faults")
         return
@@ -74,12 +73,12 @@ def _serve_alone(options: AgentOptions, files: AgentFiles, log: EventLog) -> Non
     try:
         report, wait_s = graph_reporter(log), limits.request_wait_s
         bridge = open_bridge(limits.domains, options.domain, files.hashes, report, wait_s, parameters.on_type)
-        recorder = _recorder(options, log)
+        recorder = open_recorder(options, log)
     except UserError:
         close_all(transports)
         raise
-    psk_file = PskFile(options, files.keys, log)
-    transports = psk_file.sealed(transports, shared.strangers)
+    psk_file, seals = PskFile(options, files.keys, log), Seals(files.keys, log)
+    transports = seals.sealed(transports, shared.strangers)
     if recorder is not None:
         transports = [RecordedTransport(transport, recorder) for transport in transports]
     agent = make_agent(options, files, bridge, log, shared, budgets)
@@ -98,7 +97,9 @@ def _serve_alone(options: AgentOptions, files: AgentFiles, log: EventLog) -> Non
             client_state_node(options, limits, agent, log),
             monitoring(options, agent, transports, log),
             parameters.running(),
-            reloaded_by_signal(server, (reloading(options, agent, log), psk_file.reloading(agent))),
+            reloaded_by_signal(
+                server, (reloading(options, agent, log), psk_file.reloading(partial(seals.use, agent)))
+            ),
             stopped_by_signals(server),
         ):
             if recorder is not None:
@@ -113,17 +114,6 @@ def _serve_alone(options: AgentOptions, files: AgentFiles, log: EventLog) -> Non
         raise
     if recorder is not None:
         recorder.close()
-
-
-def _recorder(options: AgentOptions, log: EventLog) -> Recorder | None:
-    """Return the recorder that the options ask for; UserError if it cannot write."""
-    if options.record is None:
-        return None
-    try:
-        return Recorder(options.record, log)
-    except UserError as error:
-        span = options.places.get(options.record)
-        raise UserError([replace(d, span=d.span or span) for d in error.diagnostics]) from error
 
 
 def _check_system() -> None:

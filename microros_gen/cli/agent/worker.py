@@ -10,6 +10,7 @@ import socket
 import sys
 import time
 from collections.abc import Callable, Hashable, Sequence
+from functools import partial
 
 from microros_gen.agent.budgets import Budgets
 from microros_gen.agent.core import Agent
@@ -18,11 +19,14 @@ from microros_gen.agent.input_pool import InputPool
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.newcomers import Answer
 from microros_gen.agent.own_time import Waited
+from microros_gen.agent.recording.recorder import RecordedTransport, Recorder, SharedFile
 from microros_gen.agent.ros.rclpy_bridge import open_bridge
 from microros_gen.agent.ros.reports import graph_reporter
+from microros_gen.agent.seal.layout import worker_of
 from microros_gen.agent.server import Server
 from microros_gen.agent.trace import TracedTransport
 from microros_gen.agent.transport.base import Transport
+from microros_gen.agent.transport.observed import ObservedTransport
 from microros_gen.agent.wire.constants import SESSION_NONE_WITHOUT_KEY
 from microros_gen.agent.workers.addresses import udp_code
 from microros_gen.agent.workers.channel import Channel, Kind, message_frame
@@ -33,6 +37,7 @@ from microros_gen.cli.agent.assembly import make_agent
 from microros_gen.cli.agent.files import AgentFiles, with_types
 from microros_gen.cli.agent.options import AgentOptions
 from microros_gen.cli.agent.parameters import NOTICE
+from microros_gen.cli.agent.seal import Seals
 from microros_gen.cli.agent.transports import Shared
 from microros_gen.diagnostics import UserError
 from microros_gen.records import dataclass
@@ -47,6 +52,8 @@ class WorkerStart:
     files: AgentFiles
     """Without types; the policy is the one in force."""
     transports: tuple[FrontTransport, ...]
+    recording: SharedFile | None = None
+    """The file that all processes of the agent write, if any."""
 
 
 FINISH_S = 2.0
@@ -84,6 +91,7 @@ def _serve(start: WorkerStart, channel: Channel) -> None:
         if name == NOTICE:
             channel.send(Kind.TYPE, name.encode())
 
+    files.preconfigured.adopt_only(frozenset())  # until the front says otherwise
     bridge = open_bridge(
         limits.domains, options.domain, files.hashes, graph_reporter(log), limits.request_wait_s, on_type
     )
@@ -94,16 +102,24 @@ def _serve(start: WorkerStart, channel: Channel) -> None:
         else RemoteTransport(number, front, channel, log)
         for number, front in enumerate(start.transports)
     ]
+    place = start.number - 1
+    outside = _outside(agent) if files.keys is None else _of_other(place, options.workers)
     for transport in own:
         if isinstance(transport, WorkerUdp):
-            transport.outside = _outside(agent)
+            transport.outside = outside
     agent.welcome(_welcoming(channel, own))
-    transports: list[Transport] = list(own)
+    seals = Seals(files.keys, log)
+    transports = seals.sealed(own, shared.strangers, range(place, 1 << 32, options.workers))
+    if start.recording is not None:
+        recorder = Recorder.of_shared(start.recording, start.number, log)
+        transports = [RecordedTransport(transport, recorder) for transport in transports]
     if options.verbose > 0:
-        transports = [TracedTransport(transport, log) for transport in own]
+        transports = [TracedTransport(transport, log) for transport in transports]
     link = FrontLink(channel, start.number, agent, own, transports, log)
     server = Server(agent, [link, *transports], log)
     link.stop = server.stop
+    link.on_keys = partial(seals.use, agent)
+    link.on_adopt = files.preconfigured.adopt_only
     gc.collect()
     gc.freeze()
     channel.send(Kind.READY)
@@ -124,6 +140,15 @@ def _outside(agent: Agent) -> Callable[[bytes, Hashable], bool]:
     return outside
 
 
+def _of_other(place: int, workers: int) -> Callable[[bytes, Hashable], bool]:
+    """Return what says whether a sealed message is for another worker than that at `place` (from 0)."""
+
+    def outside(data: bytes, _address: Hashable) -> bool:
+        return worker_of(data, workers) not in (None, place)
+
+    return outside
+
+
 def _welcoming(channel: Channel, own: Sequence[WorkerUdp | RemoteTransport]) -> Answer:
     """Return what lets the front answer newcomers over UDP, after another worker has removed its client there."""
     numbers = {
@@ -135,7 +160,7 @@ def _welcoming(channel: Channel, own: Sequence[WorkerUdp | RemoteTransport]) -> 
         if number is None:
             transport.send(data, address)
             return
-        if isinstance(transport, TracedTransport):
+        if isinstance(transport, ObservedTransport):
             transport.show_sent(data, address)
         channel.send(Kind.NEWCOMER, message_frame(number, udp_code(address[1]), data))  # type: ignore[index]
 

@@ -7,7 +7,7 @@ import gc
 import pickle
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from microros_gen.agent.budgets import Budgets
@@ -19,6 +19,7 @@ from microros_gen.agent.readiness import notify, watchdog
 from microros_gen.agent.server import Server, reloaded_by_signal, stopped_by_signals
 from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.transport.udp import Udp
+from microros_gen.agent.workers.channel import Kind
 from microros_gen.agent.workers.front import Front
 from microros_gen.agent.workers.front_transport import FrontTransport
 from microros_gen.agent.workers.worker_process import START_S, WorkerProcess
@@ -29,32 +30,16 @@ from microros_gen.cli.agent.graph import graph_server
 from microros_gen.cli.agent.monitoring import monitoring
 from microros_gen.cli.agent.options import AgentOptions
 from microros_gen.cli.agent.parameters import ParametersOnDemand
-from microros_gen.cli.agent.policy import reloading
+from microros_gen.cli.agent.policy import reloading, report_policy
+from microros_gen.cli.agent.recording import open_recorder
+from microros_gen.cli.agent.seal import PskFile
 from microros_gen.cli.agent.transports import Shared, close_all, connections, open_transports
 from microros_gen.cli.agent.worker import WorkerStart
-from microros_gen.diagnostics import Diagnostics, UserError
+from microros_gen.diagnostics import UserError
 
 
-def check_workers(options: AgentOptions, files: AgentFiles) -> None:
-    """Raise UserError for options that several workers do not have."""
-    if options.workers == 1:
-        return
-    diagnostics = Diagnostics()
-    adopts = "`adopt: true` in --entities" if files.preconfigured.adopts else ""
-    for named, path in (
-        ("--psk-file", options.psk_file),
-        ("--record", options.record),
-        (adopts, options.entities),
-    ):
-        if named and path:
-            message = f"{named} needs an agent of one process, and --workers is {options.workers}"
-            span = options.places.get(path) if not isinstance(path, tuple) else None
-            diagnostics.error(message, span, f"Use --workers 1, or leave out {named}", id="MG-9840")
-    diagnostics.check()
-
-
-class _Policies:
-    """Keeps the policy in force for workers that start again, and gives it to those that run."""
+class _InForce:
+    """Keeps the policy and the keys in force for workers that start again, and gives them to those that run."""
 
     def __init__(self, front: Front, starts: Sequence[WorkerStart]) -> None:
         self._front = front
@@ -62,9 +47,18 @@ class _Policies:
 
     def apply_policy(self, policy: Policy | None) -> None:
         """Replace the policy."""
+        self._keep(lambda files: replace(files, policy=policy))
+        self._front.tell(Kind.RELOAD, pickle.dumps(policy))
+
+    def use_keys(self, keys: Mapping[int, bytes]) -> None:
+        """Replace the pre-shared keys."""
+        self._keep(lambda files: replace(files, keys=keys))
+        self._front.tell(Kind.KEYS, pickle.dumps(keys))
+
+    def _keep(self, changed: Callable[[AgentFiles], AgentFiles]) -> None:
+        self._starts = [replace(start, files=changed(start.files)) for start in self._starts]
         for worker, start in zip(self._front.workers, self._starts, strict=True):
-            worker.start_data = pickle.dumps(replace(start, files=replace(start.files, policy=policy)))
-        self._front.reload(pickle.dumps(policy))
+            worker.start_data = pickle.dumps(start)
 
 
 def serve_with_workers(
@@ -77,12 +71,27 @@ def serve_with_workers(
     shared = Shared(pool, budgets.output, Fairness(), Account())
     transports = open_transports(options.transports, options.discovery, log, shared)
     served = transports if options.discovery is None else transports[:-1]
+    try:
+        recorder = open_recorder(options, log)
+    except UserError:
+        close_all(transports)
+        raise
+    psk_file = PskFile(options, files.keys, log)
+    recording = recorder.shared([transport.label for transport in served]) if recorder is not None else None
     described = tuple(_described(transport) for transport in served)
     starts = [
-        WorkerStart(options, number, without_types(files), described)
+        WorkerStart(options, number, without_types(files), described, recording)
         for number in range(1, options.workers + 1)
     ]
-    front = Front(_workers(starts, log), served, log, limits)
+    front = Front(
+        _workers(starts, log),
+        served,
+        log,
+        limits,
+        is_sealed=files.keys is not None,
+        adopted=files.preconfigured.adopted,
+    )
+    in_force = _InForce(front, starts)
     parameters = ParametersOnDemand(options.parameter_server, options.parameter_file, options.domain, log)
     front.on_type = parameters.on_type
     server = Server(front, transports, log, watchdog())
@@ -93,27 +102,47 @@ def serve_with_workers(
             front.start(START_S, lambda: server.stops)
             if server.stops:  # a signal came meanwhile: end in order, without having served
                 server.run(announce, time.monotonic)
+                if recorder is not None:
+                    recorder.give_up()
                 return
-            report_limits(log, limits, streams)
-            text = "{count} workers, each with these limits; client KEY has worker KEY mod {count} + 1"
-            log.emit(Level.INFO, "workers", text, count=options.workers)
+            _report(log, options, files, streams)
             with (
                 graph_server(options.graph_server, options.domain, log),
                 client_state_node(options, limits, front, log),
                 monitoring(options, front, transports, log),
                 parameters.running(),
-                reloaded_by_signal(server, (reloading(options, _Policies(front, starts), log),)),
+                reloaded_by_signal(
+                    server,
+                    (reloading(options, in_force, log), psk_file.reloading(in_force.use_keys)),
+                ),
             ):
+                if recorder is not None:
+                    recorder.begin()  # after all that may fail: it replaces what the file holds
                 notify("READY=1")
                 server.run(announce, time.monotonic)
     except UserError:
         front.close()
         close_all(transports)
+        if recorder is not None:
+            recorder.give_up()
         raise
+    if recorder is not None:
+        recorder.close()
+
+
+def _report(log: EventLog, options: AgentOptions, files: AgentFiles, streams: int) -> None:
+    if options.policy is not None and files.policy is not None:
+        report_policy(options.policy, files.policy, log)
+    report_limits(log, options.limits, streams)
+    text = "{count} workers, each with these limits; client KEY has worker KEY mod {count} + 1"
+    log.emit(Level.INFO, "workers", text, count=options.workers)
 
 
 def _workers(starts: Sequence[WorkerStart], log: EventLog) -> list[WorkerProcess]:
     descriptors = [each.descriptor for each in starts[0].transports if each.descriptor >= 0]
+    recording = starts[0].recording
+    if recording is not None:
+        descriptors += [recording.file, recording.memory]
     program = (
         f"import sys; sys.path[:] = {sys.path!r}; from microros_gen.cli.agent.worker import main; main()"
     )

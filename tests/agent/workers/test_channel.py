@@ -8,11 +8,11 @@ import socket
 
 import pytest
 
+from microros_gen.agent.transport.base import RemoteAddress
 from microros_gen.agent.workers.addresses import (
     FREE_BYTES,
     SHARE_BYTES,
     Known,
-    RemoteAddress,
     remote_address,
     remote_code,
     udp_code,
@@ -105,7 +105,7 @@ def test_socket_addresses_round_trip(peer: tuple[object, ...]) -> None:
 
 
 def test_other_addresses_round_trip() -> None:
-    address = RemoteAddress("serial /dev/ttyS0", 5, "/dev/tty\udcff client 1", "/dev/tty\udcff")
+    address = RemoteAddress("serial /dev/ttyS0", 5, "/dev/tty\udcff client 1", "/dev/tty\udcff", 1)
     assert remote_address(address.transport, remote_code(address)) == address
 
 

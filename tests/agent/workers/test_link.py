@@ -12,15 +12,15 @@ from typing import cast
 from microros_gen.agent.core import Agent
 from microros_gen.agent.fairness import TURN_S
 from microros_gen.agent.log import EventLog
-from microros_gen.agent.transport.base import Transport
-from microros_gen.agent.workers.addresses import RemoteAddress, remote_code
+from microros_gen.agent.transport.base import RemoteAddress, Transport
+from microros_gen.agent.workers.addresses import remote_code
 from microros_gen.agent.workers.channel import Channel, Kind, message_frame
 from microros_gen.agent.workers.front_transport import FrontTransport
 from microros_gen.agent.workers.link import FrontLink
 from microros_gen.agent.workers.remote import RemoteTransport
 
 COUNT = 2000
-CODE = remote_code(RemoteAddress("serial /dev/test", 1, "client", "/dev/test"))
+CODE = remote_code(RemoteAddress("serial /dev/test", 1, "client", "/dev/test", 3))
 
 
 def test_other_work_has_its_turn_while_much_arrives() -> None:

@@ -3,101 +3,35 @@
 
 from __future__ import annotations
 
-import json
 import os
 import signal
 import subprocess
 import sys
-import tempfile
 import time
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from collections.abc import Iterator
+from contextlib import ExitStack
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from microros_gen.agent.monitoring.asking import ask, ask_status
-from microros_gen.agent.monitoring.document import PATH
+from microros_gen.agent.monitoring.asking import ask
 from microros_gen.agent.wire.session_messages import Info
 from tests.support.agent.client import BEST_EFFORT, XrceClient, connected, int32_body
 from tests.support.agent.observer import observing
-from tests.support.agent.process import AgentProcess, own_domain, running_agent
+from tests.support.agent.process import own_domain
 from tests.support.agent.ros_client import INT32
 from tests.support.agent.serial_link import SerialLink
 from tests.support.agent.tcp_link import TcpLink
+from tests.support.agent.worker_agents import Running, clients, ended, running
 from tests.support.patience import deadline
 
 pytestmark = [pytest.mark.ros, pytest.mark.system]
-
-
-class Running:
-    """An agent with two workers, and its status."""
-
-    def __init__(self, agent: AgentProcess, place: Path) -> None:
-        self.agent = agent
-        self.port = agent.port
-        self.place = place
-
-    def status(self) -> dict[str, Any]:
-        return ask_status(self.place, PATH)
-
-    def until(self, seen: Callable[[dict[str, Any]], object]) -> dict[str, Any]:
-        """Ask until the status is as it should be; return it."""
-        end = deadline(15)
-        while True:
-            status = self.status()
-            if seen(status):
-                return status
-            assert time.monotonic() < end, json.dumps(status)
-            time.sleep(0.1)
-
-    def client(self, key: str, **wanted: Any) -> dict[str, Any]:
-        """Ask until the client with a key has these values; return it."""
-
-        def seen(status: dict[str, Any]) -> bool:
-            found = clients(status).get(key, {})
-            return bool(found) and all(found[name] == value for name, value in wanted.items())
-
-        return clients(self.until(seen))[key]
-
-    def logged(self, part: str) -> str:
-        """Return the last word of the line of the log that contains `part`, whether it was waited for or not."""
-        line = next((line for line in self.agent.log if part in line), None) or self.agent.wait_for(part)
-        return line.rpartition(" ")[2]
-
-    def pid(self, worker: int) -> int:
-        found: int = self.status()["agent"]["workers"][worker - 1]["pid"]
-        return found
-
-
-@contextmanager
-def running(*options: str) -> Iterator[Running]:
-    with tempfile.TemporaryDirectory() as folder:
-        place = Path(folder) / "status"
-        with running_agent(own_domain(), "--workers", "2", "--status-socket", str(place), *options) as agent:
-            yield Running(agent, place)
 
 
 @pytest.fixture(scope="module")
 def shared() -> Iterator[Running]:
     with running() as agent:
         yield agent
-
-
-def clients(status: dict[str, Any]) -> dict[str, dict[str, Any]]:
-    """Return the clients by key; each is there once."""
-    found = {client["key"]: client for client in status["clients"]}
-    assert len(found) == len(status["clients"])
-    return found
-
-
-def ended(pid: int) -> bool:
-    """Return whether a process of another parent has ended, so that it is at most a zombie."""
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(") ")[2][0] == "Z"
-    except FileNotFoundError:
-        return True
 
 
 def test_clients_of_every_transport_in_two_workers() -> None:
@@ -326,9 +260,11 @@ def test_a_policy_holds_in_all_workers_and_is_read_again(tmp_path: Path) -> None
         for key, status in ((2, 0), (3, 0), (4, 0x83), (5, 0x83)):
             with XrceClient(agent.port, key=key) as client:
                 assert client.connect() == status
-        policy.write_text("version: 1\nclients:\n  - name: some\n    keys: ['0x00000004', '0x00000005']\n")
+        policy.write_text(
+            "version: 1\nclients:\n  - name: some\n    keys: [0x4]\n  - name: others\n    keys: [0x5]\n"
+        )
         agent.agent.process.send_signal(signal.SIGHUP)
-        agent.agent.wait_for("policy: 1 rules")
+        agent.agent.wait_for("policy: 2 rules")
         for key, status in ((2, 0x83), (3, 0x83), (4, 0), (5, 0)):
             with XrceClient(agent.port, key=key) as client:
                 assert client.connect() == status
@@ -339,9 +275,11 @@ def test_a_worker_that_starts_again_has_the_policy_in_force(tmp_path: Path) -> N
     policy = tmp_path / "policy.yaml"
     policy.write_text("version: 1\nclients:\n  - name: some\n    keys: ['0x00000002']\n")
     with running("--policy", str(policy)) as agent:
-        policy.write_text("version: 1\nclients:\n  - name: some\n    keys: ['0x00000004']\n")
+        policy.write_text(
+            "version: 1\nclients:\n  - name: some\n    keys: [0x4]\n  - name: others\n    keys: [0x5]\n"
+        )
         agent.agent.process.send_signal(signal.SIGHUP)
-        agent.agent.wait_for("policy: 1 rules")
+        agent.agent.wait_for("policy: 2 rules")
         policy.write_text("version: 1\nclients: nobody\n")
         agent.agent.process.send_signal(signal.SIGHUP)
         agent.agent.wait_for("the one before stays in force")
@@ -367,12 +305,3 @@ def test_workers_import_nothing_from_the_current_folder(
             if "agent ready" in line:
                 agent.send_signal(signal.SIGTERM)
     assert agent.returncode == 0, "".join(lines)
-
-
-def test_what_needs_one_process_is_refused(tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "microros_gen", "agent", "udp4", "--port", "0", "--workers", "2"]
-    refused = subprocess.run(
-        [*command, "--record", str(tmp_path / "a.pcapng")], capture_output=True, text=True, check=False
-    )
-    assert refused.returncode == 2
-    assert "[MG-9840]" in refused.stderr

@@ -48,6 +48,7 @@ class SealedLink:
         second = within.recv(2048)
         while second[0] == RECORD:  # on a line: an answer to the client before
             second = within.recv(2048)
+        assert second[0] == SECOND, "the agent refused the handshake"
         kind, _, _, self._index, own = struct.unpack_from("<BBHII", second)
         assert (kind, own) == (SECOND, 5), "the agent refused the handshake"
         self._noise.read_message(second[12:])

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The option `--record`."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from microros_gen.agent.log import EventLog
+from microros_gen.agent.recording.recorder import Recorder
+from microros_gen.cli.agent.options import AgentOptions
+from microros_gen.diagnostics import UserError
+
+
+def open_recorder(options: AgentOptions, log: EventLog) -> Recorder | None:
+    """Return the recorder that the options ask for; UserError if it cannot write."""
+    if options.record is None:
+        return None
+    try:
+        return Recorder(options.record, log)
+    except UserError as error:
+        span = options.places.get(options.record)
+        raise UserError([replace(d, span=d.span or span) for d in error.diagnostics]) from error
