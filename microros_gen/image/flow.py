@@ -8,7 +8,7 @@ Unprivileged ISA, 2.5; Intel SDM, volume 2).
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from microros_gen.image.disassembly import functions_of
@@ -62,6 +62,8 @@ _ARM_LAST = re.compile(rf"^\w+{_CONDITION}$")
 _ARM_STORE = re.compile(r"\], #(\d+)")
 _ARM_LOADS = re.compile(r"\[(\w+)")
 _ARM_MOVES = re.compile(r"^(\w+), (?:\1, )?#(\d+)\b")
+_ARM_WORDS = re.compile(r"^pc, \[(\w+), \w+, lsl #2\]")
+_ARM_ADR = re.compile(r"^(?:add\S*|adr\S*) (\w+), pc, .*\(adr \w+, ([0-9a-f]+) ")
 _RISCV_JUMP = re.compile(r"^b(?:eq|ne|lt|ge|gt|le)[uz]?z?$")
 _X86_JUMP = re.compile(r"^j(?!mp)\w+$")
 _LAST_WORDS = ("udf", "ud2", "hlt", "ebreak", "unimp", "bkpt")
@@ -151,6 +153,9 @@ def _arm(line: Line, after: int | None, places: frozenset[int], before: Sequence
         return _jump(address, operands, after, places, word != "b", test)
     if word in ("tbb", "tbh"):
         return Step(address, _table(address, word == "tbh", image, places))
+    words = _ARM_WORDS.match(operands) if word == "ldr" else None
+    if words and before and (start := _ARM_ADR.match(" ".join(before[-1][1:]))) and start[1] == words[1]:
+        return Step(address, _words(int(start[2], 16), image, places))
     if _ARM_RETURN.match(word) and _loads_pc(word, operands):
         more = on if _ARM_LAST.match(word) else ()
         is_plain = operands.startswith(("lr", "pc, [sp]", "pc, lr")) or "{" in operands
@@ -220,12 +225,24 @@ def _constant(operands: str, pattern: str) -> int | None:
 
 def _table(address: int, is_half: bool, image: Elf, places: frozenset[int]) -> tuple[int, ...]:
     """Return where a branch by a table goes: the table follows it and ends where the first of its targets begins."""
-    begin, width, found = address + 4, 2 if is_half else 1, set[int]()
+    width = 2 if is_half else 1
+    return _entries(address + 4, width, image, places, lambda entry: address + 4 + 2 * entry)
+
+
+def _words(begin: int, image: Elf, places: frozenset[int]) -> tuple[int, ...]:
+    """Return where a load of the program counter from a table of addresses goes, whose last bit says Thumb."""
+    return _entries(begin, 4, image, places, lambda entry: entry & ~1)
+
+
+def _entries(
+    begin: int, width: int, image: Elf, places: frozenset[int], place: Callable[[int], int]
+) -> tuple[int, ...]:
+    found = set[int]()
     section = next((s for s in image.loaded if s.address <= begin < s.end and s.kind != "bss"), None)
     content = image.content(section)[begin - section.address :] if section is not None else b""
     at = 0
     while at + width <= len(content) and (not found or begin + at < min(found)):
-        to = begin + 2 * int.from_bytes(content[at : at + width], "little")
+        to = place(int.from_bytes(content[at : at + width], "little"))
         if to not in places:
             break
         found.add(to)

@@ -12,6 +12,7 @@ from dataclasses import field, replace
 
 from microros_gen.image.flow import Flow, Step
 from microros_gen.image.paths import NOTHING, Length, longer, longest
+from microros_gen.image.shares import HOLD
 from microros_gen.records import dataclass
 
 TAKE, RELEASE = "port_lock", "port_unlock"
@@ -102,7 +103,8 @@ class Holds:
 
     def called(self, address: int) -> Length | None:
         """Return the longest path of the function at `address`, called with the lock; None: it never returns."""
-        return self._summary(address, 1, None).ends.get(1)
+        found = self._summary(address, 1, None).ends.get(1)
+        return found.within(HOLD) if found is not None else None
 
     def unseen(self, address: int) -> frozenset[str]:
         """Return why the function at `address` may have further holds: calls without the lock that nobody knows."""
@@ -128,6 +130,7 @@ class Holds:
         self._open.add(key)
         found = _Walk(self, flow, key).summary()
         self._open.discard(key)
+        found = _within(found, name.partition(".")[0])
         if name.startswith("port_") and depth in found.ends:
             found.ends[depth] = self._rules.of_port(name, found.ends[depth])
         if name.startswith("port_"):
@@ -181,12 +184,22 @@ class Holds:
 
     def keep(self, key: Key, hold: Hold) -> None:
         """Keep a hold that ends in the function of `key`, or below it."""
-        self._holds.setdefault(key, []).append(hold)
+        self._holds.setdefault(key, []).append(replace(hold, length=hold.length.within(HOLD)))
 
     @property
     def rules(self) -> Rules:
         """What the code does not say."""
         return self._rules
+
+
+def _within(found: _Summary, function: str) -> _Summary:
+    """Return what a caller has to know of a call of `function`: what has a total in each call of it counts as that."""
+    return replace(
+        found,
+        ends={depth: length.within(function) for depth, length in found.ends.items()},
+        taken={depth: length.within(function) for depth, length in found.taken.items()},
+        released=found.released.within(function) if found.released is not None else None,
+    )
 
 
 def _join(parts: list[_Summary]) -> _Summary:
@@ -228,7 +241,8 @@ class _Walk:
         for address, begins in sorted(self._begins.items()):
             released, ends = self._measure(begins)
             if released is not None:
-                self._holds.keep(self._key, Hold(self._flow.name, address, released))
+                own = released.within(self._flow.name.partition(".")[0])
+                self._holds.keep(self._key, Hold(self._flow.name, address, own))
             for depth, length in ends.items():
                 self._found.taken[depth] = longer(self._found.taken.get(depth), length)
         return self._found

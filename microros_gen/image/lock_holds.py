@@ -185,6 +185,8 @@ class _Image:
     def _of_call(self, flow: Flow, step: Step, to: int, length: Length) -> Length:
         """Return the length of a call: how much is read is known where a message begins; and where it is open."""
         name = self.names.get(to, "")
+        if not self._is_library(to):
+            length = length.called(self._sources.all_calls(self._units.get(to, ""), name.partition(".")[0]))
         if _UNKNOWN in length.open and not self._is_library(flow.address):
             at = self._sources.shown(self._lines.place(step.address))
             why = f"{flow.name}: {name} is called for {_UNKNOWN} ({at})"

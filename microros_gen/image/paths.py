@@ -14,8 +14,11 @@ amortized analysis). So the part for each byte is the larger one of both calls, 
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from dataclasses import field, replace
+from operator import add
 from typing import Generic, TypeVar
 
+from microros_gen.image.shares import NONE, Shares, Split, Total, joined, repeated
 from microros_gen.records import dataclass
 
 Node = TypeVar("Node", bound=Hashable)
@@ -32,6 +35,7 @@ class Length:
     `rate`: those for each byte of the message that are read meanwhile, besides `count`; of an instruction UNIT parts.
     `apart`: another length that is apart is of other bytes. `least`: it reads so many bytes, for which `rate` does not
     count, unless what is read is refused. Then it counts for all bytes, and the message ends.
+    `shares`: what of `count` has a total (shares.py). `total`: of rounds, that they are all that there are.
     """
 
     count: int
@@ -39,15 +43,18 @@ class Length:
     rate: int = 0
     apart: bool = False
     least: int = 0
+    shares: Shares = field(default_factory=dict)
+    total: Total | None = None
 
     def __add__(self, other: Length) -> Length:
         """Return both, one after the other."""
         count, why, least = self.count + other.count, self.open | other.open, self.least + other.least
+        shares = joined((self.count, other.count), (self.shares, other.shares), add)
         if not self.rate and not other.rate:
-            return Length(count, why, least=least)
+            return Length(count, why, least=least, shares=shares)
         apart = self._is_apart and other._is_apart
         rate = max(self.rate, other.rate) if apart else self.rate + other.rate
-        return Length(count, why, rate, apart, least if apart else 0)
+        return Length(count, why, rate, apart, least if apart else 0, shares)
 
     @property
     def _is_apart(self) -> bool:
@@ -55,9 +62,25 @@ class Length:
 
     def of(self, size: int) -> Length:
         """Return the length where at most `size` bytes are read."""
-        return (
-            Length(self.count + -(-self.rate * size // UNIT), self.open) if self.rate or self.least else self
-        )
+        if not self.rate and not self.least:
+            return self
+        more = -(-self.rate * size // UNIT)
+        shares = {scope: Split(split.base + more, split.parts) for scope, split in self.shares.items()}
+        return Length(self.count + more, self.open, shares=shares)
+
+    def within(self, scope: str) -> Length:
+        """Return the length where all of it is in one call of `scope`: each of its totals counts once."""
+        if scope not in self.shares:
+            return self
+        others = {name: split for name, split in self.shares.items() if name != scope}
+        return replace(self, count=min(self.count, self.shares[scope].length), shares=others)
+
+    def called(self, rounds: Length) -> Length:
+        """Return the length of one of `rounds.count` calls, which are all that there are in the scope of its total."""
+        if rounds.total is None or rounds.open:
+            return self
+        all_calls = repeated(self.count, self.shares, rounds.count, rounds.total)[rounds.total.scope]
+        return replace(self, shares={**self.shares, rounds.total.scope: all_calls})
 
     def times(self, rounds: Length, size: int) -> Length:
         """Return `rounds.count` rounds of this length, and those for each byte; `size`: the most bytes of a message.
@@ -73,13 +96,17 @@ class Length:
             each = max(each - self.rate * self.least, 0)
         apart = self._is_apart and (rounds.apart or not most.rate)
         rate += -(-each * most.rate // UNIT)
-        return Length(self.count * most.count, self.open | rounds.open, rate, apart and rate > 0)
+        count, why = self.count * most.count, self.open | rounds.open
+        shares = NONE if most.rate else repeated(self.count, self.shares, most.count, most.total)
+        return Length(count, why, rate, apart and rate > 0, shares=shares)
 
     def or_longer(self, other: Length) -> Length:
         """Return a length that neither of both is longer than."""
         apart, rate = self._is_apart and other._is_apart, max(self.rate, other.rate)
         least = min(self.least, other.least) if apart else 0
-        return Length(max(self.count, other.count), self.open | other.open, rate, apart and rate > 0, least)
+        count, why = max(self.count, other.count), self.open | other.open
+        shares = joined((self.count, other.count), (self.shares, other.shares), max)
+        return Length(count, why, rate, apart and rate > 0, least, shares)
 
 
 NOTHING = Length(0)

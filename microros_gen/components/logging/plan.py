@@ -7,6 +7,7 @@ from microros_gen.application.log_decl import LOG_LEVELS, LogWriter
 from microros_gen.application.model import Application, logger_name
 from microros_gen.client.plan.features import PlanContext
 from microros_gen.diagnostics import Diagnostics
+from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
 
 TEXT_SIZE = 192
@@ -15,6 +16,7 @@ LOGGERS = 4
 """Loggers that can have a separate level."""
 NAME_SIZE = 32
 """Bytes of the name of such a logger with its NUL, where no declared node has a longer one."""
+_LINE = TypeName("rcl_interfaces", "msg", "Log")
 _NO_WRITER = 60
 """Above all levels."""
 _STEP = 10
@@ -33,6 +35,7 @@ class LoggingPlan:
     text_size: int = TEXT_SIZE
     loggers: int = LOGGERS
     name_size: int
+    longest: int
 
     @property
     def min_severity(self) -> int:
@@ -66,6 +69,13 @@ def name_size(application: Application) -> int:
     return max(NAME_SIZE, *(1 + len(name) for name in names), 0)
 
 
+def _longest(context: PlanContext) -> int:
+    """Return the characters of the longest text that a writer formats."""
+    planned = context.types.get(_LINE)
+    fields = planned.limits.fields if planned is not None and planned.limits is not None else ()
+    return max(TEXT_SIZE, *(bound.string or 0 for bound in fields if bound is not None), 0)
+
+
 def level_number(writer: LogWriter) -> int:
     """Return the lowest level of a writer as a number of ROS 2."""
     return _STEP * (1 + LOG_LEVELS.index(writer.level))
@@ -92,6 +102,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LoggingPlan:
         callback_level=levels.get("callback", _NO_WRITER),
         rosout="rosout" in levels,
         name_size=name_size(context.application),
+        longest=_longest(context),
         text=", ".join(f"{writer.to} from {writer.level}" for writer in writers),
     )
 

@@ -14,6 +14,7 @@ typedef struct path_t {
 /* Text beyond PATH_SIZE is truncated, as is the error's text. */
 static void path_put(path_t * path, const char * words)
 {
+  /* at most PATH_SIZE rounds */
   while (*words != '\0' && path->length < (size_t)PATH_SIZE - 1u) {
     path->text[path->length++] = *words++;
   }
@@ -26,7 +27,7 @@ static void path_put_index(path_t * path, uint32_t index)
   size_t first = DIGITS;
 
   text[first] = '\0';
-  do {
+  do { /* at most DIGITS rounds */
     text[--first] = (char)('0' + (char)(index % 10u));
     index /= 10u;
   } while (index != 0u);

@@ -4,9 +4,15 @@
 #include "microros/rcutils_format_float.h"
 #include "microros/rcutils_format_wide.h"
 
-#include <string.h>
-
 enum { WIDTH_MOST = 4095, FALLBACK_TEXT = 6 };
+
+/*
+ * What puts characters ends with the first one that has no room: for a text that is formatted with the lock, all of its loops
+ * together have no more rounds than the longest line has characters, and one. A format may have FORMAT_EMPTY conversions that
+ * put nothing, and each conversion FLAGS_MOST flags and numbers of NUMBER_MOST digits. The rest of others is cut off or put
+ * unchanged.
+ */
+enum { FORMAT_EMPTY = 32, FLAGS_MOST = 5, NUMBER_MOST = 10 };
 
 void microros_format_put(microros_format_t * out, char character)
 {
@@ -20,14 +26,16 @@ void microros_format_put(microros_format_t * out, char character)
 
 void microros_format_repeat(microros_format_t * out, char character, int32_t count)
 {
-  for (int32_t i = 0; i < count; ++i) {
+  /* at most MICROROS_LOG_LONGEST + 1 rounds of all loops in each microros_format_arguments */
+  for (int32_t i = 0; i < count && !out->truncated; ++i) {
     microros_format_put(out, character);
   }
 }
 
 void microros_format_string(microros_format_t * out, const char * string)
 {
-  for (const char * next = string; *next != '\0'; ++next) {
+  /* at most MICROROS_LOG_LONGEST + 1 rounds of all loops in each microros_format_arguments */
+  for (const char * next = string; *next != '\0' && !out->truncated; ++next) {
     microros_format_put(out, *next);
   }
 }
@@ -41,7 +49,8 @@ static void format_field(
   if (!how->minus) {
     microros_format_repeat(out, ' ', fill);
   }
-  for (size_t i = 0; i < size; ++i) {
+  /* at most MICROROS_LOG_LONGEST + 1 rounds of all loops in each microros_format_arguments */
+  for (size_t i = 0; i < size && !out->truncated; ++i) {
     microros_format_put(out, text[i]);
   }
   if (how->minus) {
@@ -49,16 +58,23 @@ static void format_field(
   }
 }
 
-/* A text need not end with a NUL within its precision; without one the bound is above all sizes. */
+/*
+ * A text need not end with a NUL within its precision; without one the bound is above all sizes. No more of it is looked at
+ * than has room or fills the field, but for one character, which says that the text is truncated. A field that is wider than
+ * the room is the last one of its line, so that all fields together have no more than one of them, and the line.
+ */
 static void format_text(microros_format_t * out, const microros_conversion_t * how, const char * text)
 {
-  const size_t most = (size_t)how->precision;
+  const size_t free_size = out->size - out->used;
+  const size_t room = (free_size < (size_t)how->width ? (size_t)how->width : free_size) + 1u;
+  const size_t most = (size_t)how->precision < room ? (size_t)how->precision : room;
   const char * shown = text;
   size_t size = 0;
 
   if (shown == NULL) {
-    shown = most < (size_t)FALLBACK_TEXT ? "" : "(null)";
+    shown = (size_t)how->precision < (size_t)FALLBACK_TEXT ? "" : "(null)";
   }
+  /* at most WIDTH_MOST + MICROROS_LOG_LONGEST + 2 rounds in each microros_format_arguments */
   while (size < most && shown[size] != '\0') {
     ++size;
   }
@@ -157,7 +173,8 @@ static int32_t format_number(const char ** next, va_list * args)
     }
     return given > WIDTH_MOST ? WIDTH_MOST : (int32_t)given;
   }
-  while (**next >= '0' && **next <= '9') {
+  /* at most NUMBER_MOST rounds */
+  for (uint32_t left = NUMBER_MOST; left != 0u && **next >= '0' && **next <= '9'; --left) {
     number = number * 10 + (int32_t)(**next - '0');
     number = number > WIDTH_MOST ? WIDTH_MOST : number;
     ++*next;
@@ -165,11 +182,25 @@ static int32_t format_number(const char ** next, va_list * args)
   return number;
 }
 
+static bool format_is_length(char character)
+{
+  return character == 'h' || character == 'l' || character == 'j' || character == 'z' || character == 't' ||
+         character == 'L';
+}
+
+/* f, e, g and a, and the upper-case ones. */
+static bool format_is_floating(char kind)
+{
+  const char lower = (char)(kind | 0x20);
+
+  return lower == 'f' || lower == 'e' || lower == 'g' || lower == 'a';
+}
+
 static char format_length(const char ** next)
 {
   const char first = **next;
 
-  if (first == '\0' || strchr("hljztL", first) == NULL) {
+  if (!format_is_length(first)) {
     return '\0';
   }
   ++*next;
@@ -185,7 +216,8 @@ static microros_conversion_t format_read(const char ** next, va_list * args)
 {
   microros_conversion_t how = {false, false, false, false, false, 0, -1, '\0', '\0'};
 
-  while (format_flag(&how, **next)) {
+  /* at most FLAGS_MOST rounds */
+  for (uint32_t left = FLAGS_MOST; left != 0u && format_flag(&how, **next); --left) {
     ++*next;
   }
   how.width = format_number(next, args);
@@ -213,7 +245,8 @@ static void format_floating(
   if (microros_format_floating(out, how, args)) {
     return;
   }
-  for (const char * shown = first; shown != end; ++shown) {
+  /* at most MICROROS_LOG_LONGEST + 1 rounds of all loops in each microros_format_arguments */
+  for (const char * shown = first; shown != end && !out->truncated; ++shown) {
     microros_format_put(out, *shown);
   }
 }
@@ -267,7 +300,7 @@ static bool format_convert(
       microros_format_put(out, '%');
       return true;
     default:
-      if (how->kind == '\0' || strchr("fFeEgGaA", how->kind) == NULL) {
+      if (!format_is_floating(how->kind)) {
         return false;
       }
       format_floating(out, how, first, end, args);
@@ -278,8 +311,14 @@ static bool format_convert(
 void microros_format_arguments(microros_format_t * out, const char * format, va_list * args)
 {
   const char * next = format;
+  size_t left = out->size + (size_t)FORMAT_EMPTY;
 
-  while (*next != '\0') {
+  /* at most MICROROS_LOG_LONGEST + FORMAT_EMPTY + 1 rounds */
+  for (; *next != '\0' && !out->truncated; --left) {
+    if (left == 0u) {
+      out->truncated = true;
+      return;
+    }
     const char * const first = next;
 
     ++next;

@@ -36,6 +36,7 @@ void microros_format_end(microros_format_t * out)
   ++format_counts.truncated;
   microros_unlock();
   /* Not in the middle of a character of UTF-8, which ROS would refuse to read. */
+  /* at most MICROROS_LOG_LONGEST rounds */
   while (out->used > marks && ((uint8_t)out->text[out->used - marks] & 0xc0u) == 0x80u) {
     --out->used;
   }

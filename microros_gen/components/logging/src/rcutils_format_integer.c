@@ -33,7 +33,8 @@ static int32_t integer_digits(char * digits, uint64_t value, char kind)
   if (kind == 'x' || kind == 'X') {
     base = 16;
   }
-  while (left != 0u) { /* at most DIGITS_MOST rounds */
+  /* at most DIGITS_MOST rounds, MICROROS_LOG_LONGEST + 1 + DIGITS_MOST in each microros_format_arguments */
+  while (left != 0u) {
     ++count;
     digits[DIGITS_MOST - count] = figures[microros_format_divide(&left, base)];
   }
@@ -98,7 +99,8 @@ void microros_format_integer(
   microros_format_repeat(out, ' ', how->minus ? 0 : fill);
   microros_format_string(out, prefix);
   microros_format_repeat(out, '0', zeros);
-  for (int32_t i = DIGITS_MOST - count; i < DIGITS_MOST; ++i) { /* at most DIGITS_MOST rounds */
+  /* at most DIGITS_MOST rounds, MICROROS_LOG_LONGEST + 1 of all loops in each microros_format_arguments */
+  for (int32_t i = DIGITS_MOST - count; i < DIGITS_MOST && !out->truncated; ++i) {
     microros_format_put(out, digits[i]);
   }
   microros_format_repeat(out, ' ', how->minus ? fill : 0);

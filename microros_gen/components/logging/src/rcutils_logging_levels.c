@@ -34,6 +34,7 @@ static logger_t * logger_find(const char * name, size_t size)
     return NULL;
   }
   for (size_t i = 0; i < MICROROS_LOGGERS_MAX; ++i) {
+    /* at most MICROROS_LOGGER_NAME_SIZE bytes */
     if (strncmp(loggers[i].name, name, size) == 0 && loggers[i].name[size] == '\0') {
       return &loggers[i];
     }
@@ -153,12 +154,25 @@ rcutils_ret_t rcutils_logging_set_logger_level(const char * name, int level)
   return result;
 }
 
+/* Returns how many characters of a name may be a logger's: no level has a longer one. */
+static size_t logger_longest(const char * name)
+{
+  size_t size = 0;
+
+  /* at most MICROROS_LOGGER_NAME_SIZE rounds */
+  while (size < (size_t)MICROROS_LOGGER_NAME_SIZE - 1u && name[size] != '\0') {
+    ++size;
+  }
+  return size;
+}
+
 int rcutils_logging_get_logger_effective_level(const char * name)
 {
   if (name == NULL) {
     return -1;
   }
-  for (size_t size = strlen(name); size != 0u; --size) {
+  /* at most MICROROS_LOGGER_NAME_SIZE rounds */
+  for (size_t size = logger_longest(name); size != 0u; --size) {
     const bool ends = name[size] == '\0' || name[size] == RCUTILS_LOGGING_SEPARATOR_CHAR;
     const int level = ends ? logger_level(name, size) : RCUTILS_LOG_SEVERITY_UNSET;
 

@@ -25,11 +25,10 @@ static void console_begin(
 }
 
 /* Ends the line, for which one character was kept. */
-static bool console_end(microros_format_t * out)
+static void console_end(microros_format_t * out)
 {
   microros_format_end(out);
   out->text[out->used] = '\n';
-  return port_console_write(out->text, out->used + 1u);
 }
 
 /* Says once how many messages the console did not take. */
@@ -44,7 +43,8 @@ static void console_report_dropped(char * text, size_t size, rcutils_time_point_
   console_begin(&out, RCUTILS_LOG_SEVERITY_WARN, "rcutils", timestamp);
   microros_format_integer(&out, &number, console_unreported, false);
   microros_format_string(&out, " messages dropped");
-  if (console_end(&out)) {
+  console_end(&out);
+  if (port_console_write(text, out.used + 1u)) {
     console_unreported = 0;
   }
 }
@@ -58,33 +58,32 @@ void microros_console_step(void)
   }
 }
 
-/* Returns false if the line was dropped: it does not fit, or the report of dropped messages does not yet. */
-static bool console_write(
-  int severity, const char * name, rcutils_time_point_value_t timestamp, const char * format, va_list * args)
+/* Writes a line; counts it where it does not fit, or the report of dropped messages does not yet. */
+static void console_write(const char * text, size_t size)
 {
-  char text[MICROROS_LOG_TEXT_SIZE];
-  microros_format_t out = {text, sizeof(text) - 1u, 0, false};
-
-  console_report_dropped(text, sizeof(text) - 1u, timestamp);
-  if (console_unreported != 0u) {
-    return false;
+  microros_lock();
+  if (console_unreported != 0u || !port_console_write(text, size)) {
+    microros_format_dropped();
+    ++console_unreported;
   }
-  console_begin(&out, severity, name, timestamp);
-  microros_format_arguments(&out, format, args);
-  return console_end(&out);
+  microros_unlock();
 }
 
 void rcutils_logging_console_output_handler(
   const rcutils_log_location_t * location, int severity, const char * name,
   rcutils_time_point_value_t timestamp, const char * format, va_list * args)
 {
+  char text[MICROROS_LOG_TEXT_SIZE];
+  microros_format_t out = {text, sizeof(text) - 1u, 0, false};
+
   (void)location; /* ROS 2 does not write it either unless it is asked to */
   microros_lock();
-  if (!console_write(severity, name == NULL ? "" : name, timestamp, format, args)) {
-    microros_format_dropped();
-    ++console_unreported;
-  }
+  console_report_dropped(text, sizeof(text) - 1u, timestamp);
   microros_unlock();
+  console_begin(&out, severity, name == NULL ? "" : name, timestamp);
+  microros_format_arguments(&out, format, args); /* without the lock: arguments may be of any length */
+  console_end(&out);
+  console_write(text, out.used + 1u);
 }
 
 void microros_console_log(

@@ -118,11 +118,12 @@ void microros_ring_put(const uint8_t * body, uint32_t size)
   uint32_t index;
 
   ring_check();
+  /* at most MICROROS_LOG_RING_SIZE / RING_HEADER + 1 rounds */
   while ((uint32_t)MICROROS_LOG_RING_SIZE - ring_used() < (uint32_t)RING_HEADER + size) {
     ring_drop();
   }
   index = ring_used();
-  for (uint32_t i = 0; i < size; ++i) {
+  for (uint32_t i = 0; i < size; ++i) { /* at most RING_LINE_MAX rounds */
     microros_log_kept.lines[ring_at(index + (uint32_t)RING_HEADER + i)] = body[i];
     sum = ring_checksum(sum, body[i]);
   }
@@ -143,6 +144,7 @@ static uint32_t ring_copy(uint8_t * body)
   if (size > (uint32_t)RING_LINE_MAX) {
     return 0;
   }
+  /* at most RING_LINE_MAX rounds, MICROROS_LOG_RING_SIZE in each microros_ring_step */
   for (uint32_t i = 0; i < size; ++i) {
     body[i] = microros_log_kept.lines[ring_at((uint32_t)RING_HEADER + i)];
     sum = ring_checksum(sum, body[i]);
@@ -166,6 +168,7 @@ static void ring_announce(void)
 {
   ring_is_announced = true;
   ring_is_announcing = true;
+  /* at most 1 calls */
   rcl_logging_rosout_output_handler(
     NULL, RCUTILS_LOG_SEVERITY_INFO, "microros", microros_epoch_known_ns(),
     "lines from before the reset follow", NULL); /* a format without conversions reads no arguments */
@@ -175,9 +178,10 @@ static void ring_announce(void)
 void microros_ring_step(const xrce_client_t * client)
 {
   ring_check();
+  /* at most MICROROS_LOG_RING_SIZE / RING_HEADER + 2 rounds: each drops a line, or announces them */
   while (ring_before != 0u && xrce_rosout_is_open(client) && xrce_rosout_has_room((uint32_t)RING_LINE_MAX)) {
     if (!ring_is_announced) {
-      ring_announce();
+      ring_announce(); /* at most 1 calls */
     } else {
       ring_publish_oldest();
     }

@@ -10,7 +10,6 @@
 #include "microros/rcutils_ring.h"
 #include "microros/rcutils_rosout.h"
 #include "microros/rcutils_rosout_hooks.h"
-#include "microros/text.h"
 #include "microros/xrce_rosout.h"
 #include "microros_config.h"
 #include "rcl/logging_rosout.h"
@@ -18,6 +17,8 @@
 
 #include <stddef.h>
 #include <string.h>
+
+enum { PATH_MOST = 1024 };
 
 /* Has room for the largest line: all texts are bounded. */
 typedef struct rosout_line_t {
@@ -68,13 +69,19 @@ static void rosout_text(rosout_line_t * line, const char * text, size_t size)
   rosout_text_end(line, &out);
 }
 
-/* Keeps the end of a path that is too long, which says more than the beginning. */
+/* Keeps the end of a path that is too long, which says more than the beginning; of the first PATH_MOST characters. */
 static void rosout_path(rosout_line_t * line, const char * path)
 {
-  const size_t size = microros_text_size(path);
-  size_t from = size > MICROROS_LOG_ROSOUT_FILE ? size - MICROROS_LOG_ROSOUT_FILE : 0u;
+  size_t size = 0;
+  size_t from = 0;
 
-  while (((uint8_t)path[from] & 0xc0u) == 0x80u) {
+  while (size < (size_t)PATH_MOST && path[size] != '\0') { /* at most PATH_MOST rounds */
+    ++size;
+  }
+  from = size > MICROROS_LOG_ROSOUT_FILE ? size - MICROROS_LOG_ROSOUT_FILE : 0u;
+
+  /* at most 3 rounds */
+  for (uint32_t left = 3; left != 0u && ((uint8_t)path[from] & 0xc0u) == 0x80u; --left) {
     ++from; /* not in the middle of a character of UTF-8 */
   }
   rosout_text(line, &path[from], MICROROS_LOG_ROSOUT_FILE);
@@ -123,28 +130,37 @@ static void rosout_report_dropped(rcutils_time_point_value_t timestamp)
   }
 }
 
-/* Encodes a message for those of both writers that take it: `is_published` for /rosout. */
-static void rosout_keep(
+/* Gives a line to those of both writers that take it: `is_published` for /rosout. Called with the lock. */
+static void rosout_keep(const rosout_line_t * line, int severity, bool is_published)
+{
+  bool has_room;
+
+  if (microros_ring_takes(severity)) {
+    microros_ring_put(line->body, line->position);
+  }
+  has_room = !is_published || (rosout_unreported == 0u && xrce_rosout_put(line->body, line->position));
+  if (!has_room) {
+    microros_format_dropped();
+    ++rosout_unreported;
+  }
+}
+
+/* Encodes without the lock: arguments may be of any length, and take any time. */
+static void rosout_log(
   const rcutils_log_location_t * location, int severity, const char * name,
   rcutils_time_point_value_t timestamp, const char * format, va_list * args, bool is_published)
 {
   rosout_line_t line;
   microros_format_t out;
-  bool has_room;
 
   rosout_begin(&line, severity, name, timestamp);
   out = rosout_text_begin(&line, MICROROS_LOG_ROSOUT_TEXT);
   microros_format_arguments(&out, format, args);
   rosout_text_end(&line, &out);
   rosout_end(&line, location);
-  if (microros_ring_takes(severity)) {
-    microros_ring_put(line.body, line.position);
-  }
-  has_room = !is_published || (rosout_unreported == 0u && xrce_rosout_put(line.body, line.position));
-  if (!has_room) {
-    microros_format_dropped();
-    ++rosout_unreported;
-  }
+  microros_lock();
+  rosout_keep(&line, severity, is_published);
+  microros_unlock();
 }
 
 void rcl_logging_rosout_output_handler(
@@ -153,8 +169,8 @@ void rcl_logging_rosout_output_handler(
 {
   microros_lock();
   rosout_report_dropped(timestamp);
-  rosout_keep(location, severity, name == NULL ? "" : name, timestamp, format, args, true);
   microros_unlock();
+  rosout_log(location, severity, name == NULL ? "" : name, timestamp, format, args, true);
 }
 
 void microros_rosout_log(
@@ -164,9 +180,7 @@ void microros_rosout_log(
   if (severity >= (int)MICROROS_LOG_ROSOUT_LEVEL) {
     rcl_logging_rosout_output_handler(location, severity, name, timestamp, format, args);
   } else if (microros_ring_takes(severity)) {
-    microros_lock();
-    rosout_keep(location, severity, name, timestamp, format, args, false);
-    microros_unlock();
+    rosout_log(location, severity, name, timestamp, format, args, false);
   } else {
     /* for neither */
   }

@@ -25,7 +25,8 @@ static uint32_t rosout_at(uint32_t index)
 
 static void rosout_append(const uint8_t * bytes, uint32_t size)
 {
-  for (uint32_t i = 0; i < size; ++i) { /* at most MICROROS_LOG_ROSOUT_SIZE rounds */
+  /* at most MICROROS_LOG_ROSOUT_SIZE rounds in each microros_ring_step */
+  for (uint32_t i = 0; i < size; ++i) {
     rosout_lines[rosout_at(rosout_used)] = bytes[i];
     ++rosout_used;
   }
@@ -78,7 +79,8 @@ static uint32_t rosout_move(uint8_t * room)
     room, XRCE_WRITE_DATA, XRCE_FLAG_LITTLE_ENDIAN, (uint16_t)((uint32_t)XRCE_OBJECT_PREFIX + size));
   xrce_put_be16(&room[4], XRCE_REQUEST_NONE);
   xrce_put_be16(&room[6], xrce_object_id(rosout_writer->index, XRCE_KIND_DATAWRITER));
-  for (uint32_t i = 0; i < size; ++i) { /* at most MICROROS_LOG_ROSOUT_SIZE rounds */
+  /* at most MICROROS_LOG_ROSOUT_SIZE rounds in each xrce_rosout_send */
+  for (uint32_t i = 0; i < size; ++i) {
     room[(uint32_t)BODY_OFFSET + i] = rosout_lines[rosout_at(LINE_HEADER + i)];
   }
   rosout_first = rosout_at(LINE_HEADER + size);
@@ -91,6 +93,7 @@ void xrce_rosout_send(const xrce_client_t * client)
   if (!xrce_rosout_is_open(client)) {
     return;
   }
+  /* at most MICROROS_RELIABLE_SLOTS rounds */
   while (rosout_used != 0u && xrce_route_unacknowledged(client) < (MICROROS_RELIABLE_SLOTS + 1u) / 2u) {
     uint8_t * const room = xrce_write_reserve(rosout_writer);
 

@@ -4,7 +4,7 @@
 
 #include <wchar.h>
 
-enum { WIDE_BYTES_MOST = 4, WIDE_FALLBACK_TEXT = 6 };
+enum { WIDE_BYTES_MOST = 4, WIDE_FALLBACK_TEXT = 6, WIDTH_MOST = 4095 };
 
 /* A character as UTF-8. */
 typedef struct wide_bytes_t {
@@ -37,7 +37,7 @@ static wide_bytes_t wide_encode(uint32_t character)
   uint32_t rest = wide_code_point(character);
   wide_bytes_t result = {{'\0', '\0', '\0', '\0'}, wide_size(rest)};
 
-  for (uint32_t i = result.size - 1u; i != 0u; --i) {
+  for (uint32_t i = result.size - 1u; i != 0u; --i) { /* at most WIDE_BYTES_MOST - 1 rounds */
     result.bytes[i] = (char)(0x80u | (rest & 0x3fu));
     rest >>= 6;
   }
@@ -47,7 +47,7 @@ static wide_bytes_t wide_encode(uint32_t character)
 
 static void wide_put(microros_format_t * out, const wide_bytes_t * character)
 {
-  for (uint32_t i = 0; i < character->size; ++i) {
+  for (uint32_t i = 0; i < character->size; ++i) { /* at most WIDE_BYTES_MOST rounds */
     microros_format_put(out, character->bytes[i]);
   }
 }
@@ -57,7 +57,8 @@ static void wide_put_text(microros_format_t * out, const wchar_t * text, uint32_
 {
   uint32_t used = 0;
 
-  for (const wchar_t * next = text; used < size; ++next) {
+  /* at most MICROROS_LOG_LONGEST + 1 rounds of all loops in each microros_format_arguments */
+  for (const wchar_t * next = text; used < size && !out->truncated; ++next) {
     const wide_bytes_t character = wide_encode((uint32_t)*next);
 
     wide_put(out, &character);
@@ -65,13 +66,22 @@ static void wide_put_text(microros_format_t * out, const wchar_t * text, uint32_
   }
 }
 
-/* Returns the bytes of the characters that fit the precision; the text need not end with a NUL after them. */
-static uint32_t wide_text_size(const microros_conversion_t * how, const wchar_t * text)
+/*
+ * Returns the bytes of the characters that fit the precision; the text need not end with a NUL after them. It ends where
+ * they have no room and fill the field, with one more: see format_text in rcutils_format.c.
+ */
+static uint32_t wide_text_size(
+  const microros_format_t * out, const microros_conversion_t * how, const wchar_t * text)
 {
-  const uint32_t most = how->precision < 0 ? UINT32_MAX : (uint32_t)how->precision;
+  const uint32_t free_size = (uint32_t)(out->size - out->used);
+  const uint32_t room =
+    (free_size < (uint32_t)how->width ? (uint32_t)how->width : free_size) + (uint32_t)WIDE_BYTES_MOST;
+  const uint32_t wanted = how->precision < 0 ? UINT32_MAX : (uint32_t)how->precision;
+  const uint32_t most = wanted < room ? wanted : room;
   const wchar_t * next = text;
   uint32_t size = 0;
 
+  /* at most WIDTH_MOST + MICROROS_LOG_LONGEST + 5 rounds in each microros_format_arguments */
   while (size < most && *next != L'\0') {
     const uint32_t more = wide_size(wide_code_point((uint32_t)*next));
 
@@ -89,7 +99,7 @@ static void wide_text(microros_format_t * out, const microros_conversion_t * how
   const bool is_short = how->precision >= 0 && how->precision < WIDE_FALLBACK_TEXT;
   const wchar_t * const instead = is_short ? L"" : L"(null)";
   const wchar_t * const shown = text == NULL ? instead : text;
-  const uint32_t size = wide_text_size(how, shown);
+  const uint32_t size = wide_text_size(out, how, shown);
   const int32_t fill = size < (uint32_t)how->width ? how->width - (int32_t)size : 0;
 
   microros_format_repeat(out, ' ', how->minus ? 0 : fill);

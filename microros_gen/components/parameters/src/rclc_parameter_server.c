@@ -182,7 +182,11 @@ rcl_ret_t rclc_parameter_server_fini(rclc_parameter_server_t * parameter_server,
 
 static rclc_handle_kind_t server_kind; /* that of a service, which also publishes due events */
 
-/* As for a service. Its function is not called here: the call through a pointer would look like a recursion. */
+/*
+ * As for a service. Its function is not called here: the call through a pointer would look like a recursion. The task of the
+ * session looks once at each handle of the others while it holds the lock; one of those that a server takes is this one's.
+ */
+/* at most MICROROS_HANDLES_MAX / (6 - 5 * MICROROS_PARAMETERS_HELD) * (MICROROS_TASKS - 1) calls in a hold */
 static rcl_ret_t server_look(const rclc_executor_handle_t * handle, bool * is_ready, int64_t * look_again_ns)
 {
   if (!rcl_service_is_valid(handle->service)) {

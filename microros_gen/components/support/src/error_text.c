@@ -6,6 +6,8 @@
 #include "microros/lock.h"
 #include "microros/xrce_transport.h"
 
+#include "microros_config.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -25,7 +27,10 @@ static const MICROROS_FLASH char * const MICROROS_FLASH statuses[] = {
   MICROROS_FLASH_NAME("UNKNOWN_REFERENCE"), MICROROS_FLASH_NAME("INVALID_DATA"),
   MICROROS_FLASH_NAME("INCOMPATIBLE"),      MICROROS_FLASH_NAME("RESOURCES")};
 
-enum { STATUS_FIRST = 0x80, STATUS_LAST = 0x87 };
+enum { STATUS_FIRST = 0x80, STATUS_LAST = 0x87, DIGITS_MOST = 10 };
+
+/* Of a type's name, `::dds_:` and the last `_` are not put; of a text, no more conversions put nothing. */
+enum { TYPE_HIDDEN = 16, ERROR_CONVERSIONS = 8 };
 
 typedef struct text_t {
   char * at;
@@ -41,20 +46,22 @@ static void text_put(text_t * text, char c)
 
 static void text_put_string(text_t * text, const MICROROS_ANYWHERE char * words)
 {
-  while (words != NULL && *words != '\0') {
+  /* at most MICROROS_ERROR_TEXT_SIZE rounds of all loops in each microros_error_set */
+  while (words != NULL && *words != '\0' && text->at != text->end) {
     text_put(text, *words++);
   }
 }
 
 static void text_put_number(text_t * text, uint32_t number)
 {
-  char digits[10];
+  char digits[DIGITS_MOST];
   size_t first = sizeof(digits);
 
-  do {
+  do { /* at most ERROR_CONVERSIONS * DIGITS_MOST rounds in each microros_error_set */
     digits[--first] = (char)('0' + (char)(number % 10u));
     number /= 10u;
   } while (number != 0u);
+  /* at most ERROR_CONVERSIONS * DIGITS_MOST rounds in each microros_error_set */
   while (first < sizeof(digits)) {
     text_put(text, digits[first++]);
   }
@@ -65,15 +72,22 @@ static void text_put_type(text_t * text, const MICROROS_ANYWHERE char * dds_type
 {
   uint32_t part = 0;
 
-  for (const MICROROS_ANYWHERE char * at = dds_type; *at != '\0'; ++at) {
+  uint32_t hidden = TYPE_HIDDEN;
+
+  /* at most MICROROS_ERROR_TEXT_SIZE + ERROR_CONVERSIONS * TYPE_HIDDEN rounds in each microros_error_set */
+  for (const MICROROS_ANYWHERE char * at = dds_type; *at != '\0' && hidden != 0u && text->at != text->end; ++at) {
     if (at[0] == ':') {
       ++at;
       if (part != 2u) {
         text_put(text, '/');
+      } else {
+        --hidden;
       }
       ++part;
     } else if (part != 2u && (at[0] != '_' || at[1] != '\0')) {
       text_put(text, *at);
+    } else {
+      --hidden;
     }
   }
 }
@@ -106,7 +120,8 @@ void microros_error_set(
 
   microros_lock();
   text = error_begin(NULL, 0);
-  for (microros_error_t at = error; *at != '\0'; ++at) {
+  /* at most MICROROS_ERROR_TEXT_SIZE + ERROR_CONVERSIONS rounds */
+  for (microros_error_t at = error; *at != '\0' && text.at != text.end; ++at) {
     if (*at != '%') {
       text_put(&text, *at);
       continue;

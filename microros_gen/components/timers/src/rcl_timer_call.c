@@ -8,26 +8,28 @@
 #include "microros/time_math.h"
 
 /*
- * Returns when the next call is due after one that was due at `due`, skipping missed periods. Advances in
- * doubling steps and restarts with one period if a step would go too far; so even years take some hundred
- * steps, and no 64-bit division is linked.
+ * Returns when the next call is due after one that was due at `due`, skipping missed periods. Takes away from the time that
+ * is left what fits, the period times the largest power of two first; so even years take some hundred steps, and no 64-bit
+ * division is linked.
  */
 static int64_t call_next(int64_t due, int64_t period, int64_t now)
 {
-  int64_t next = microros_time_after(due, period);
+  const int64_t next = microros_time_after(due, period);
   uint64_t step = (uint64_t)period;
+  uint64_t left = 0;
 
-  if (period == 0) {
+  if (period == 0 || next > now) {
     return next > now ? next : now;
   }
-  while (next <= now && next != INT64_MAX) { /* at most 2080 rounds */
-    if (step > (uint64_t)microros_time_between(next, now)) {
-      step = (uint64_t)period;
-    }
-    next = microros_time_after(next, (int64_t)step);
+  left = (uint64_t)now - (uint64_t)next; /* exact: below 2^64 */
+  while (step <= left / 2u) { /* at most 63 rounds */
     step += step;
   }
-  return next;
+  while (step >= (uint64_t)period) { /* at most 64 rounds */
+    left -= step <= left ? step : 0u;
+    step /= 2u;
+  }
+  return microros_time_after((int64_t)((uint64_t)now - left), period);
 }
 
 static bool call_is_canceled(const rcl_timer_impl_t * timer)

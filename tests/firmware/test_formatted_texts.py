@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Instructions that texts of the log and of errors take on a Cortex-M4 at most, against the bound of the call graph."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from microros_gen.image.elf import Elf
+from microros_gen.image.folder import read_folder
+from microros_gen.image.lock_holds import longest_calls
+from microros_gen.image.report import measure_folder
+from tests.support.firmware.board import C_FILES, Builds
+from tests.support.firmware.footprint import EXIT
+from tests.support.firmware.instructions import trace_regions
+from tests.support.firmware.tasks import BOARD
+
+LINES, ERRORS = 18, 7
+"""Texts that c/measured_formats.c formats; after them one of the application."""
+AROUND = 12
+"""Instructions of the program between the marks: the arguments, the call, and the ends of the marks."""
+CLOSE = 10
+"""How far above the heaviest text the bound may be."""
+FUNCTIONS = ("rcutils_logging_format", "microros_error_set", "rcutils_set_error_state")
+
+APPLICATION = """\
+version: 1
+profiles: [pure_sender]
+errors: text
+logging: [{to: rosout, level: info}, {to: console, level: info}]
+nodes: [{name: device, publishers: [{topic: count, type: std_msgs/msg/Int32}]}]
+"""
+
+
+@pytest.mark.system
+def test_no_text_takes_more_instructions_than_the_call_graph_says(builds: Builds, tmp_path: Path) -> None:
+    built = builds.build(BOARD, APPLICATION)
+    image = built.link(C_FILES / "measured_formats.c", tmp_path / "formats.elf")
+    report = measure_folder(read_folder(built.out, image))
+    bounds = longest_calls(report, Elf(image), FUNCTIONS)
+    assert [bounds[name].open for name in FUNCTIONS] == [frozenset()] * len(FUNCTIONS)
+    emulator = built.target.emulator
+    assert emulator is not None
+    command = [emulator.program, *emulator.arguments, *EXIT]
+    counted = [region.counted for region in trace_regions(command, image, ())][0::2]
+    assert len(counted) == LINES + ERRORS + 1
+    parts = (counted[:LINES], counted[LINES : LINES + ERRORS], counted[LINES + ERRORS :])
+    for name, measured in zip(FUNCTIONS, parts, strict=True):
+        most = bounds[name].count
+        assert max(measured) <= most + AROUND, (name, measured, most)
+        assert most < CLOSE * max(measured), (name, measured, most)
