@@ -368,7 +368,7 @@ REFUSED = [
     ("name: law", "name: laws", "MG-8852", "law: TORQUE", "'joint' does not declare the parameter 'law'. Did"),
     (f"double, {SPEED}", "integer", "MG-8853", "speed: 0.1", "type double, the node declares integer"),
     (SPEED, f"read_only: true, {SPEED}", "MG-8854", "speed: 0.2", "'speed' is read-only"),
-    ("max: 2.0", "max: 1.0", "MG-8855", "speed: 1.5", "1.5, is out of the node's range. Write 1.0: it goes from 0.0 to 1.0"),
+    ("max: 2.0", "max: 1.0", "MG-8855", "speed: 1.5", "is out of the node's range. Write 1.0: it goes from 0.0 to 1.0"),
     (SPEED, STEPS, "MG-8856", "speed: 0.1", "0.1, is between"),
     (LAW, "size: 5", "MG-8857", "law: TORQUE", "longer than its storage in the node. Set size: 6"),
     ("[TORQUE, SPEED]", "[TORQUE, FORCE]", "MG-8858", "law: SPEED", "that the node accepts. Available: TORQUE"),
