@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import count
 
 from microros_gen.application import silence
 from microros_gen.application.actions import parse_action_clients, parse_actions
@@ -103,10 +104,11 @@ def _node(item: YamlNode, diagnostics: Diagnostics) -> NodeDecl:
     for kind, named in (("timer", node.timers), ("parameter", node.parameters), ("executor", executors)):
         check_unique(kind, [(n.name, n.span) for n in named], diagnostics)
     for mode in node.modes:
-        check_unique("parameter of a mode", [(v.parameter, v.name_span) for v in mode.values], diagnostics)
+        values = [(v.parameter, v.name_span) for v in mode.values]
+        check_unique("parameter of a mode", values, diagnostics, "Remove it")
     for kind, actions_of in (("action", node.actions), ("action client", node.action_clients)):
         check_unique(kind, [(a.name, a.span) for a in actions_of], diagnostics)
-    check_unique("parameter client", [(c.node, c.span) for c in node.parameter_clients], diagnostics)
+    check_unique("parameter client", [(c.node, c.span) for c in node.parameter_clients], diagnostics, "Remove it")
     return rename_endpoints(replace(node, executors=executors), remap, diagnostics)
 
 
@@ -209,17 +211,32 @@ def _executor(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Execu
     return ExecutorDecl(text_of(child(item, "name")) or "", handles, timeout, item.span)
 
 
-def check_unique(kind: str, named: list[tuple[str, Span | None]], diagnostics: Diagnostics) -> None:
-    """Report names that come twice among things of one kind."""
+def check_unique(
+    kind: str,
+    named: list[tuple[str, Span | None]],
+    diagnostics: Diagnostics,
+    hint: str | None = None,
+    longest: int | None = None,
+) -> None:
+    """Report names that come twice among things of one kind; `hint`: what to do, if not to take another name.
+
+    `longest`: the most characters of a name.
+    """
     seen: dict[str, Span | None] = {}
     for name, span in named:
         first = seen.get(name)
         if name in seen and name:
             where = f"; the first is in {_place(first, span)}" if first else ""
-            diagnostics.error(
-                f"duplicate {kind} '{name}'{where}", span, "Give each a different name", id="MG-3011"
-            )
+            words = hint or f"Write another name such as {_free_name(name, {n for n, _ in named}, longest)}"
+            diagnostics.error(f"duplicate {kind} '{name}'{where}", span, words, id="MG-3011")
         seen.setdefault(name, span)
+
+
+def _free_name(name: str, taken: set[str], longest: int | None) -> str:
+    """Return the name with the first number from 2 on that makes it another one."""
+    endings = (f"_{number}" for number in count(2))
+    names = (name[: longest - len(ending) if longest else None] + ending for ending in endings)
+    return next(free for free in names if free not in taken)
 
 
 def _place(first: Span, span: Span | None) -> str:

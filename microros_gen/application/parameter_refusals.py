@@ -75,7 +75,8 @@ def _range_words(parameter: ParameterDecl, closest: int | float) -> str:
     if "lt" not in excluded and parameter.maximum == last:
         return f"Write a number {low}"
     if excluded:
-        return f"Write a number {low} and {high}"
+        inside = _inside(parameter.minimum, parameter.maximum)
+        return f"Write {inside}: a number {low} and {high}" if inside else f"Write a number {low} and {high}"
     return f"Write {closest}: it goes from {parameter.minimum} to {parameter.maximum}"
 
 
@@ -84,3 +85,11 @@ def _is_step(distance: int | float, step: int | float) -> bool:
         return distance % step == 0
     steps = distance / step
     return math.isclose(steps, round(steps), rel_tol=_CLOSE, abs_tol=_CLOSE)
+
+
+def _inside(low: int | float | None, high: int | float | None) -> str:
+    """Return a short number between two ends, which `nextafter` may have moved; empty if there is no short one."""
+    if not isinstance(low, float) and not isinstance(high, float):
+        return str(low)
+    middle = float(f"{(float(low or 0) + float(high or 0)) / 2:.3g}")
+    return f"{middle:.3g}" if low is not None and high is not None and low <= middle <= high else ""

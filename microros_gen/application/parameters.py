@@ -227,7 +227,8 @@ def _check_choice(parameter: ParameterDecl, places: Places, diagnostics: Diagnos
         diagnostics.error(message, places.choice.span, "Remove `one_of`", id="MG-3058")
     elif places.bounds is not None:
         message = f"the parameter '{parameter.name}' has both `range` and `one_of`"
-        diagnostics.error(message, places.choice.span, "Remove one of them", id="MG-3059")
+        hint = "Remove `one_of<>`" if places.library else "Remove `one_of`"
+        diagnostics.error(message, places.choice.span, hint, id="MG-3059")
     else:
         _check_choices(parameter, places.choice, diagnostics)
 

@@ -4,7 +4,9 @@
 Each schema is a file next to the parser that uses it, for editors too. Keywords of this project in them, which
 other tools take as annotations: `x-expects` (what a value must be, in words), `x-keys` (what keys must be),
 `x-reserved` (what a key is kept for), `x-format` (for hints), `x-meant` (words of other programs, and what to write),
-`x-other-keys` (the hint for a key that is none, with KEY for it). A key with `deprecated: true` works and gives a
+`x-other-keys` (the hint for a key that is none, with KEY for it), `x-meant-keys` (keys of other programs, and the hint
+for each), `x-meant-item` (keys of an item that is written as one `key: value`), `x-meant-list` (keys of a mapping that
+is written as a list). A key with `deprecated: true` works and gives a
 warning with the hint `deprecationMessage`, which editors show, too; `x-replacement` says what `init --migrate` writes
 instead.
 """

@@ -26,6 +26,8 @@ _TIMES = {
     **dict.fromkeys(("us", "µs", "usec", "usecs", "micros", "microsecond", "microseconds"), "us"),
 }
 _RATES = {**dict.fromkeys(("hz", "hertz"), "Hz"), **dict.fromkeys(("khz", "kilohertz"), "kHz")}
+_FASTER = {**dict.fromkeys(("mhz", "megahertz"), 1_000), **dict.fromkeys(("ghz", "gigahertz"), 1_000_000)}
+"""Units of a rate above kHz, in kHz."""
 _PER_SECOND = {"s": 1, "ms": 1000, "us": 1_000_000}
 _VOLTS = {"v": 1000, "mv": 1}
 _NO_FACTORS: dict[str, int] = {}
@@ -115,13 +117,16 @@ def _time(text: str) -> str | None:
 
 
 def _rate(text: str) -> str | None:
-    found = _WITH_UNIT.fullmatch(text)
+    found = _WITH_UNIT.fullmatch(text.removeprefix("-"))
     if found is None or float(found["number"]) == 0:
         return "Remove the key" if found is not None else None
     number, unit = found["number"], found["unit"].lower()
     if unit in _TIMES:
         rate = _decimal(_PER_SECOND[_TIMES[unit]] / float(number))
         return f"Write {rate} Hz" if rate else None
+    if unit in _FASTER:
+        faster = _decimal(float(number) * _FASTER[unit])
+        return f"Write {faster} kHz" if faster else None
     return f"Write {number} {_RATES[unit or 'hz']}" if unit in ("", *_RATES) else None
 
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 from typing import Any
 
@@ -46,6 +46,7 @@ _WORDS = re.compile(r"\^\(([a-z_|]+)\)\$")
 """A pattern of words, one of which may stand in place of a list."""
 _DEFAULT = re.compile(r"\bDefault: ([0-9][0-9.]*(?: [A-Za-zµ]+)?)(?![A-Za-z0-9])")
 """What the description of a number says of its default."""
+_DEFAULT_WORD = re.compile(r"\bDefault: (\w+)(?![\w ])")
 _OLD_NUMBER = re.compile(r"[-+]?([0-9][0-9_]*(:[0-5]?[0-9])+|[0-9]+(_[0-9]+)+|0b[01]+)")
 
 
@@ -78,6 +79,9 @@ def describe_unknown_key(
         hint = f"Write {corrected}" if corrected else nearest(key, schema.get("properties", {}))
         return f"the keys of {where} must be {schema['x-keys']}; '{key}' is not", hint
     known = [k for k, value in schema.get("properties", {}).items() if "x-reserved" not in value]
+    for pattern, words in schema.get("x-meant-keys", {}).items():
+        if match := re.fullmatch(pattern, key):
+            return f"unknown key '{key}' in {where}", match.expand(words)
     if get_close_matches(key, known, cutoff=_MISSPELLED):
         return f"unknown key '{key}' in {where}", nearest(key, known)
     if "x-other-keys" in schema:
@@ -169,7 +173,23 @@ def _hint(node: YamlNode, schema: dict[str, Any], root: dict[str, Any]) -> str |
         return "Add an item, or remove the key"
     if isinstance(node, MappingNode) and "array" in kinds and "object" not in kinds:
         return _list_hint(node, schema, root)
+    if isinstance(node, SequenceNode) and "x-meant-list" in schema:
+        return _mapping_hint(node, schema, root)
     return None
+
+
+def _mapping_hint(node: SequenceNode, schema: dict[str, Any], root: dict[str, Any]) -> str | None:
+    """Return the mapping that somebody meant who wrote its values alone."""
+    data = dict(zip(schema["x-meant-list"], map(to_data, node.items), strict=False))
+    if len(data) < len(node.items) or any(
+        True for _ in differences(data, {**schema, "$defs": root.get("$defs", {})})
+    ):
+        return None
+    return f"Write {_flow(data)}"
+
+
+def _flow(data: Mapping[str, object]) -> str:
+    return f"{{{', '.join(f'{key}: {value}' for key, value in data.items())}}}"
 
 
 def _list_hint(node: MappingNode, schema: dict[str, Any], root: dict[str, Any]) -> str:
@@ -183,7 +203,40 @@ def _list_hint(node: MappingNode, schema: dict[str, Any], root: dict[str, Any]) 
         and not any(True for _ in differences(to_data(node), item))
     ):
         return f"Write [{text}]"
+    if meant := _meant_item(node, item):
+        return f"Write [{meant}]"
     return "Begin each item with '- ', or write [ … ]"
+
+
+def _meant_item(node: MappingNode, item: dict[str, Any]) -> str | None:
+    """Return the item that somebody meant whose words are those of another program, or who wrote one `key: value`."""
+    data = to_data(node)
+    keys = item.get("x-meant-item", ())
+    if len(data) == 1 and keys and not data.keys() & item["properties"].keys():
+        data = dict(zip(keys, next(iter(data.items())), strict=True))
+    for difference in tuple(differences(data, item)):
+        key = difference.path[0] if len(difference.path) == 1 else None
+        word = _meant_word(str(data[key]), difference.schema) if key in data else None
+        if word is None:
+            return None
+        data[key] = word
+    plain = all(isinstance(value, int) or re.fullmatch(r"\w[\w. ]*", str(value)) for value in data.values())
+    return _flow(data) if plain and not any(True for _ in differences(data, item)) else None
+
+
+def _meant_word(text: str, schema: dict[str, Any]) -> str | None:
+    """Return the word of a list of words that is closest to a text, or the default."""
+    words: dict[str, str] = schema.get("x-meant", {})
+    if found := next((value for pattern, value in words.items() if re.fullmatch(pattern, text)), None):
+        return found
+    known = [str(value) for value in schema.get("enum", ())]
+    return next(iter(get_close_matches(text, known, n=1, cutoff=0.55)), None) or _default_word(schema)
+
+
+def _default_word(schema: dict[str, Any]) -> str | None:
+    """Return the word that the description of a choice gives as its default."""
+    default = _DEFAULT_WORD.search(schema.get("description", ""))
+    return default[1] if default and default[1] in schema.get("enum", ()) else None
 
 
 def _example_hint(schema: dict[str, Any]) -> str | None:
@@ -222,7 +275,9 @@ def _scalar_hint(
     if meant := _meant(text, schema):
         return meant
     if "enum" in schema:
-        return nearest(text, [str(value) for value in schema["enum"]])
+        word = _default_word(schema)
+        known = [str(value) for value in schema["enum"]]
+        return nearest(text, known) or (f"Write {word}, the default" if word else None)
     if words := _WORDS.fullmatch(schema.get("pattern", "")):
         found = nearest(text, words[1].split("|"))
         if found or "array" in kinds:

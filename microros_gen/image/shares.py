@@ -52,9 +52,9 @@ def joined(counts: tuple[int, int], shares: tuple[Shares, Shares], join: Callabl
         return NONE
     found: dict[str, Split] = {}
     for scope in {**shares[0], **shares[1]}:
-        one, other = (each.get(scope, Split(n, {})) for n, each in zip(counts, shares, strict=True))
-        parts = {k: max(one.parts.get(k, 0), other.parts.get(k, 0)) for k in {**one.parts, **other.parts}}
-        found[scope] = Split(join(one.base, other.base), parts)
+        left, right = (each.get(scope, Split(n, {})) for n, each in zip(counts, shares, strict=True))
+        parts = {k: max(left.parts.get(k, 0), right.parts.get(k, 0)) for k in {**left.parts, **right.parts}}
+        found[scope] = Split(join(left.base, right.base), parts)
     return found
 
 

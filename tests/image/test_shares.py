@@ -58,9 +58,9 @@ def test_no_run_is_longer_than_the_sum(seed: int) -> None:
             fixed, loops = rng.choice(ways)
             run += fixed
             for cost in loops:
-                took = rng.choice((0, rng.randint(0, left), left))
-                left -= took
-                run += took * cost
+                rounds_here = rng.choice((0, rng.randint(0, left), left))
+                left -= rounds_here
+                run += rounds_here * cost
         assert run <= most
 
 

@@ -58,7 +58,9 @@ def sizes_above_limits(application: Application, parameters: Iterable[ParameterD
         if (parameter.size or 0) > most:
             what = f"the size of the parameter '{parameter.name}' is {parameter.size}"
             message = f"{what}, and the limit of {member} is {most}"
-            yield Diagnostic(message, parameter.span, f"Write size: {most}, or raise the limit", id="MG-9852")
+            kind = "sequence" if parameter.is_array else "string"
+            limits = f"`limits: {{{STRING_VALUE[0]}: {{{member}: {{{kind}: {parameter.size}}}}}}}`"
+            yield Diagnostic(message, parameter.span, f"Write size: {most}, or {limits}", id="MG-9852")
 
 
 def _too_long(

@@ -75,7 +75,8 @@ static void text_put_type(text_t * text, const MICROROS_ANYWHERE char * dds_type
   uint32_t hidden = TYPE_HIDDEN;
 
   /* at most MICROROS_ERROR_TEXT_SIZE + ERROR_CONVERSIONS * TYPE_HIDDEN rounds in each microros_error_set */
-  for (const MICROROS_ANYWHERE char * at = dds_type; *at != '\0' && hidden != 0u && text->at != text->end; ++at) {
+  for (const MICROROS_ANYWHERE char * at = dds_type; *at != '\0' && hidden != 0u && text->at != text->end;
+       ++at) {
     if (at[0] == ':') {
       ++at;
       if (part != 2u) {

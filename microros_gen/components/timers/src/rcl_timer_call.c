@@ -22,7 +22,8 @@ static int64_t call_next(int64_t due, int64_t period, int64_t now)
     return next > now ? next : now;
   }
   left = (uint64_t)now - (uint64_t)next; /* exact: below 2^64 */
-  while (step <= left / 2u) { /* at most 63 rounds */
+  /* at most 63 rounds */
+  while (step <= left / 2u) {
     step += step;
   }
   while (step >= (uint64_t)period) { /* at most 64 rounds */
