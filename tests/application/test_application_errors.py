@@ -203,7 +203,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "two timers of one name": (
         f"{NODE}    timers:\n    - {{name: t, period: 1 s}}\n    - {{name: t, period: 2 s}}\n",
-        "f:5:7: error: duplicate timer 't'; the first is in line 4. Give each a different name",
+        "f:5:7: error: duplicate timer 't'; the first is in line 4. Write another name such as t_2",
     ),
     "a timer of no time": (
         f"{NODE}    timers: [{{name: t, period: 0 ms}}]\n",
@@ -321,7 +321,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     ),
     "range and choice": (
         f"{NODE}    parameters: [{{name: p, type: integer, range: {{min: 0, max: 5}}, one_of: [1]}}]\n",
-        "f:3:76: error: the parameter 'p' has both `range` and `one_of`. Remove one of them",
+        "f:3:76: error: the parameter 'p' has both `range` and `one_of`. Remove `one_of`",
     ),
     "choice of a bool": (
         f"{NODE}    parameters: [{{name: p, type: bool, one_of: [1]}}]\n",

@@ -121,7 +121,7 @@ MISTAKES = {
         "Write this value as its `default`",
     ),
     "no value": ("{p: 1}", "{p: }", "MG-3102", "", "Write a value, or remove it"),
-    "twice": ("gains: {p: 1}", "gains.p: 1, gains: {p: 2}", "MG-3011", "p", "Give each a different name"),
+    "twice": ("gains: {p: 1}", "gains.p: 1, gains: {p: 2}", "MG-3011", "p", "Remove it"),
     "name of a mode": ("SLOW:", "SLOW-1:", "MG-1002", "SLOW-1", ""),
     "a list": ("{label: wild, path: [3, 255], name: quick}", "[label]", "MG-1005", "[label]", ""),
 }

@@ -412,7 +412,7 @@ def test_a_file_is_read_once(tmp_path: Path) -> None:
         (None, "cannot read the parameter file"),
         (
             "m:\n  own: {type: bool, default_value: true}\n",
-            "motor.yaml:2. Give each a different name",
+            "motor.yaml:2. Write another name such as own_2",
         ),
     ],
     ids=["missing", "twice"],

@@ -291,7 +291,9 @@ def test_a_size_above_a_limit(tmp_path: Path, parameter: str, limit: str, messag
         planned(tmp_path, text + limits)
     [found] = error.value.diagnostics
     assert (found.message, found.id) == (message, "MG-9852")
-    assert found.hint == f"Write {hint}, or raise the limit"
+    own, separator, raised = str(found.hint).partition(", or ")
+    assert (own, separator) == (f"Write {hint}", ", or ")
+    assert planned(tmp_path, text + raised.strip("`") + "\n").project
     assert planned(tmp_path, re.sub("size: [0-9]+", hint, text) + limits).project
 
 

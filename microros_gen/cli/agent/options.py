@@ -354,8 +354,8 @@ def read_sources(
         try:
             sources.append(Source(str(path), read_text(path, encoding="utf-8-sig")))
         except OSError as error:
-            message, hint = f"{path} cannot be read: {error.strerror}", "Name a file that this user may read"
-            diagnostics.error(message, known.get(path), hint, id="MG-9703")
+            message = f"{path} cannot be read: {error.strerror}"
+            diagnostics.error(message, known.get(path), "Name a file that this user may read", id="MG-9703")
         except UnicodeDecodeError as error:
             diagnostics.error(
                 f"{path} is not UTF-8 (byte {error.start})", known.get(path), "Save it as UTF-8", id="MG-9704"
