@@ -108,7 +108,9 @@ def _node(item: YamlNode, diagnostics: Diagnostics) -> NodeDecl:
         check_unique("parameter of a mode", values, diagnostics, "Remove it")
     for kind, actions_of in (("action", node.actions), ("action client", node.action_clients)):
         check_unique(kind, [(a.name, a.span) for a in actions_of], diagnostics)
-    check_unique("parameter client", [(c.node, c.span) for c in node.parameter_clients], diagnostics, "Remove it")
+    check_unique(
+        "parameter client", [(c.node, c.span) for c in node.parameter_clients], diagnostics, "Remove it"
+    )
     return rename_endpoints(replace(node, executors=executors), remap, diagnostics)
 
 

@@ -44,7 +44,9 @@ def parse_tasks(
     runs = [
         child(item, "executor") is not None or bool_of(child(item, "session")) is True for item in items(tree)
     ]
-    check_unique("task", [(task.name.lower(), task.span) for task in tasks], diagnostics, longest=LONGEST_NAME)
+    check_unique(
+        "task", [(task.name.lower(), task.span) for task in tasks], diagnostics, longest=LONGEST_NAME
+    )
     _check_runners(
         [t for t, runs_something in zip(tasks, runs, strict=True) if runs_something], nodes, diagnostics
     )
@@ -180,7 +182,9 @@ def _check_times(item: YamlNode, task: TaskDecl, diagnostics: Diagnostics) -> No
         hint = "Keep one: the time of a run follows from its instructions"
         diagnostics.error(message, span_of(child(item, "instructions")), hint, id="MG-3290")
     if task.priority and task.criticality:
-        message = f"'criticality' of the task '{task.name}' has no effect beside 'priority', which fixes its place"
+        message = (
+            f"'criticality' of the task '{task.name}' has no effect beside 'priority', which fixes its place"
+        )
         diagnostics.error(message, span_of(child(item, "criticality")), "Remove `criticality`", id="MG-9853")
     _check_lock(item, task, diagnostics)
 

@@ -319,6 +319,12 @@ ERRORS: dict[str, tuple[str, str]] = {
         "f:3:50: error: the range of the parameter 'p' has a number that is no integer of 64 bits. "
         "Write whole numbers, or type: double",
     ),
+    "priority and criticality": (
+        "nodes: [{name: n, executors: [{name: fast}]}]\n"
+        "tasks: [{name: t, executor: fast, priority: 1, criticality: low}]\n",
+        "f:3:62: error: 'criticality' of the task 't' has no effect beside 'priority', which fixes its place. "
+        "Remove `criticality`",
+    ),
     "range and choice": (
         f"{NODE}    parameters: [{{name: p, type: integer, range: {{min: 0, max: 5}}, one_of: [1]}}]\n",
         "f:3:76: error: the parameter 'p' has both `range` and `one_of`. Remove `one_of`",

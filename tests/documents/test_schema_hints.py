@@ -58,7 +58,7 @@ HINTS = {
     "tasks: [{name: control, wcet: 1}]": "Write `time: 200 us`",
     "tasks: [{name: control, executors: [a]}]": "Write `executor: NAME`, one of the `executors:` of a node",
     "tasks: [{name: control, stack_size: 4096}]": "Write `stack: 4 KiB`",
-    "tasks: [{name: control, prio: 1}]": "Did you mean 'priority'?",
+    "tasks: [{name: control, prio: 1}]": "Write `priority: 1`",
     "tasks: [{name: control, criticality: medium}]": "Write middle",
     "tasks: [{name: control, criticality: 7}]": "Write middle, the default",
     "tasks: [{name: control, rate: -5 Hz}]": "it is the text '-5 Hz'. Write 5 Hz",

@@ -58,8 +58,10 @@ def sizes_above_limits(application: Application, parameters: Iterable[ParameterD
         if (parameter.size or 0) > most:
             what = f"the size of the parameter '{parameter.name}' is {parameter.size}"
             message = f"{what}, and the limit of {member} is {most}"
-            kind = "sequence" if parameter.is_array else "string"
-            limits = f"`limits: {{{STRING_VALUE[0]}: {{{member}: {{{kind}: {parameter.size}}}}}}}`"
+            limit = f"{'sequence' if parameter.is_array else 'string'}: {parameter.size}"
+            if parameter.type == "string[]":
+                limit += f", string: {array_string_size(application)}"
+            limits = f"`limits: {{{STRING_VALUE[0]}: {{{member}: {{{limit}}}}}}}`"
             yield Diagnostic(message, parameter.span, f"Write size: {most}, or {limits}", id="MG-9852")
 
 
