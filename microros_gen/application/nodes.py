@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import count
 
@@ -215,7 +215,7 @@ def _executor(item: YamlNode, node: NodeDecl, diagnostics: Diagnostics) -> Execu
 
 def check_unique(
     kind: str,
-    named: list[tuple[str, Span | None]],
+    named: Sequence[tuple[str, Span | None]],
     diagnostics: Diagnostics,
     hint: str | None = None,
     longest: int | None = None,

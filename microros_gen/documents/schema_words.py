@@ -210,7 +210,9 @@ def _list_hint(node: MappingNode, schema: dict[str, Any], root: dict[str, Any]) 
 
 def _meant_item(node: MappingNode, item: dict[str, Any]) -> str | None:
     """Return the item that somebody meant whose words are those of another program, or who wrote one `key: value`."""
-    data = to_data(node)
+    written = to_data(node)
+    assert isinstance(written, dict)
+    data: dict[str, Any] = dict(written)
     keys = item.get("x-meant-item", ())
     if len(data) == 1 and keys and not data.keys() & item["properties"].keys():
         data = dict(zip(keys, next(iter(data.items())), strict=True))

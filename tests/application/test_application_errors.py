@@ -322,7 +322,7 @@ ERRORS: dict[str, tuple[str, str]] = {
     "priority and criticality": (
         "nodes: [{name: n, executors: [{name: fast}]}]\n"
         "tasks: [{name: t, executor: fast, priority: 1, criticality: low}]\n",
-        "f:3:62: error: 'criticality' of the task 't' has no effect beside 'priority', which fixes its place. "
+        "f:2:61: error: 'criticality' of the task 't' has no effect beside 'priority', which fixes its place. "
         "Remove `criticality`",
     ),
     "range and choice": (

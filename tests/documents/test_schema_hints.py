@@ -50,7 +50,7 @@ HINTS = {
     "logging: {to: nowhere}": "Begin each item with '- ', or write [ … ]",
     "logging: [{to: console, level: loud}]": "Write info, the default",
     "nodes: [{name: a, parameters: [{name: b, type: double, range: [0, 1]}]}]": "Write {min: 0, max: 1}",
-    "nodes: [{name: a, parameters: [{name: b, type: double, range: [0, 1, 0.5]}]}]": "Write {min: 0, max: 1, step: 0.5}",
+    "nodes: [{name: a, parameters: [{name: b, type: double, range: [0, 1, 2]}]}]": "Write {min: 0, max: 1, step: 2}",
     "nodes: [{name: a, parameters: [{name: b, type: double, range: [0, 1, 2, 3]}]}]": "it is a list",
     "tasks: [{name: control, on_overrun: skip}]": "Write `overrun: call`: your function is called",
     "tasks: [{name: control, period_ms: 10}]": "Write `period: 10 ms`",
