@@ -15,6 +15,9 @@ from microros_gen.typesupport.plan.names import include_path, type_files
 
 Declared = TypeVar("Declared")
 
+SIZED_SERVICES = 5
+"""From so many services and clients on, steps count more than the code: components that serve open five or six."""
+
 
 @dataclass(frozen=True)
 class Places(Generic[Declared]):
@@ -95,6 +98,11 @@ class EntitiesPlan:
     def service_text_max(self) -> int:
         """Bytes of the longest name of a declared service or client, or of its type."""
         return max((len(text) for s in self.served for text in (s.name, s.dds_type)), default=0)
+
+    @property
+    def describes_sized(self) -> bool:
+        """Whether descriptions copy names by their sizes: a quarter of the time, and 112 bytes more code."""
+        return len(self.served) >= SIZED_SERVICES
 
     @property
     def limits_services(self) -> bool:

@@ -45,7 +45,8 @@ rcutils_ret_t rcutils_char_array_resize(rcutils_char_array_t * char_array, size_
 /* Raises the capacity to `new_size` if it is smaller. */
 rcutils_ret_t rcutils_char_array_expand_as_needed(rcutils_char_array_t * char_array, size_t new_size);
 
-/* Replaces the text with a formatted one, with the formats of rcutils/logging.h. `args` can be used again. */
+/* Replaces the text with a formatted one, with the formats of rcutils/logging.h. `args` can be used again. Takes as long as
+ * the capacity allows, and up to as long again for each doubling: not with the lock held. */
 rcutils_ret_t rcutils_char_array_vsprintf(
   rcutils_char_array_t * char_array, const char * format, va_list args);
 
