@@ -257,17 +257,24 @@ def test_a_vanished_client_delays_no_other(bridged: Bridged, monkeypatch: pytest
 class Unmatched:
     """ROS 2 with a client that it has not matched yet, though the graph has it: so many attempts fail."""
 
-    def __init__(self, libraries: Libraries, failures: int) -> None:
+    def __init__(self, libraries: Libraries, failures: int, takes_s: float = 0.0) -> None:
         self._libraries = libraries
         self.failures = failures
+        self.takes_s = takes_s
         self.attempts = 0
+        self.times: list[float] = []
+        """When each attempt that failed began."""
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._libraries, name)
 
     def send_response(self, *arguments: Any) -> int:
         self.attempts += 1
-        return TIMEOUT if self.attempts <= self.failures else int(self._libraries.send_response(*arguments))
+        if self.attempts > self.failures:
+            return int(self._libraries.send_response(*arguments))
+        self.times.append(time.monotonic())
+        time.sleep(self.takes_s)
+        return TIMEOUT
 
 
 @pytest.mark.parametrize("failures", [1, 2])
@@ -275,7 +282,7 @@ def test_a_client_that_is_matched_late_gets_its_replies(
     bridged: Bridged, monkeypatch: pytest.MonkeyPatch, failures: int
 ) -> None:
     """All of them, in their order, and later ones: on a busy machine the graph is faster than the match."""
-    monkeypatch.setattr(services, "DEAF_S", 0.1)
+    monkeypatch.setattr(services, "DEAF_S", 0.1, raising=False)
     monkeypatch.setattr(services, "WAIT_FOR_CLIENT_S", 300)
     node = bridged.bridge.create_node("hasty", bridged.domain)
     asker = bridged.bridge.create_node("matched_late", bridged.domain)
@@ -301,18 +308,58 @@ def test_a_client_that_is_matched_late_gets_its_replies(
     node.destroy()
 
 
+def test_many_clients_that_are_not_matched_delay_the_agent_by_a_tenth(
+    bridged: Bridged, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Forty at once, of two services: 100 ms each would stop all boards for four seconds. Who is matched waits not."""
+    node = bridged.bridge.create_node("crowded", bridged.domain)
+    asker = bridged.bridge.create_node("matched", bridged.domain)
+    requester = asker.create_requester(get_types("crowded_0"))
+    takes_s, crowd = 0.05, [bytes([0xEE, number] + 14 * [7]) for number in range(20)]
+    repliers = [node.create_replier(get_types(f"crowded_{number}")) for number in range(2)]
+
+    def ask_and_answer(size: int) -> None:
+        number = requester.request(names_body(["abc"]))
+        [(identity, _)] = bridged.take(repliers[0], 1)
+        repliers[0].reply(identity, types_body([size]))
+        assert [(n, read_types(r)) for n, r in bridged.take(requester, 1)] == [(number, [size])]
+
+    ask_and_answer(1)
+    times: list[float] = []
+    for replier in repliers:
+        in_graph = replier._clients()  # type: ignore[attr-defined]
+        monkeypatch.setattr(replier, "_clients", lambda known=in_graph: known | set(crowd))
+        libraries = replier._libraries  # type: ignore[attr-defined]
+        unmatched = Unmatched(libraries, 1000, takes_s)
+        unmatched.times = times
+        monkeypatch.setattr(replier, "_libraries", unmatched)
+    began = time.monotonic()
+    for replier in repliers:
+        for guid in crowd:
+            replier.reply(guid + bytes(8), types_body([0]))
+    assert time.monotonic() - began < 10 * takes_s
+    bridged.wait(lambda: len(times) >= 4)
+    assert min(after - before for before, after in pairwise(times)) >= 10 * takes_s * 0.99
+    monkeypatch.setattr(repliers[0], "_libraries", libraries)
+    attempts = len(times)
+    ask_and_answer(2)
+    assert len(times) <= attempts + 1
+    asker.destroy()
+    node.destroy()
+
+
 def test_a_client_that_is_never_matched_is_tried_less_and_less_often() -> None:
     """Each attempt may block the agent; without a match in sight they take less than a hundredth of its time."""
-    deaf, now, attempts = services._Deaf(), 0.0, []
+    deaf, now, attempts = services._Reach(), 0.0, []
     while now < 600.0:
         if not deaf.rests(b"guid", now):
             attempts.append(now)
-            deaf.add(b"guid", now)
+            deaf.missed(b"guid", now)
         now += 0.25
     pauses = [after - before for before, after in pairwise(attempts)]
     assert pauses[:4] == [0.5, 1.0, 2.0, 4.0]
     assert max(pauses) == services.LONGEST_DEAF_S
-    deaf.reached(b"guid")
+    deaf.reached(b"guid", {b"guid"})
     assert not deaf.rests(b"guid", attempts[-1])
 
 

@@ -36,6 +36,9 @@ DEAF_S, LONGEST_DEAF_S = 0.5, 60.0
 """Seconds until a client that ROS 2 did not reach is tried again: after the first time, and at most. Each attempt may
 block the agent for 100 ms. On a busy machine the graph has a client long before it is matched; one with another quality
 of service is never matched."""
+BLOCKED_PAUSE = 9
+"""Times the duration of an attempt that blocked the agent: so long no other client that was never reached is tried, of
+all services. They take a tenth of the agent's time at most, however many clients come at once."""
 _LOOK_AGAIN_S = 0.05
 _GUID_BYTES = 16
 _NUMBER = struct.Struct("<iI")
@@ -57,6 +60,8 @@ class Patience(Watcher):
         self._waiting: set[Waiter] = set()
         self.held_bytes = 0
         """Bytes of all waiting calls."""
+        self.may_block_at = 0.0
+        """When a call that may block the agent may be made again."""
 
     def wait_for(self, waiter: Waiter) -> None:
         """Call `still_waits` of `waiter` repeatedly until it returns False."""
@@ -104,6 +109,10 @@ class Held:
         call = self._calls.popleft()
         self._count(-len(call[2]))
         return call
+
+    def pop_all(self) -> list[tuple[float, Any, bytes]]:
+        """Remove and return all calls."""
+        return [self.pop() for _ in range(len(self._calls))]
 
     def _count(self, size: int) -> None:
         self._bytes += size
@@ -171,14 +180,16 @@ class RawService(RawSource):
             raise BridgeError(f"{self.label} is gone")
 
 
-class _Deaf:
-    """Clients that are in the graph and that ROS 2 did not reach, with the time until which each is left alone."""
+class _Reach:
+    """Which clients in the graph ROS 2 has reached, and how long each of those that it did not is left alone."""
 
     def __init__(self) -> None:
         self._until: dict[bytes, tuple[float, float]] = {}
+        self._reached: set[bytes] = set()
 
-    def add(self, guid: bytes, now: float) -> None:
+    def missed(self, guid: bytes, now: float) -> None:
         """Leave a client alone for a while, each time twice as long."""
+        self._reached.discard(guid)
         _, pause_s = self._until.pop(guid, (0.0, DEAF_S / 2))
         pause_s = min(2 * pause_s, LONGEST_DEAF_S)
         self._until[guid] = now + pause_s, pause_s
@@ -189,9 +200,22 @@ class _Deaf:
         """Return whether a client is left alone."""
         return guid in self._until and now < self._until[guid][0]
 
-    def reached(self, guid: bytes) -> None:
-        """Note that a client is matched."""
+    def reached(self, guid: bytes, clients: set[bytes]) -> None:
+        """Note that one of the clients in the graph is matched."""
+        if guid in self._reached:
+            return
         self._until.pop(guid, None)
+        if len(self._reached) >= 2 * len(clients):
+            self._reached &= clients
+        self._reached.add(guid)
+
+    def is_known(self, guid: bytes) -> bool:
+        """Return whether the last reply to a client reached it, so that the next one does not block."""
+        return guid in self._reached
+
+    def pause_of(self, guid: bytes) -> float:
+        """Return the seconds for which a client was left alone last: clients with shorter ones are tried first."""
+        return self._until[guid][1] if guid in self._until else 0.0
 
 
 class RawReplier(RawService):
@@ -211,7 +235,9 @@ class RawReplier(RawService):
         self._patience = patience
         self._held = Held(patience)
         self._lost = 0
-        self._deaf = _Deaf()
+        self._reach = _Reach()
+        self._waiting: set[bytes] = set()
+        """Clients with replies in `_held`; later ones are sent after these."""
 
     def take(self) -> tuple[bytes, bytes] | None:
         """See Replier."""
@@ -227,10 +253,11 @@ class RawReplier(RawService):
             raise BridgeError(f"a sample identity of {len(identity)} bytes", Status.INVALID_DATA)
         self.check_alive()
         raw_message(serialized)
-        now = time.monotonic()
-        if self._send(identity, serialized, self._clients(), now):
+        now, guid = time.monotonic(), identity[:_GUID_BYTES]
+        if guid not in self._waiting and self._send(identity, serialized, self._clients(), now):
             return
         if self._held.put(now + WAIT_FOR_CLIENT_S, identity, serialized):
+            self._waiting.add(guid)
             self._patience.wait_for(self)
         else:
             self._lose()
@@ -240,19 +267,24 @@ class RawReplier(RawService):
         if self._descriptor < 0:
             return False
         clients, now = self._clients(), time.monotonic()
-        for _ in range(len(self._held)):
-            until, identity, serialized = self._held.pop()
-            if self._send_held(identity, serialized, clients, now):
+        calls = self._held.pop_all()
+        order = sorted(
+            range(len(calls)), key=lambda place: self._reach.pause_of(calls[place][1][:_GUID_BYTES])
+        )
+        sent = {place for place in order if self._send_held(*calls[place][1:], clients, now)}
+        self._waiting.clear()
+        for place, (until, identity, serialized) in enumerate(calls):
+            if place in sent:
                 continue
             if until < now:
                 self._lose()
             else:
                 self._held.put(until, identity, serialized)
+                self._waiting.add(identity[:_GUID_BYTES])
         return bool(self._held)
 
     def _leave(self) -> None:
-        while self._held:
-            self._held.pop()
+        self._held.pop_all()
         super()._leave()
 
     def _clients(self) -> set[bytes]:
@@ -268,19 +300,24 @@ class RawReplier(RawService):
     def _send(self, identity: bytes, serialized: bytes, clients: set[bytes], now: float) -> bool:
         """Send a reply if its client can be reached; return whether that is so."""
         guid = identity[:_GUID_BYTES]
-        if guid not in clients or self._deaf.rests(guid, now):
+        if guid not in clients or self._reach.rests(guid, now):
+            return False
+        began = time.monotonic()
+        if not self._reach.is_known(guid) and began < self._patience.may_block_at:
             return False
         high, low = _NUMBER.unpack_from(identity, _GUID_BYTES)
         request = RequestId(number=high << 32 | low)
         request.guid[:] = guid
         result = self._libraries.send_response(self._pointer, byref(request), byref(raw_message(serialized)))
         if result == TIMEOUT:
-            self._deaf.add(guid, time.monotonic())
+            ended = time.monotonic()
+            self._patience.may_block_at = ended + BLOCKED_PAUSE * (ended - began)
+            self._reach.missed(guid, ended)
             self._libraries.error()  # clear the error, which says less
             return False
         if result != OK:
             raise self.failed("reply")
-        self._deaf.reached(guid)
+        self._reach.reached(guid, clients)
         return True
 
     def _lose(self) -> None:

@@ -271,7 +271,7 @@ class Bench:
         self.bridge = FakeBridge()
         self.transport = FakeTransport()
         self.text = io.StringIO()
-        self.log = EventLog(self.text, verbosity=verbosity)
+        self.log = EventLog(self.text, verbosity=verbosity, clock=lambda: self.now)
         self.agent = Agent(
             self.bridge,
             self.log,
