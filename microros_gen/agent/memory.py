@@ -9,6 +9,7 @@ memory is returned to the system, since the C library would keep it.
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Callable, Iterable
 from enum import IntEnum
 from pathlib import Path
@@ -26,6 +27,9 @@ TRIM_EVERY_S = 2.0
 SETTLE_S = 60.0
 """Seconds for which memory is returned after clients have freed some: DDS frees the history of a writer some time after
 the writer is destroyed, and the writers of a client that has left are destroyed one after the other."""
+TRIM_PAUSE = 50
+"""Times the duration of such a return until the next one without need: clients that come and go all the time would
+otherwise let it delay all others every two seconds."""
 RELIEVE_EVERY_S = 2 * TRIM_EVERY_S
 """Minimum seconds between two removals of clients."""
 UNREAD_BYTES = 4_096
@@ -45,13 +49,23 @@ class MemoryGuard:
     """Watch over the memory of this process, checked some ten times a second."""
 
     def __init__(
-        self, limit: int, used: Callable[[], int] | None = None, trim: Callable[[], object] | None = None
+        self,
+        limit: int,
+        used: Callable[[], int] | None = None,
+        trim: Callable[[], object] | None = None,
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        """Keep memory below `limit` bytes. `used` returns the used bytes, `trim` returns free memory to the system."""
+        """Keep memory below `limit` bytes. `used` returns the used bytes, `trim` returns free memory to the system.
+
+        `clock` measures how long `trim` takes.
+        """
         self.limit = limit
         self._used = used or resident_bytes
         self._trim = trim or (lambda: None)
+        self._clock = clock
         self._trimmed_at = float("-inf")
+        self._pause_s = 0.0
+        """Seconds until memory is returned again without need."""
         self._most_held = 0
         self._settled_at = float("-inf")
 
@@ -61,9 +75,11 @@ class MemoryGuard:
         if self._most_held - held >= FREED_BYTES:
             self._most_held, self._settled_at = held, now + SETTLE_S
         pressure = self._pressure()
-        if (pressure or now < self._settled_at) and now >= self._trimmed_at + TRIM_EVERY_S:
-            self._trimmed_at = now
+        settles = now < self._settled_at and now >= self._trimmed_at + self._pause_s
+        if (pressure or settles) and now >= self._trimmed_at + TRIM_EVERY_S:
+            self._trimmed_at, began = now, self._clock()
             self._trim()
+            self._pause_s = TRIM_PAUSE * (self._clock() - began)
             pressure = self._pressure()
         return pressure
 

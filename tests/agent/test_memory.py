@@ -54,6 +54,29 @@ def guarded(process: Process) -> Bench:
     return bench
 
 
+def test_returning_memory_takes_little_of_the_time_of_clients_that_remain() -> None:
+    """Clients with much memory come and go all the time, and a return takes a fifth of a second."""
+    at, trims = [0.0], []
+
+    def trim() -> None:
+        trims.append(at[0])
+        at[0] += 0.2
+
+    used = [50]
+    guard = MemoryGuard(100, lambda: used[0], trim, lambda: at[0])
+    while at[0] < 300:
+        guard.look(64 * MIB, at[0])
+        guard.look(0, at[0])
+        at[0] += 0.1
+    assert 10 <= len(trims) <= 31, "every ten seconds"
+    used[0] = 99
+    before = len(trims)
+    while at[0] < 320:
+        guard.look(0, at[0])
+        at[0] += 0.1
+    assert len(trims) - before >= 8, "who needs it does not wait for that"
+
+
 def test_near_the_limit_nothing_more_is_made() -> None:
     process = Process()
     bench = guarded(process)
