@@ -25,7 +25,11 @@ def sent(data: bytes) -> Step:
 
 
 def arrived(count: int) -> Step:
-    return lambda bench: (put(bench, *range(count)), bench.take())
+    def arrive(bench: Bench) -> None:
+        put(bench, *range(count))
+        bench.take()
+
+    return arrive
 
 
 def limited(messages: int) -> Step:
@@ -72,7 +76,7 @@ def listening(is_short: bool) -> Bench:
     bench = subscribing()
     Listener(bench).read(0x80)
     if not is_short:
-        bench.agent._processor.acknack = lambda *_: None  # type: ignore[method-assign, assignment]
+        bench.agent._processor.acknack = lambda *_: None  # type: ignore[method-assign]
     return bench
 
 
