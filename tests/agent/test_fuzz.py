@@ -136,9 +136,9 @@ def bombard(rounds: int, seed: int) -> Bench:
         data = mutated(chance.choice(seeds), chance)
         if chance.random() < 0.7:  # where it reaches further: in session, next in its stream
             data = data[:2] + (i % 20).to_bytes(2, "little") + data[4:]
-        start = time.perf_counter()
+        start = time.thread_time()
         bench.say(data, chance.choice("aaaab"))
-        slowest = max(slowest, time.perf_counter() - start)
+        slowest = max(slowest, time.thread_time() - start)
         if i % 20 == 0:
             bench.wait(0.1)
             connect(bench)
