@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How often a node with upper components wakes up in a quiet hour with `liveliness: acknack`. Time is made."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from tests.support.components.rendered import UNITS, rendered, run
+from tests.support.runtime.harness import Tree, compile_merged, link, quick
+
+APPLICATION = """\
+version: 1
+profiles: [pure_sender]
+components: [+executor, +parameters{more}]
+session: {{key: 7}}
+liveliness: acknack
+nodes: [{{name: device, parameters: {{at: {at}, declare: [{{name: a, type: integer}}]}}}}]
+"""
+ALL = ", +logger_services, +graph, +graph_events, +lifecycle"
+WRITERS = "logging: [{to: rosout, level: debug}, {to: ring, level: debug}]\n"
+HOUR_S, NOTICE_S = 3600, 2
+
+
+def woke(folder: Path, text: str) -> int:
+    """Return how often it woke in an hour."""
+    out = rendered(folder, text)
+    sources = [path for path in sorted((out / "src").rglob("*.c")) if not path.name.startswith("port_posix")]
+    compiler, flags = quick()
+    flags = (*flags, "-std=gnu99", "-Wno-error")
+    units = [UNITS / "port_agent.c", UNITS / "unit_rest.c"]
+    program = link(
+        compile_merged(Tree(out, ()), sources, units, compiler, flags), compiler, flags, out / "rest"
+    )
+    word, count = run(program).split()
+    assert word == "woke"
+    return int(count)
+
+
+def test_parameters_logs_graph_and_life_cycle_let_it_rest(tmp_path: Path) -> None:
+    assert woke(tmp_path, APPLICATION.format(more=ALL, at="device") + WRITERS) <= 2
+
+
+def test_a_node_without_its_parameter_server_looks_for_one(tmp_path: Path) -> None:
+    """The number that the page about the session has: a notice every two seconds, and its acknowledgement."""
+    count = woke(tmp_path, APPLICATION.format(more="", at="agent"))
+    assert HOUR_S // NOTICE_S <= count <= 2 * HOUR_S // NOTICE_S
