@@ -2,8 +2,9 @@
 /*
  * A line that takes 20 ms for each 64 bytes, and a task that publishes each millisecond: task_slow_line PORT. Prints the
  * runs of the task, those that were left out, the writes, the most runs in one write, the longest time of the processor for
- * which a task held the library's lock, in microseconds, and the dropped messages. With -DPLAIN=1 a loop publishes instead,
- * in the program without tasks. The application files are those of test_task_slow_line.py.
+ * which a task held the library's lock, in microseconds, the dropped messages, and the jitter: by how many microseconds half
+ * of the times between two runs differ from a millisecond at most. With -DPLAIN=1 a loop publishes instead, in the program
+ * without tasks. The application files are those of test_task_slow_line.py.
  */
 #define _GNU_SOURCE
 #include "unit.h"
@@ -37,7 +38,8 @@ enum {
   PERIOD_US = 1000,
   US_PER_S = 1000000,
   NS_PER_US = 1000,
-  MOST_S = 60
+  MOST_S = 60,
+  INTERVALS = 1024
 };
 
 static int agent = -1;
@@ -47,6 +49,10 @@ static volatile unsigned runs;
 static volatile unsigned writes;
 static volatile unsigned most_in_a_write;
 static volatile bool is_saturated;
+static uint64_t last_run_us;
+static uint32_t
+  deviations_us[INTERVALS]; /* the first ones beside the full line, of the thread that publishes */
+static size_t interval_count;
 
 /* The lock of the port, which measures. */
 static pthread_mutex_t lock;
@@ -132,12 +138,42 @@ static size_t line_read(
   return size > 0 ? (size_t)size : 0u;
 }
 
+/* Called by the thread that publishes. */
+static void measure(void)
+{
+  const uint64_t now_us = microseconds(CLOCK_MONOTONIC);
+
+  if (is_saturated && last_run_us != 0u && interval_count < (size_t)INTERVALS) {
+    const int64_t late_us = (int64_t)(now_us - last_run_us) - PERIOD_US;
+
+    deviations_us[interval_count] = (uint32_t)(late_us < 0 ? -late_us : late_us);
+    ++interval_count;
+  }
+  last_run_us = is_saturated ? now_us : 0u;
+}
+
+static int compare(const void * a, const void * b)
+{
+  const uint32_t left = *(const uint32_t *)a;
+  const uint32_t right = *(const uint32_t *)b;
+
+  return (int)(left > right) - (int)(left < right);
+}
+
+static uint32_t median_jitter_us(void)
+{
+  CHECK(interval_count > 0u);
+  qsort(deviations_us, interval_count, sizeof(deviations_us[0]), compare);
+  return deviations_us[interval_count / 2u];
+}
+
 /* What does not fit replaces the oldest one (`on_full: drop_oldest`). */
 static void publish(void)
 {
   static int32_t count;
   const std_msgs__msg__Int32 message = {.data = count};
 
+  measure();
   CHECK(rcl_publish(&fast, &message, NULL) == RCL_RET_OK);
   if (count % 64 == 0) {
     CHECK(rcl_publish(&kept, &message, NULL) == RCL_RET_OK);
@@ -244,7 +280,7 @@ int main(int count, char * arguments[])
   missed = publish_for_a_while(&support);
   CHECK(rmw_uros_get_statistics(rcl_context_get_rmw_context(&support.context), &statistics) == RMW_RET_OK);
   (void)printf(
-    "%u %" PRIu32 " %u %u %" PRIu64 " %" PRIu32 "\n", runs, missed, writes, most_in_a_write, longest_us,
-    statistics.dropped);
+    "%u %" PRIu32 " %u %u %" PRIu64 " %" PRIu32 " %" PRIu32 "\n", runs, missed, writes, most_in_a_write,
+    longest_us, statistics.dropped, median_jitter_us());
   return 0;
 }
