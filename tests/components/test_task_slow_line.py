@@ -63,8 +63,9 @@ def ran(folder: Path, text: str, *flags: str) -> Seen:
         command = [str(program), str(served.getsockname()[1])]
         done = subprocess.run(command, capture_output=True, text=True, timeout=seconds(120), check=False)
     assert (done.returncode, done.stderr) == (0, "")
-    numbers = map(int, done.stdout.split())
-    return Seen(*numbers, values=[agent.values(0), agent.values(1)])
+    runs, missed, writes, most, longest_us, dropped, jitter_us = map(int, done.stdout.split())
+    values = [agent.values(0), agent.values(1)]
+    return Seen(runs, missed, writes, most, longest_us, dropped, jitter_us, values)
 
 
 def serve(agent: ReadingAgent, served: socket.socket) -> None:
