@@ -217,7 +217,7 @@ def _meant_item(node: MappingNode, item: dict[str, Any]) -> str | None:
     if len(data) == 1 and keys and not data.keys() & item["properties"].keys():
         data = dict(zip(keys, next(iter(data.items())), strict=True))
     for difference in tuple(differences(data, item)):
-        key = difference.path[0] if len(difference.path) == 1 else None
+        key = str(difference.path[0]) if len(difference.path) == 1 else ""
         word = _meant_word(str(data[key]), difference.schema) if key in data else None
         if word is None:
             return None
