@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The short way of messages that are one ACKNACK does what the long one does."""
+"""A message that is one ACKNACK takes fewer steps, with the same effects."""
 
 from __future__ import annotations
 

@@ -277,9 +277,9 @@ def test_a_writer_is_named_once(tmp_path: Path) -> None:
     ("text", "ending"),
     [
         ("rsout", "it is the text 'rsout'. Did you mean 'rosout'?"),
-        ("none", "it is the text 'none'"),
-        ("true", "it is true"),
-        ("{to: console}", "it is a mapping. Begin each item with '- ', or write [ … ]"),
+        ("none", "it is the text 'none'. Write console"),
+        ("true", "it is true. Write console"),
+        ("{to: console}", "it is a mapping. Write [{to: console}]"),
     ],
 )
 def test_a_word_that_is_no_writer_gets_a_hint_that_helps(tmp_path: Path, text: str, ending: str) -> None:

@@ -85,7 +85,7 @@ def test_a_folder_is_relative_to_the_application_file(folder: Path) -> None:
         (
             "target: {name: cortex-m4, network: lwip, rtos: zephyr}",
             "2:36",
-            "the network lwip does not run under zephyr, but under freertos or esp_idf or bare. "
+            "the network lwip does not run under zephyr, but under freertos or esp_idf or bare or posix. "
             "Write `network: zephyr_sockets` below `target:`",
         ),
     ],

@@ -119,7 +119,7 @@ def _text(plan: RuntimePlan, folder: Path) -> int:
 @pytest.mark.parametrize(
     ("transport", "framing", "most"),
     [
-        ("serial", "either", 540),
+        ("serial", "either", 544),
         ("custom", "on", 860),
         ("custom", "off", 280),
     ],

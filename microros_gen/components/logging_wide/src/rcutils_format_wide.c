@@ -4,7 +4,7 @@
 
 #include <wchar.h>
 
-enum { WIDE_BYTES_MOST = 4, WIDE_FALLBACK_TEXT = 6, WIDTH_MOST = 4095 };
+enum { WIDE_BYTES_MOST = 4, WIDE_FALLBACK_TEXT = 6, WIDE_WIDTH_MOST = 4095 };
 
 /* A character as UTF-8. */
 typedef struct wide_bytes_t {
@@ -81,7 +81,7 @@ static uint32_t wide_text_size(
   const wchar_t * next = text;
   uint32_t size = 0;
 
-  /* at most WIDTH_MOST + MICROROS_LOG_LONGEST + 5 rounds in each microros_format_arguments */
+  /* at most WIDE_WIDTH_MOST + MICROROS_LOG_LONGEST + 5 rounds in each microros_format_arguments */
   while (size < most && *next != L'\0') {
     const uint32_t more = wide_size(wide_code_point((uint32_t)*next));
 

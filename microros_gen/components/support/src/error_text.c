@@ -27,7 +27,7 @@ static const MICROROS_FLASH char * const MICROROS_FLASH statuses[] = {
   MICROROS_FLASH_NAME("UNKNOWN_REFERENCE"), MICROROS_FLASH_NAME("INVALID_DATA"),
   MICROROS_FLASH_NAME("INCOMPATIBLE"),      MICROROS_FLASH_NAME("RESOURCES")};
 
-enum { STATUS_FIRST = 0x80, STATUS_LAST = 0x87, DIGITS_MOST = 10 };
+enum { STATUS_FIRST = 0x80, STATUS_LAST = 0x87, ERROR_DIGITS_MOST = 10 };
 
 /* Of a type's name, `::dds_:` and the last `_` are not put; of a text, no more conversions put nothing. */
 enum { TYPE_HIDDEN = 16, ERROR_CONVERSIONS = 8 };
@@ -54,14 +54,14 @@ static void text_put_string(text_t * text, const MICROROS_ANYWHERE char * words)
 
 static void text_put_number(text_t * text, uint32_t number)
 {
-  char digits[DIGITS_MOST];
+  char digits[ERROR_DIGITS_MOST];
   size_t first = sizeof(digits);
 
-  do { /* at most ERROR_CONVERSIONS * DIGITS_MOST rounds in each microros_error_set */
+  do { /* at most ERROR_CONVERSIONS * ERROR_DIGITS_MOST rounds in each microros_error_set */
     digits[--first] = (char)('0' + (char)(number % 10u));
     number /= 10u;
   } while (number != 0u);
-  /* at most ERROR_CONVERSIONS * DIGITS_MOST rounds in each microros_error_set */
+  /* at most ERROR_CONVERSIONS * ERROR_DIGITS_MOST rounds in each microros_error_set */
   while (first < sizeof(digits)) {
     text_put(text, digits[first++]);
   }
