@@ -18,9 +18,9 @@ from tests.support.slices import beyond, only
 NAME = "qemu-mps2-an386"
 DEVICE = "/arm/device"
 SIZES = {
-    "qemu-microbit": (24_224, 5_728, 960),
-    NAME: (22_872, 5_728, 1_088),
-    "qemu-mps2-an505": (22_936, 5_728, 1_092),
+    "qemu-microbit": (24_224, 5_736, 960),
+    NAME: (22_872, 5_736, 1_088),
+    "qemu-mps2-an505": (22_936, 5_736, 1_092),
 }
 """Flash, RAM without the stack, worst stack; the goals on the Cortex-M4 are 24,000, 6,000 and 1,200."""
 COSTS = {"bool": (28, 16), "integer": (28, 16), "double": (28, 16), "string": (44, 40)}
@@ -109,8 +109,8 @@ def test_its_instructions(builds: Builds) -> None:
     """Goals: 15,000, 4,000 and 6,000 for init, get and set; not met for init."""
     need(NAME, emulator=True)
     found = work(builds, NAME)
-    assert found.init <= 16_857
-    assert found.get <= 3_305
+    assert found.init <= 16_901
+    assert found.get <= 3_313
     assert found.set <= 5_947
     assert found.get_call <= 256
     assert found.set_call <= 2_035
