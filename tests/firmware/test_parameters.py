@@ -111,7 +111,7 @@ def test_its_instructions(builds: Builds) -> None:
     found = work(builds, NAME)
     assert found.init <= 16_901
     assert found.get <= 3_313
-    assert found.set <= 5_947
+    assert found.set <= 5_951
     assert found.get_call <= 256
     assert found.set_call <= 2_035
 
