@@ -4,10 +4,9 @@
 #include "microros/epoch.h"
 #include "microros/error.h"
 #include "microros/lock.h"
-#include "microros/rcl_publisher_open.h"
-#include "microros/rcl_service_open.h"
 #include "microros/rclc_modes_known.h"
 #include "microros/rclc_modes_table.h"
+#include "microros/rmw_by_place.h"
 #include "microros/rmw_lifecycle.h"
 #include "microros/rmw_modes.h"
 #include "microros/rmw_parameters.h"
@@ -16,16 +15,12 @@
 #include <stddef.h>
 #include <string.h>
 
-typedef struct modes_service_t {
-  const rosidl_service_type_support_t * type;
-  const char * name;
-} modes_service_t;
+/* As in rmw_qos_profile_services_default and in that of the publisher. */
+enum { MODES_DEPTH = 10 };
 
-static const modes_service_t modes_offers[RCLC_EXECUTOR_MODES_HANDLES] = {
-  {&rclc_modes_change_type, "~/change_mode"},
-  {&rclc_modes_get_available_type, "~/get_available_modes"},
-  {&rclc_modes_get_type, "~/get_mode"},
-};
+/* The types of the services, in the order of the plan, which has their places. */
+static const rosidl_service_type_support_t * const modes_offers[RCLC_EXECUTOR_MODES_HANDLES] = {
+  &rclc_modes_change_type, &rclc_modes_get_available_type, &rclc_modes_get_type};
 
 /* Closes what is open. Returns the first error. */
 static rcl_ret_t modes_close(rclc_modes_t * modes)
@@ -53,13 +48,17 @@ static rcl_ret_t modes_close(rclc_modes_t * modes)
 static rcl_ret_t modes_open(rclc_modes_t * modes)
 {
   const rcl_node_t * node = modes->lifecycle_node->node;
-  rcl_ret_t result = rcl_publisher_open(
-    &modes->event_publisher, node, &rclc_modes_event_type, "~/mode_event", &rmw_qos_profile_default);
+  rcl_ret_t result;
+  uint16_t at = 0;
 
+  if (!rcl_node_is_valid(node)) {
+    return microros_error_refuse(RCL_RET_NODE_INVALID, "node");
+  }
+  result = rmw_publisher_open_by_place(
+    node->impl, &rclc_modes_event_type, (uint16_t)MODES_DEPTH, &modes->event_publisher.impl);
   for (size_t i = 0; i < (size_t)RCLC_EXECUTOR_MODES_HANDLES && result == RCL_RET_OK; ++i) {
-    result = rcl_service_open(
-      &modes->services[i], node, modes_offers[i].type, modes_offers[i].name,
-      &rmw_qos_profile_services_default);
+    result = rmw_replier_open_by_place(
+      node->impl, modes_offers[i], (uint16_t)MODES_DEPTH, &at, &modes->services[i].impl);
   }
   if (result == RCL_RET_OK) {
     rmw_lifecycle_answer_large(rcl_service_get_rmw_handle(&modes->services[0]), true);
