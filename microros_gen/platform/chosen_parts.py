@@ -48,13 +48,16 @@ def with_parts(node: MappingNode, parts: Mapping[str, Named | None], diagnostics
             _refuse(node, named.name, named.span, diagnostics)
         chosen[kind] = Entry(kind, named.span, ScalarNode(name, name, True, named.span))
     merged = merge_target(MappingNode(chosen, node.span), node)
-    if chosen:
+    if "os" in chosen and "network" in chosen:
         _check_network(merged, [entry.key_span for entry in chosen.values()][-1], diagnostics)
     return merged
 
 
 def _check_network(node: MappingNode, span: Span, diagnostics: Diagnostics) -> None:
-    """Refuse a built-in network whose functions call another built-in system than the one below."""
+    """Refuse a built-in network whose functions call another built-in system than the one chosen with it.
+
+    A network that is chosen alone may be for the system of a package, which replaces that of the target.
+    """
     network, os = text_of(node.get("network")) or "", text_of(node.get("os")) or ""
     known = {system for systems in networks().values() for system in systems}
     if os in known and os not in networks().get(network, (os,)):
