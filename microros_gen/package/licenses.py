@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from xml.sax.saxutils import unescape
 
 from microros_gen.documents.files import read_text
-from microros_gen.interfaces.find import Origin, PackagePlace
+from microros_gen.interfaces.find import PackagePlace, shipped_folder
 from microros_gen.records import dataclass
 
 OWN = "Apache-2.0"
@@ -50,7 +50,7 @@ def licenses_of(places: Iterable[PackagePlace]) -> Licenses:
     expressions: dict[str, str] = {}
     texts: dict[str, str] = {}
     for place in places:
-        declared = (OWN,) if place.origin is Origin.SHIPPED else _declared(place)
+        declared = (OWN,) if place.folder.resolve().parent == shipped_folder() else _declared(place)
         names = [
             _NAMES.get(text.lower()) or _reference(place.name, number) for number, text in enumerate(declared)
         ]
