@@ -75,8 +75,7 @@ def _range_words(parameter: ParameterDecl, closest: int | float) -> str:
     if "lt" not in excluded and parameter.maximum == last:
         return f"Write a number {low}"
     if excluded:
-        inside = _inside(parameter.minimum, parameter.maximum)
-        return f"Write {inside}: a number {low} and {high}" if inside else f"Write a number {low} and {high}"
+        return f"Write a number {low} and {high}{_example(parameter.minimum, parameter.maximum)}"
     return f"Write {closest}: it goes from {parameter.minimum} to {parameter.maximum}"
 
 
@@ -87,9 +86,9 @@ def _is_step(distance: int | float, step: int | float) -> bool:
     return math.isclose(steps, round(steps), rel_tol=_CLOSE, abs_tol=_CLOSE)
 
 
-def _inside(low: int | float | None, high: int | float | None) -> str:
-    """Return a short number between two ends, which `nextafter` may have moved; empty if there is no short one."""
-    if not isinstance(low, float) and not isinstance(high, float):
-        return str(low)
-    middle = float(f"{(float(low or 0) + float(high or 0)) / 2:.3g}")
-    return f"{middle:.3g}" if low is not None and high is not None and low <= middle <= high else ""
+def _example(low: int | float | None, high: int | float | None) -> str:
+    """Return words with a short number from `low` to `high`; none where no short one lies in between."""
+    if not isinstance(low, float) or not isinstance(high, float):
+        return f", such as {low}"
+    middle = float(f"{(low + high) / 2:.3g}")
+    return f", such as {middle}" if low <= middle <= high else ""

@@ -205,7 +205,7 @@ def test_budgets_are_those_of_build(project: Project) -> None:
             built = project.build()
             assert built.returncode != 0
             assert EXCEEDED.findall(built.stdout + built.stderr) == wanted
-        assert "pools: {history: 3}  # saves 16 bytes" in built.stdout + built.stderr
+        assert "pools: {history: 3}  # saves 18 bytes" in built.stdout + built.stderr
         tool(
             project, "size", project.build_folder, status=1 if (project.build_folder / "app").is_file() else 2
         )

@@ -377,7 +377,7 @@ def _check_received(
         diagnostics.too_large(
             f"{sample.label} takes up to {sample.max_size} bytes, but a message holds at most {LARGEST_BODY}",
             span or application.spans.get("limits"),  # what a component opens by itself has no place
-            "Lower its limits: `limits: {PACKAGE/msg/TYPE: {MEMBER: {sequence: 100}}}`",
+            "Lower its limits",
             id="MG-7029",
         )
     elif sample.best_effort and size > ceiling:
