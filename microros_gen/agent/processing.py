@@ -36,6 +36,7 @@ ACKNACK: Final = int(SubmessageId.ACKNACK)
 ACKNACK_HEAD: Final = bytes((ACKNACK, FLAG_LITTLE, 5, 0))
 ACKNACK_BYTES: Final = 13
 """Size of a message that is one ACKNACK, with a header of 4 bytes."""
+ACKNACK_BODY: Final = 5
 FRAGMENT: Final = int(SubmessageId.FRAGMENT)
 COSTLY: Final = (SubmessageId.CREATE, SubmessageId.DELETE)
 """Submessages that change the ROS graph, limited by a rate per client and a share of the agent's time for all."""
@@ -120,16 +121,15 @@ class Processor:
         client.received += 1
         client.received_bytes += ACKNACK_BYTES
         client.last_received = now
-        first, missing = data[8] | data[9] << 8, data[10] << 8 | data[11]
-        self._operations.acknowledged(client, data[12], first, missing, now)
+        self._acknowledged(client, data, ACKNACK_BYTES - ACKNACK_BODY, now)
         return account
 
     def process_alone(self, client: Client, data: bytes, start: int, stream: int) -> None:
         """Process one message of a client that has no other ready input."""
         try:
             at = start + SUBMESSAGE_HEADER
-            if data[start:at] == ACKNACK_HEAD and len(data) == at + 5:
-                self._acknowledged(client, data, at)
+            if data[start:at] == ACKNACK_HEAD and len(data) == at + ACKNACK_BODY:
+                self._acknowledged(client, data, at, self._clock())
                 return
             self._process(client, data, start, stream, False, 0)
         except Exception as error:
@@ -141,10 +141,10 @@ class Processor:
             else:
                 self.process(client)
 
-    def _acknowledged(self, client: Client, data: bytes, at: int) -> None:
+    def _acknowledged(self, client: Client, data: bytes, at: int, now: float) -> None:
         """Process the body at `at` of an ACKNACK in little-endian order."""
         first, missing = data[at] | data[at + 1] << 8, data[at + 2] << 8 | data[at + 3]
-        self._operations.acknowledged(client, data[at + 4], first, missing, self._clock())
+        self._operations.acknowledged(client, data[at + 4], first, missing, now)
 
     def process(self, client: Client) -> None:
         """Process ready input of a client until its turn ends."""
@@ -190,7 +190,7 @@ class Processor:
                     client.ready.appendleft((data, at - SUBMESSAGE_HEADER, stream, whole, error.done))
                     return
             elif identifier == ACKNACK and end - at == 5 and flags & FLAG_LITTLE:
-                self._acknowledged(client, data, at)
+                self._acknowledged(client, data, at, self._clock())
             elif identifier == FRAGMENT and not whole:
                 joined = client.session.fragment(stream, data[at:end], bool(flags & FLAG_LAST_FRAGMENT))
                 if joined is not None:

@@ -16,7 +16,7 @@ HANDSHAKES_PER_SECOND = 100
 UNCONFIRMED = 4
 """Sessions of a client without a record yet: anyone who sees a first message can send it again."""
 INDICES = range(1 << 32)
-"""Those of sessions; a worker has the ones that show that they are its own (`layout.worker_of`)."""
+"""Indices that sessions may have; a worker uses those for which `layout.worker_of` returns it."""
 Peer = Hashable
 
 

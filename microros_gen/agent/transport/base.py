@@ -31,7 +31,7 @@ class RemoteAddress(NamedTuple):
     name: str
     origin: str
     place: int
-    """What `number_at` is for it there."""
+    """What `number_at` returns for it there."""
 
 
 def number_at(address: Hashable) -> int:

@@ -49,7 +49,7 @@ class FrontLink:
         self.on_adopt: Callable[[frozenset[bytes]], object] = _ignore
         """Called with the keys (at most one) of which a client without a key in its messages may be adopted."""
         self._missing: frozenset[bytes] | None = None
-        """What was reported of it."""
+        """The missing clients that were reported last."""
         self.label = "front"
         self.ready = True
         self.forgeable = False
