@@ -103,9 +103,9 @@ def test_board_and_agent_restart(builds: Builds, domain: int, tmp_path: Path) ->
 @pytest.mark.parametrize(
     ("name", "flash", "ram", "stack"),
     [
-        ("qemu-microbit", 24_148, 3_584, 1_028),
-        (NAME, 22_348, 3_584, 1_172),
-        pytest.param("qemu-mps2-an505", 22_396, 3_584, 1_176, marks=pytest.mark.long),
+        ("qemu-microbit", 24_148, 3_592, 1_028),
+        (NAME, 22_348, 3_592, 1_172),
+        pytest.param("qemu-mps2-an505", 22_396, 3_592, 1_176, marks=pytest.mark.long),
     ],
     ids=["m0", "m4", "m33"],
 )

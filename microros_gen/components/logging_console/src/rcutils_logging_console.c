@@ -58,13 +58,34 @@ void microros_console_step(void)
   }
 }
 
-/* Writes a line; counts it where it does not fit, or the report of dropped messages does not yet. */
+/* The lock is held. */
+static void console_drop(void)
+{
+  microros_format_dropped();
+  ++console_unreported;
+}
+
+/* Tells, with `text` as room for the report, whether a line may follow; counts the line as dropped if not. */
+static bool console_accepts(char * text, size_t size, rcutils_time_point_value_t timestamp)
+{
+  bool accepts;
+
+  microros_lock();
+  console_report_dropped(text, size, timestamp);
+  accepts = console_unreported == 0u;
+  if (!accepts) {
+    console_drop();
+  }
+  microros_unlock();
+  return accepts;
+}
+
+/* Writes a line; drops it where it does not fit, or another task's line was dropped meanwhile and comes first. */
 static void console_write(const char * text, size_t size)
 {
   microros_lock();
   if (console_unreported != 0u || !port_console_write(text, size)) {
-    microros_format_dropped();
-    ++console_unreported;
+    console_drop();
   }
   microros_unlock();
 }
@@ -77,9 +98,9 @@ void rcutils_logging_console_output_handler(
   microros_format_t out = {text, sizeof(text) - 1u, 0, false};
 
   (void)location; /* ROS 2 does not write it either unless it is asked to */
-  microros_lock();
-  console_report_dropped(text, sizeof(text) - 1u, timestamp);
-  microros_unlock();
+  if (!console_accepts(text, sizeof(text) - 1u, timestamp)) {
+    return;
+  }
   console_begin(&out, severity, name == NULL ? "" : name, timestamp);
   microros_format_arguments(&out, format, args); /* without the lock: arguments may be of any length */
   console_end(&out);
