@@ -83,7 +83,7 @@ RUNS: Mapping[str, tuple[Run, ...]] = {
     # for CI.
     # Beside emulators, DDS and agents of other tests, on a slow machine, a test can fail that is right.
     # Half of their time is waiting, for agents and DDS: more of them at once.
-    "check": (Run("not long and not lint and not variant", more_processes=4, again=5),),
+    "check": (Run("not long and not lint and not variant", more_processes=4, again=15),),
     "lint": (Run("lint and not long", more_processes=1),),
 }
 

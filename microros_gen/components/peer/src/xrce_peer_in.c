@@ -23,6 +23,7 @@ void xrce_peer_in_reset(xrce_peer_t * peer, uint8_t index)
   peer->newest = UINT16_MAX; /* 0 is newer */
   peer->received = false;
   peer->early = false;
+  peer->asked = false;
 }
 
 void xrce_peer_in_closed(const xrce_endpoint_t * endpoint)
@@ -208,6 +209,18 @@ static void in_deliver(xrce_client_t * client, uint8_t index, uint8_t * input, s
   }
 }
 
+/* Asks for all messages from the next one on: only that one would have been stored. Once for each gap, and then as often
+ * as a HEARTBEAT asks: each of the messages after the gap arrives too, and the answers would fill a slow line. */
+static void in_report_gap(xrce_client_t * client, uint8_t index)
+{
+  xrce_peer_t * peer = &client->peers[index];
+
+  if (!peer->asked) {
+    peer->asked = true;
+    in_acknowledge(client, index, WINDOW);
+  }
+}
+
 static void in_take_reliable(
   xrce_client_t * client, uint8_t index, const uint8_t * message, size_t size, uint32_t now)
 {
@@ -225,17 +238,17 @@ static void in_take_reliable(
     uint8_t * input = xrce_peer_fragments_join(client, index, &whole);
 
     ++peer->next;
+    peer->asked = false;
     if (input != NULL) {
       in_deliver(client, index, input, whole, now);
     }
   }
-  if (ahead < WINDOW) {
-    in_acknowledge(
-      client, index, ahead != 0u ? (uint16_t)(ahead + 1u) : 0u); /* only the next one is stored */
-  } else if (ahead < HALF) {
-    in_send_reset(client, index, message[0]);
-  } else {
+  if (ahead == 0u || ahead >= HALF) {
     in_acknowledge(client, index, 0);
+  } else if (ahead < WINDOW) {
+    in_report_gap(client, index);
+  } else {
+    in_send_reset(client, index, message[0]);
   }
 }
 

@@ -12,7 +12,16 @@
 
 enum { HEARTBEAT_MESSAGE = XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER + XRCE_HEARTBEAT_SIZE };
 
+/* An answer that takes longer than a HEARTBEAT's period makes the pause before the next one up to 32 times as long:
+ * each HEARTBEAT has everything repeated that is still on its way, and a slow line would fill with copies. */
+enum { PAUSES_MOST = 5 };
+
 static uint8_t peer_message[MICROROS_PEER_MTU]; /* best effort */
+
+static void peer_pause(xrce_peer_t * peer, uint32_t now)
+{
+  peer->due_ms = now + ((uint32_t)MICROROS_PEER_HEARTBEAT_MS << peer->pauses);
+}
 
 /* Returns the bits of the first `count` numbers, at most 16. */
 static uint16_t peer_bits(uint8_t count)
@@ -83,7 +92,7 @@ bool xrce_peer_commit(xrce_client_t * client, uint8_t index, bool reliable, size
   peer->unsent =
     (uint16_t)(peer->unsent | (peer_bits(xrce_peer_slots_window(peer, index)) ^ peer_bits(window)));
   if (window == 0u) {
-    peer->due_ms = now + MICROROS_PEER_HEARTBEAT_MS;
+    peer_pause(peer, now);
   }
   if (is_blocked || !peer_send_unsent(client, index) || window == 0u) {
     xrce_peer_alert(client);
@@ -97,7 +106,8 @@ void xrce_peer_renumber(xrce_peer_t * peer, uint8_t index, uint32_t now)
   peer->first = 0;
   peer->done = 0;
   peer->unsent = peer_bits(xrce_peer_slots_window(peer, index));
-  peer->due_ms = now + MICROROS_PEER_HEARTBEAT_MS;
+  peer->pauses = 0;
+  peer_pause(peer, now);
 }
 
 void xrce_peer_heartbeat(xrce_client_t * client, uint8_t index)
@@ -122,7 +132,10 @@ void xrce_peer_flow(xrce_client_t * client, uint8_t index, uint32_t now)
   }
   if (peer_send_unsent(client, index) && xrce_is_due(now, peer->due_ms)) {
     xrce_peer_heartbeat(client, index);
-    peer->due_ms = now + MICROROS_PEER_HEARTBEAT_MS;
+    if (peer->pauses < (uint8_t)PAUSES_MOST) {
+      ++peer->pauses;
+    }
+    peer_pause(peer, now);
   }
 }
 
@@ -145,7 +158,8 @@ void xrce_peer_acknowledged(
     xrce_peer_slots_free(peer, index, (uint8_t)freed);
     peer->first = (uint16_t)(peer->first + freed);
     peer->unsent = (uint16_t)((uint32_t)peer->unsent >> freed);
-    peer->due_ms = now + MICROROS_PEER_HEARTBEAT_MS;
+    peer->pauses = (uint8_t)(peer->pauses / 2u);
+    peer_pause(peer, now);
   }
   missing = (uint16_t)(xrce_get_be16(&payload[2]) & peer_bits(window));
   /* Fragments follow for those that are acknowledged. */

@@ -95,6 +95,7 @@ typedef struct xrce_peer_t {
   uint16_t done;       /* acknowledged fragments of the oldest message */
   uint8_t head;        /* slot of the oldest message */
   uint8_t count;       /* messages that wait in a slot */
+  uint8_t pauses;      /* doublings of the pause before the next HEARTBEAT */
   bool ready : 1;      /* the own session */
   bool received : 1;   /* something arrived in the other board's session */
   bool lost : 1;       /* the device of the line is gone */
@@ -102,6 +103,7 @@ typedef struct xrce_peer_t {
   /* the next reliable message is not acknowledged: the program has not opened its subscription yet */
   bool early : 1;
   bool begun : 1; /* no message waits for a subscription any more */
+  bool asked : 1; /* an ACKNACK has asked for the next reliable message; from then on a HEARTBEAT asks for one */
 } xrce_peer_t;
 
 /* The part of a key that counts sessions; the rest identifies the table. */
