@@ -209,7 +209,7 @@ def _compiled(tree: Path) -> Path:
     done = subprocess.run(
         [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(out)],
         cwd=source,
-        env=clean_environ(MICROROS_GEN_COMPILED="1", PATH=os.environ["PATH"], TMPDIR=str(tree)),
+        env=clean_environ(MICROROS_GEN_COMPILED="1", PATH=os.environ["PATH"], TMPDIR=str(tree), CFLAGS="-O0"),
         capture_output=True,
         text=True,
         timeout=seconds(300),

@@ -55,7 +55,7 @@ def test_every_kind_of_number(builds: Builds) -> None:
     """Constants, default values, and the conversions of the same patterns as on a computer."""
     built = builds.build(MEGA, CONVERTS, more_files=(("test_msgs/msg/Defaults.msg", DEFAULTS),))
     image = linked(builds, built, "float64.c")
-    patterns = [*edge_patterns(), *random_patterns(1000, seed=8)]
+    patterns = [*edge_patterns(), *random_patterns(300, seed=8)]
     with simulated(builds, built, image) as board:
         line = os.open(board.device, os.O_RDWR | os.O_NOCTTY)
         try:

@@ -76,7 +76,7 @@ def ways() -> list[ParameterSet]:
     profile: the chosen one has the least memory.
     """
     rows = [(name, way) for name in ("host", *BOARDS) for way in ENTITIES]
-    chosen = {("host", "binary"), ("qemu-microbit", "binary")}
+    chosen = {("qemu-microbit", "binary")}
     variants = {("qemu-riscv32-virt", "xml"), *(("host", way) for way in ENTITIES)}
     marks = {**dict.fromkeys(variants, pytest.mark.variant), **dict.fromkeys(chosen, pytest.mark.system)}
     return [pytest.param(*row, marks=marks.get(row, pytest.mark.long)) for row in rows]

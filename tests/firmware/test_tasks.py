@@ -104,7 +104,7 @@ def test_two_passes_give_each_task_the_stack_that_it_needs(tasked: Built) -> Non
 
 
 @pytest.mark.system
-@pytest.mark.parametrize("size", [1000, 3000])
+@pytest.mark.parametrize("size", [pytest.param(1000, marks=pytest.mark.variant), 3000])
 def test_a_large_variable_of_a_callback_is_in_the_stack_of_its_task(tasked: Built, size: int) -> None:
     home = tasked.out.parent
     (home / "microros.stacks.yaml").write_text("{control: 1600, worker: 1600, session: 1600}\n")

@@ -154,7 +154,14 @@ def test_too_little_ram_is_explained(tmp_path: Path, processor: str, is_warned: 
 
 @pytest.mark.system
 @pytest.mark.builds
-@pytest.mark.parametrize("name", ["publisher", "subscriber", "add_two_ints"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param("publisher", marks=pytest.mark.variant),
+        pytest.param("subscriber", marks=pytest.mark.variant),
+        "add_two_ints",
+    ],
+)
 def test_the_examples_fit_a_mega(sketchbook: Path, name: str) -> None:
     """Half of the 8 KiB of RAM are for the stack and the sketch."""
     sketch = built(sketchbook, MEGA, sketchbook / "libraries" / LIBRARY / "examples" / name / f"{name}.ino")

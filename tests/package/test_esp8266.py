@@ -19,7 +19,7 @@ FLAGS = ["-std=c99", "-Os", "-mlongcalls", "-Wall", "-Wextra", "-Werror", "-isys
 
 @pytest.mark.builds
 @pytest.mark.system
-@pytest.mark.parametrize("name", ["arduino", "platformio"])
+@pytest.mark.parametrize("name", ["arduino", pytest.param("platformio", marks=pytest.mark.variant)])
 def test_the_library_is_compiled(name: str, tmp_path: Path) -> None:
     """All but what needs the core of Arduino: without a warning, and with no constant that is copied to RAM."""
     if shutil.which(COMPILER) is None or not LIBRARY.exists():
