@@ -121,6 +121,9 @@ def test_actions_that_rclpy_sees(program: Path, agent: object, domain: int) -> N
         assert not any("/arm/walk" in action or "/run" in action for action in before)
         peer.ask(do="act", server="/arm/walk", client="/run")
         kind = "test_msgs/action/Fibonacci"
+        end = deadline(20)
+        while "is not known" in device.call(f"names action_servers_of {NODE[1]} {NODE[0]}")[1]:
+            assert time.monotonic() < end, "the node is not discovered"
         for what, node, wanted in (
             ("action_servers_of", NODE, [f"/arm/walk {kind}"]),
             ("action_clients_of", NODE, [f"/run {kind}"]),

@@ -289,7 +289,7 @@ def test_a_recording_is_played_again_with_its_qos_until_an_interrupt(arm: Runnin
 def test_what_was_recorded_is_played(arm: Running, tmp_path: Path) -> None:
     """The recorder's file, and rosbags as a witness of what is described."""
     path = tmp_path / "x.mcap"
-    assert call("topic", "record", "/count", "-o", str(path), "-d", "2").status == 0
+    assert call("topic", "record", "/count", "-o", str(path), "-d", f"{seconds(1):.0f}").status == 0
     with AnyReader([path]) as reader:
         wanted = f"Topic: /count | Type: std_msgs/msg/Int32 | Count: {reader.message_count} "
         start = reader.start_time
