@@ -12,6 +12,7 @@ from jsonschema import Draft202012Validator
 
 from microros_gen.agent.configuration.model import CanChoice, NamedPath, PtyChoice, SerialChoice, SocketChoice
 from microros_gen.agent.configuration.parser import SCHEMA, parse_agent_file
+from microros_gen.agent.early_signals import EarlySignals
 from microros_gen.agent.limits import Limits
 from microros_gen.agent.manifests import Manifests
 from microros_gen.agent.transport.tcp import TcpLimits
@@ -364,10 +365,16 @@ def test_manifests_that_do_not_hold(tmp_path: Path) -> None:
     ]
 
 
+def started(chosen: AgentOptions) -> None:
+    signals = EarlySignals()
+    with signals.noted():
+        serve(chosen, signals)
+
+
 def test_another_system_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sys.platform", "win32")
     with pytest.raises(UserError, match="the agent needs Linux"):
-        serve(AgentOptions(transports=(PtyChoice(),)))
+        started(AgentOptions(transports=(PtyChoice(),)))
 
 
 def test_a_missing_file_is_reported_where_it_is_named(tmp_path: Path) -> None:
@@ -379,7 +386,7 @@ def test_a_missing_file_is_reported_where_it_is_named(tmp_path: Path) -> None:
         ("", ["3:5: '10.1.2.300' is not", "4:5: this system has no serial speed of 115201"]),
     ):
         with pytest.raises(UserError) as caught:
-            serve(options(text + more, tmp_path))
+            started(options(text + more, tmp_path))
         reported = [
             without_id(d.headline()).replace(f"{tmp_path}/", "").replace("error: ", "")
             for d in caught.value.diagnostics

@@ -24,8 +24,8 @@ STUCK_S = 30.0
 """Seconds after which a worker that serves and does not answer is ended."""
 STUCK_LOOKS = 20
 """Number of looks at which that must be so: the front itself may have been stopped meanwhile."""
-
-
+IGNORED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+"""Signals that a worker ignores: its front passes on what they mean. It starts with them blocked."""
 ENDS_S = 0.5
 """Seconds from the end of a channel to that of its process; then it is killed."""
 
@@ -95,13 +95,18 @@ class WorkerProcess:
             file.write(self.start_data)
             file.flush()
             file.seek(0)
-            return subprocess.Popen(
-                [*self._command, str(other.fileno())],
-                stdin=file,
-                stdout=2,  # stdout of the agent has the ready lines alone
-                pass_fds=(other.fileno(), *self._shared),
-                start_new_session=True,  # Ctrl-C is for the front, which lets its workers end in order
-            )
+            # Until it ignores them they wait: a service manager signals all processes of a service that it stops.
+            before = signal.pthread_sigmask(signal.SIG_BLOCK, IGNORED)
+            try:
+                return subprocess.Popen(
+                    [*self._command, str(other.fileno())],
+                    stdin=file,
+                    stdout=2,  # stdout of the agent has the ready lines alone
+                    pass_fds=(other.fileno(), *self._shared),
+                    start_new_session=True,  # Ctrl-C is for the front, which lets its workers end in order
+                )
+            finally:
+                signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
     def put_off(self, now: float) -> None:
         """Start it again after a pause, because this was not possible now."""

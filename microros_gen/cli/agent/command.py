@@ -17,6 +17,7 @@ from microros_gen.agent.configuration.model import (
     SocketChoice,
     TransportChoice,
 )
+from microros_gen.agent.early_signals import EarlySignals
 from microros_gen.agent.transport.sockets import PROTOCOLS, Protocol
 from microros_gen.agent.transport.tcp import TcpLimits
 from microros_gen.cli.agent.compatible import translated
@@ -110,9 +111,11 @@ def command(**common: Any) -> None:
 @command.result_callback()
 def _start(parts: list[_Part], **common: Any) -> None:
     transports = tuple(choice for part in parts for choice in part.transports)
-    from microros_gen.cli.agent.start import serve
+    signals = EarlySignals()
+    with signals.noted():
+        from microros_gen.cli.agent.start import serve
 
-    serve(AgentOptions.of([common, *(part.common for part in parts)], transports))
+        serve(AgentOptions.of([common, *(part.common for part in parts)], transports), signals)
 
 
 def _socket_command(protocol: Protocol) -> None:

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from microros_gen.agent.log import EventLog
 from microros_gen.agent.recording.recorder import Recorder
+from microros_gen.agent.server import Server
 from microros_gen.cli.agent.options import AgentOptions
 from microros_gen.diagnostics import UserError
 
@@ -20,3 +21,22 @@ def open_recorder(options: AgentOptions, log: EventLog) -> Recorder | None:
     except UserError as error:
         span = options.places.get(options.record)
         raise UserError([replace(d, span=d.span or span) for d in error.diagnostics]) from error
+
+
+def begin(recorder: Recorder | None, server: Server) -> bool:
+    """Begin to record, after all that may fail: it replaces what the file holds. False: `server` is to end already."""
+    if server.stops:
+        return False
+    if recorder is not None:
+        recorder.begin()
+    return True
+
+
+def end(recorder: Recorder | None, has_begun: bool) -> None:
+    """End what `begin` began, or leave the file as it was."""
+    if recorder is None:
+        return
+    if has_begun:
+        recorder.close()
+    else:
+        recorder.give_up()

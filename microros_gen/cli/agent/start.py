@@ -11,6 +11,7 @@ from functools import partial
 import click
 
 from microros_gen.agent.budgets import Budgets
+from microros_gen.agent.early_signals import EarlySignals
 from microros_gen.agent.fairness import Account, Fairness
 from microros_gen.agent.input_pool import InputPool
 from microros_gen.agent.log import EventLog, Level
@@ -19,7 +20,7 @@ from microros_gen.agent.readiness import notify, watchdog
 from microros_gen.agent.recording.recorder import RecordedTransport
 from microros_gen.agent.ros.rclpy_bridge import open_bridge
 from microros_gen.agent.ros.reports import graph_reporter
-from microros_gen.agent.server import Server, reloaded_by_signal, stopped_by_signals
+from microros_gen.agent.server import Server
 from microros_gen.agent.trace import TracedTransport
 from microros_gen.agent.transport.base import Transport
 from microros_gen.cli.agent.assembly import check_memory, make_agent, report_limits
@@ -30,7 +31,7 @@ from microros_gen.cli.agent.monitoring import checked_places, monitoring
 from microros_gen.cli.agent.options import AgentOptions
 from microros_gen.cli.agent.parameters import ParametersOnDemand
 from microros_gen.cli.agent.policy import reloading, report_policy
-from microros_gen.cli.agent.recording import open_recorder
+from microros_gen.cli.agent.recording import begin, end, open_recorder
 from microros_gen.cli.agent.seal import PskFile, Seals
 from microros_gen.cli.agent.transports import Shared, close_all, connections, open_transports
 from microros_gen.cli.agent.workers import serve_with_workers
@@ -38,8 +39,10 @@ from microros_gen.cli.terminal import echo_found
 from microros_gen.diagnostics import Diagnostic, UserError
 
 
-def serve(options: AgentOptions) -> None:
+def serve(options: AgentOptions, signals: EarlySignals) -> None:
     """Serve until a signal comes; a ready line for each transport goes to stdout. UserError: it cannot start."""
+    if options.policy is None and options.psk_file is None:
+        signals.nothing_to_reload()
     _check_system()
     files = read_files(options)
     for diagnostic in files.warnings:
@@ -58,12 +61,13 @@ def serve(options: AgentOptions) -> None:
         log.emit(Level.WARNING, "type_hash_differs", text, type=name)
     check_memory(options.limits)
     if options.workers > 1:
-        serve_with_workers(options, files, log, partial(_announce, EventLog(sys.stdout, as_json)))
+        announce = partial(_announce, EventLog(sys.stdout, as_json))
+        serve_with_workers(options, files, log, announce, signals)
     else:
-        _serve_alone(options, files, log)
+        _serve_alone(options, files, log, signals)
 
 
-def _serve_alone(options: AgentOptions, files: AgentFiles, log: EventLog) -> None:
+def _serve_alone(options: AgentOptions, files: AgentFiles, log: EventLog, signals: EarlySignals) -> None:
     limits = options.limits
     streams = connections(options.transports)
     pool, budgets = InputPool(limits.input_bytes, limits.clients + streams), Budgets(limits, streams)
@@ -97,23 +101,21 @@ def _serve_alone(options: AgentOptions, files: AgentFiles, log: EventLog) -> Non
             client_state_node(options, limits, agent, log),
             monitoring(options, agent, transports, log),
             parameters.running(),
-            reloaded_by_signal(
+            signals.reloading(
                 server, (reloading(options, agent, log), psk_file.reloading(partial(seals.use, agent)))
             ),
-            stopped_by_signals(server),
+            signals.stopping(server),
         ):
-            if recorder is not None:
-                recorder.begin()  # after all that may fail: it replaces what the file holds
-            notify("READY=1")
+            has_begun = begin(recorder, server)
+            if has_begun:
+                notify("READY=1")
             server.run(lambda transport: _announce(announcements, transport), time.monotonic)
     except UserError:  # one of the servers cannot start
         agent.close()
         close_all(transports)
-        if recorder is not None:
-            recorder.give_up()
+        end(recorder, has_begun=False)
         raise
-    if recorder is not None:
-        recorder.close()
+    end(recorder, has_begun)
 
 
 def _check_system() -> None:

@@ -33,6 +33,7 @@ from microros_gen.agent.workers.channel import Channel, Kind, message_frame
 from microros_gen.agent.workers.front_transport import FrontTransport
 from microros_gen.agent.workers.link import FrontLink
 from microros_gen.agent.workers.remote import RemoteTransport, WorkerUdp
+from microros_gen.agent.workers.worker_process import IGNORED
 from microros_gen.cli.agent.assembly import make_agent
 from microros_gen.cli.agent.files import AgentFiles, with_types
 from microros_gen.cli.agent.options import AgentOptions
@@ -62,8 +63,9 @@ FINISH_S = 2.0
 
 def main() -> None:
     """Serve until the front says stop, or ends."""
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, signal.SIG_IGN)  # the front passes on what they mean
+    for number in IGNORED:
+        signal.signal(number, signal.SIG_IGN)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, IGNORED)
     channel = Channel(socket.socket(fileno=int(sys.argv[1])))
     start: WorkerStart = pickle.load(sys.stdin.buffer)
     try:

@@ -11,12 +11,13 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from microros_gen.agent.budgets import Budgets
+from microros_gen.agent.early_signals import EarlySignals
 from microros_gen.agent.fairness import Account, Fairness
 from microros_gen.agent.input_pool import InputPool
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.policy.model import Policy
 from microros_gen.agent.readiness import notify, watchdog
-from microros_gen.agent.server import Server, reloaded_by_signal, stopped_by_signals
+from microros_gen.agent.server import Server
 from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.transport.udp import Udp
 from microros_gen.agent.workers.channel import Kind
@@ -31,7 +32,7 @@ from microros_gen.cli.agent.monitoring import monitoring
 from microros_gen.cli.agent.options import AgentOptions
 from microros_gen.cli.agent.parameters import ParametersOnDemand
 from microros_gen.cli.agent.policy import reloading, report_policy
-from microros_gen.cli.agent.recording import open_recorder
+from microros_gen.cli.agent.recording import begin, end, open_recorder
 from microros_gen.cli.agent.seal import PskFile
 from microros_gen.cli.agent.transports import Shared, close_all, connections, open_transports
 from microros_gen.cli.agent.worker import WorkerStart
@@ -62,7 +63,11 @@ class _InForce:
 
 
 def serve_with_workers(
-    options: AgentOptions, files: AgentFiles, log: EventLog, announce: Callable[[Transport], None]
+    options: AgentOptions,
+    files: AgentFiles,
+    log: EventLog,
+    announce: Callable[[Transport], None],
+    signals: EarlySignals,
 ) -> None:
     """Serve until a signal comes; call `announce` for each transport. UserError: it cannot start."""
     limits = options.limits
@@ -98,12 +103,11 @@ def serve_with_workers(
     gc.collect()
     gc.freeze()
     try:
-        with stopped_by_signals(server):
+        with signals.stopping(server):
             front.start(START_S, lambda: server.stops)
             if server.stops:  # a signal came meanwhile: end in order, without having served
                 server.run(announce, time.monotonic)
-                if recorder is not None:
-                    recorder.give_up()
+                end(recorder, has_begun=False)
                 return
             _report(log, options, files, streams)
             with (
@@ -111,23 +115,21 @@ def serve_with_workers(
                 client_state_node(options, limits, front, log),
                 monitoring(options, front, transports, log),
                 parameters.running(),
-                reloaded_by_signal(
+                signals.reloading(
                     server,
                     (reloading(options, in_force, log), psk_file.reloading(in_force.use_keys)),
                 ),
             ):
-                if recorder is not None:
-                    recorder.begin()  # after all that may fail: it replaces what the file holds
-                notify("READY=1")
+                has_begun = begin(recorder, server)
+                if has_begun:
+                    notify("READY=1")
                 server.run(announce, time.monotonic)
     except UserError:
         front.close()
         close_all(transports)
-        if recorder is not None:
-            recorder.give_up()
+        end(recorder, has_begun=False)
         raise
-    if recorder is not None:
-        recorder.close()
+    end(recorder, has_begun)
 
 
 def _report(log: EventLog, options: AgentOptions, files: AgentFiles, streams: int) -> None:
