@@ -108,8 +108,7 @@ class Admission:
         the caller to process the message.
         """
         header = Header.decode(data)
-        newcomer = self._newcomers.proved(header, address)
-        if newcomer is not None:
+        if (newcomer := self._newcomers.proved(header, address)) is not None:
             return self._let_in(newcomer, now)
         if client is None:
             self._strangers.count(now)
@@ -221,7 +220,8 @@ class Admission:
         key = wanted.key if wanted.session < SESSION_NONE_WITHOUT_KEY else b""
         status = check(wanted, self._limits.minimum_mtu)
         send: Answer = answer
-        if status is Status.OK and self.gatekeeper.decide(wanted.key, transport, address) is None:
+        holder = self._clients.with_key(wanted.key)
+        if status is Status.OK and self.gatekeeper.decide(wanted.key, transport, address, holder) is None:
             status = Status.DENIED
         elif status is Status.OK:
             link = Link(wanted.session, wanted.key, wanted.mtu)
@@ -267,13 +267,13 @@ class Admission:
     def _admit(self, newcomer: Newcomer, now: float) -> Status:
         link, address, transport = newcomer.link, newcomer.address, newcomer.transport
         self._newcomers.forget(address)
-        access = self.gatekeeper.decide(link.key, transport, address)
-        if access is None:  # the policy has changed since it came
+        client, heritage = self._clients.with_key(link.key), {}
+        access = self.gatekeeper.decide(link.key, transport, address, client)
+        if access is None:  # this has changed since it came
             return Status.DENIED
         neighbor = self._clients.at(address)
         if neighbor is not None and neighbor.session.link.key != link.key:
             self.dismiss(neighbor, "replaced by another at its address")
-        client, heritage = self._clients.with_key(link.key), {}
         same = client is not None and client.session.link.session == link.session
         if client is not None and same and self._factory.fits(client, access):
             self._welcome_back(client, link, address, transport, now)
@@ -358,7 +358,7 @@ class Admission:
         key = self._held.preconfigured.to_adopt(proved, writer, self._clients.keys())
         if key is None or not fits or self._clients.at(address) or header.session in OUT_OF_SESSION:
             raise MalformedError("no_session", f"{submessage.ID.name} without a session")
-        access = self.gatekeeper.decide(key, transport, address)
+        access = self.gatekeeper.decide(key, transport, address, None)
         if access is None:
             raise MalformedError("no_session", "a client that the policy refuses")
         if not header.key and not self._strangers.listened_to(transport, address, now):

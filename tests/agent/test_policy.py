@@ -340,12 +340,35 @@ def test_a_session_that_is_opened_at_a_refused_place_takes_nothing_from_the_clie
     assert (len(bench.bridge.published), bench.bridge.graph) == (1, ["0:/node", LABEL])
 
 
-def test_a_session_at_a_place_of_another_rule_restarts() -> None:
+@pytest.mark.parametrize("session", [0x81, 0x82, 0x01])
+@pytest.mark.parametrize("forgeable", [True, False])
+def test_no_session_at_a_place_of_another_rule_ends_one_that_is_heard(session: int, forgeable: bool) -> None:
+    """Its key is in each of its messages: somebody else opens a session with it from where a wider rule fits."""
+    bench = guarded("name: a, keys: [0x1], addresses: [10.0.0.1], publish: [/ok]", "name: b, publish: [/b]")
+    bench.transport.forgeable = forgeable
+    guest = admitted(bench)
+    guest.writer("/ok")
+    thief = Guest(bench, 1, "10.0.0.2", session)
+    for count in (1, 2):
+        assert thief.connect() == DENIED
+        thief.say(sample())
+        assert bench.log.counters["takeover_denied"] == count
+    guest.say(sample())
+    assert (len(bench.bridge.published), bench.bridge.graph) == (1, ["0:/node", LABEL])
+    (state,) = bench.agent.client_states()
+    assert (state.address, state.presence, state.denied) == ("10.0.0.1", Presence.CONNECTED, 2)
+    assert "in session at 10.0.0.1" in state.last_error
+    assert bench.log.counters["client_denied"] == 0
+
+
+def test_a_session_at_a_place_of_another_rule_restarts_after_a_silence() -> None:
     """Objects of one rule are not kept under another one."""
     bench = guarded("name: a, addresses: [10.0.0.1], publish: [/ok]", "name: b, publish: [/b]")
     guest = admitted(bench)
     guest.writer("/ok")
     other = Guest(bench, 1, "10.0.0.2")
+    assert other.connect() == DENIED
+    bench.wait(Limits.client_timeout_s + 1)
     assert other.connect() == OK
     assert bench.bridge.graph == []
     assert (other.node(), other.writer("/ok"), other.writer("/b")) == (OK, DENIED, OK)

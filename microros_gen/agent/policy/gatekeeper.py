@@ -32,12 +32,22 @@ class Gatekeeper:
         self.refused: Refused = _unwatched
         """Called for each refused session."""
 
-    def decide(self, key: bytes, transport: Transport, address: Hashable) -> Access | None:
-        """Return what the client with `key` at an address may use; report and count it if it is refused (None)."""
+    def decide(
+        self, key: bytes, transport: Transport, address: Hashable, client: Client | None
+    ) -> Access | None:
+        """Return what the client with `key` at an address may use; report and count it if it is refused (None).
+
+        `client` is in session with that key, if any. While it is heard, no session at a place of another rule ends it:
+        a key is no secret.
+        """
         access, reason = self._judge(key, transport, address)
+        if client is not None and access is not None and self._keeps(client, transport, address):
+            access, reason = None, f"it is in session at {client.place}, where another rule is for it"
+            self._log.counters["takeover_denied"] += 1
+        elif access is None:
+            self._log.counters["client_denied"] += 1
         if access is None:
             name = key.hex().upper()
-            self._log.counters["client_denied"] += 1
             text = "client {client} at {peer} was refused: {reason}"
             peer = transport.name_of(address)
             self._log.emit(Level.WARNING, "client_denied", text, client=name, peer=peer, reason=reason)
@@ -50,6 +60,11 @@ class Gatekeeper:
             return True
         found = self._find(self.policy, key, transport, address)
         return found is not None and not found.refuse and found == access.rule
+
+    def _keeps(self, client: Client, transport: Transport, address: Hashable) -> bool:
+        if client.asleep or client.address == address:
+            return False
+        return not self.may_move(client.session.link.key, client.access, transport, address)
 
     def review(self, client: Client) -> tuple[Access, str]:
         """Return what a client in session may use after a reload; a text is the reason why it may not stay."""
