@@ -8,6 +8,11 @@ import socket
 from collections.abc import Callable, Mapping
 
 
+def is_service(environ: Mapping[str, str] = os.environ) -> bool:
+    """Return whether a service manager started this process and is told its state."""
+    return bool(environ.get("NOTIFY_SOCKET"))
+
+
 def notify(state: str, environ: Mapping[str, str] = os.environ) -> None:
     """Send `state`, such as `READY=1`, to the socket that NOTIFY_SOCKET names; errors are ignored."""
     place = environ.get("NOTIFY_SOCKET", "")

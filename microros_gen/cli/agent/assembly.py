@@ -16,7 +16,10 @@ from microros_gen.agent.ros.bridge import Bridge
 from microros_gen.cli.agent.files import AgentFiles
 from microros_gen.cli.agent.options import AgentOptions
 from microros_gen.cli.agent.transports import Shared
-from microros_gen.diagnostics import Diagnostic, UserError
+from microros_gen.diagnostics import Diagnostic, Severity, UserError
+
+FRONT_BYTES = 64 << 20
+"""Bytes of the first process of an agent with workers, which has no clients."""
 
 
 def make_agent(
@@ -57,6 +60,29 @@ def check_memory(limits: Limits) -> None:
         raise UserError(
             [Diagnostic(message, hint=f"Lower {pools}, or set memory_bytes: {wanted}", id="MG-9708")]
         )
+
+
+def memory_of_system(options: AgentOptions, available: int | None) -> Diagnostic | None:
+    """Return a warning if all processes of the agent may take more than the `available` bytes (None: unknown)."""
+    limits, workers = options.limits, options.workers
+    front = FRONT_BYTES if workers > 1 else 0
+    wanted = workers * limits.memory_bytes + front
+    if available is None or wanted <= available:
+        return None
+    each = (
+        f"{workers} workers with memory_bytes {limits.memory_bytes} each, and the first process"
+        if front
+        else ""
+    )
+    message = f"{each or f'memory_bytes {limits.memory_bytes}'} may take {wanted} bytes, and the system has {available}"
+    fitting = (available - front) // workers
+    if fitting >= most_bytes(limits):
+        hint = f"Set memory_bytes: {fitting}, or let the system give more (systemd: MemoryMax)"
+    else:
+        hint = (
+            "Lower the pools (history_bytes, object_bytes, …) and memory_bytes, or let the system give more"
+        )
+    return Diagnostic(message, hint=hint, severity=Severity.WARNING, id="MG-9873")
 
 
 def _report_memory(log: EventLog, limits: Limits) -> None:

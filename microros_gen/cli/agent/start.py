@@ -16,14 +16,15 @@ from microros_gen.agent.fairness import Account, Fairness
 from microros_gen.agent.input_pool import InputPool
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.own_time import Waited
-from microros_gen.agent.readiness import notify, watchdog
+from microros_gen.agent.readiness import is_service, notify, watchdog
 from microros_gen.agent.recording.recorder import RecordedTransport
 from microros_gen.agent.ros.rclpy_bridge import open_bridge
 from microros_gen.agent.ros.reports import graph_reporter
 from microros_gen.agent.server import Server
+from microros_gen.agent.system_memory import system_bytes
 from microros_gen.agent.trace import TracedTransport
 from microros_gen.agent.transport.base import Transport
-from microros_gen.cli.agent.assembly import check_memory, make_agent, report_limits
+from microros_gen.cli.agent.assembly import check_memory, make_agent, memory_of_system, report_limits
 from microros_gen.cli.agent.clients import client_state_node
 from microros_gen.cli.agent.files import AgentFiles, read_files
 from microros_gen.cli.agent.graph import graph_server
@@ -41,11 +42,12 @@ from microros_gen.diagnostics import Diagnostic, UserError
 
 def serve(options: AgentOptions, signals: EarlySignals) -> None:
     """Serve until a signal comes; a ready line for each transport goes to stdout. UserError: it cannot start."""
-    if options.policy is None and options.psk_file is None:
+    if options.policy is None and options.psk_file is None and not is_service():
         signals.nothing_to_reload()
     _check_system()
     files = read_files(options)
-    for diagnostic in files.warnings:
+    tight = memory_of_system(options, system_bytes())
+    for diagnostic in (*files.warnings, *([tight] if tight is not None else [])):
         echo_found(f"{diagnostic.render()}\n")
     checked_places(options)
     if options.check:

@@ -136,8 +136,13 @@ def _report(log: EventLog, options: AgentOptions, files: AgentFiles, streams: in
     if options.policy is not None and files.policy is not None:
         report_policy(options.policy, files.policy, log)
     report_limits(log, options.limits, streams)
-    text = "{count} workers, each with these limits; client KEY has worker KEY mod {count} + 1"
-    log.emit(Level.INFO, "workers", text, count=options.workers)
+    text = (
+        "{count} workers, each with these limits, together {clients} clients and {memory} MiB; client KEY has worker"
+        " KEY mod {count} + 1"
+    )
+    count, limits = options.workers, options.limits
+    memory = round(count * limits.memory_bytes / (1 << 20), 1)
+    log.emit(Level.INFO, "workers", text, count=count, clients=count * limits.clients, memory=memory)
 
 
 def _workers(starts: Sequence[WorkerStart], log: EventLog) -> list[WorkerProcess]:

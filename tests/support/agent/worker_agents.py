@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -58,10 +58,13 @@ class Running:
 
 
 @contextmanager
-def running(*options: str) -> Iterator[Running]:
+def running(*options: str, port: int = 0, program: Sequence[str] = ()) -> Iterator[Running]:
+    """Start one; `program` replaces `microros-gen agent`."""
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder) / "status"
-        with running_agent(own_domain(), "--workers", "2", "--status-socket", str(place), *options) as agent:
+        transport = ("udp4", "--port", str(port))
+        more = ("--workers", "2", "--status-socket", str(place), *options)
+        with running_agent(own_domain(), *more, transport=transport, program=program) as agent:
             yield Running(agent, place)
 
 
