@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 
 
 def is_service(environ: Mapping[str, str] = os.environ) -> bool:
-    """Return whether a service manager started this process and is told its state."""
+    """Return whether a service manager started this process and receives its state."""
     return bool(environ.get("NOTIFY_SOCKET"))
 
 

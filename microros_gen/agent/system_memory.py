@@ -36,5 +36,5 @@ def _text(path: Path) -> str:
 
 
 def _number(text: str) -> int | None:
-    """Return a number; None for `max`, and where there is none."""
+    """Return the number of a text; None if it is another text, such as `max`."""
     return int(text) if text.strip().isdecimal() else None

@@ -37,8 +37,8 @@ class Gatekeeper:
     ) -> Access | None:
         """Return what the client with `key` at an address may use; report and count it if it is refused (None).
 
-        `client` is in session with that key, if any. While it is heard, no session at a place of another rule ends it:
-        a key is no secret.
+        `client` is in session with that key, if any. While it is not silent, no session at a place of another rule
+        ends it: a key is no secret.
         """
         access, reason = self._judge(key, transport, address)
         if client is not None and access is not None and self._keeps(client, transport, address):
