@@ -8,6 +8,8 @@ import subprocess
 import threading
 from pathlib import Path
 
+import pytest
+
 from tests.support.components.rendered import program_of, rendered, run
 from tests.support.patience import seconds
 from tests.support.runtime.reading_agent import ReadingAgent
@@ -55,7 +57,25 @@ nodes:
     publishers: [{{topic: count, type: std_msgs/msg/Int32}}]
     subscriptions: [{{topic: target, type: std_msgs/msg/Int32}}]
 """
+LOGS = """\
+version: 1
+profiles: [pure_sender, pure_reader]
+components: [+executor, +multithread]
+session: {{key: 7}}
+liveliness: none
+logging: [{{to: console, level: warn}}, {{to: rosout, level: warn}}, {{to: ring, level: warn, size: 2048}}]
+transport: {{type: udp, agent: "127.0.0.1:{port}"}}
+nodes:
+  - name: device
+    subscriptions: [{{topic: target, type: std_msgs/msg/Int32}}]
+"""
+WITH_TASK = """\
+    executors: [{{name: a, handles: [target]}}]
+tasks: [{{name: reader, executor: a}}]
+"""
+WRITERS, ROUNDS = 4, 300
 WRITE_DATA = 7
+READER = 1
 QUIET_MS = 3500
 FULL_MS = 1500
 READ = 100
@@ -86,6 +106,51 @@ def serve(agent: ReadingAgent, served: socket.socket, lost: int = 0) -> None:
             offered += 1
         for answer in answers:
             served.sendto(answer, peer)
+
+
+def serve_lines(agent: ReadingAgent, served: socket.socket) -> None:
+    """Answer datagrams, and offer a sample whenever each writer's line of a round has arrived."""
+    offered = 0
+    while True:
+        try:
+            datagram, peer = served.recvfrom(2048)
+        except OSError:
+            return
+        answers = agent.receive(datagram)
+        while offered < len(agent.written) // WRITERS:
+            answers += agent.numbers(READER, offered)
+            offered += 1
+        for answer in answers:
+            served.sendto(answer, peer)
+
+
+def lines_of(tmp_path: Path, text: str, more: tuple[str, ...] = ()) -> tuple[int, str, ReadingAgent]:
+    """Return how often a node with log writers wakes while it is quiet, its console, and the agent."""
+    agent = ReadingAgent()
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as served:
+        served.bind(("127.0.0.1", 0))
+        threading.Thread(target=serve_lines, args=(agent, served), daemon=True).start()
+        out = rendered(tmp_path, text.format(port=served.getsockname()[1]))
+        program = program_of(out, "log_wakes.c", more=("-pthread", *more))
+        command = [str(program), str(QUIET_MS), str(ROUNDS)]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=seconds(120), check=False)
+    assert done.returncode == 0, done.stderr[-3000:]
+    return int(done.stdout), done.stderr, agent
+
+
+@pytest.mark.parametrize("text", [LOGS, LOGS + WITH_TASK], ids=["threads", "tasks"])
+@pytest.mark.parametrize("more", [(), ("-fsanitize=thread",)], ids=["plain", "tsan"])
+def test_a_node_that_logs_sleeps_until_a_line_is_to_be_sent(
+    tmp_path: Path, text: str, more: tuple[str, ...]
+) -> None:
+    """Each line of another thread is sent at once: no wake-up is lost, as the wait would not end by itself."""
+    wakes, console, agent = lines_of(tmp_path, text, more)
+    assert more or wakes <= TIMER, "the sanitizer has its own thread"
+    assert "data race" not in console
+    bodies = b"".join(body for _, body in agent.written)
+    for writer in range(WRITERS):
+        for number in range(ROUNDS):
+            assert b"writer %d round %d\0" % (writer, number) in bodies
 
 
 def test_tasks_without_work_do_not_wake(tmp_path: Path) -> None:

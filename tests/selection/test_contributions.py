@@ -161,7 +161,6 @@ def _always_there() -> set[str]:
         "xrce_session_on_status_agent",
         "rcl_steady_clock_init",
         "rcl_ros_clock_init",
-        "xrce_turn_poll",
     } | {"rcl_ros_clock_fini", "xrce_session_drain"}
 
 

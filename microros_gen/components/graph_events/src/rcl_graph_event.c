@@ -5,6 +5,7 @@
 #include "microros/lock.h"
 #include "microros/rcl_graph_events.h"
 #include "microros/xrce_local.h"
+#include "microros/xrce_turn.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -55,6 +56,9 @@ rcl_ret_t rcl_graph_event_open(rcl_event_t * event, const xrce_endpoint_t * endp
   }
   microros_lock();
   place = event_take_place(endpoint, is_incompatible);
+  if (place != NULL) {
+    xrce_turn_stored(endpoint->client); /* whoever receives asks for it */
+  }
   microros_unlock();
   if (place == NULL) {
     return microros_error_named(RCL_RET_ALREADY_INIT, microros_error_event, "its entity has one already");

@@ -8,8 +8,10 @@
 #include "microros/rcl_client_open.h"
 #include "microros/rcl_graph.h"
 #include "microros/rcl_graph_events_hooks.h"
+#include "microros/rmw_client.h"
 #include "microros/rmw_node.h"
 #include "microros/rmw_service.h"
+#include "microros/xrce_turn.h"
 #include "microros/xrce_wire.h"
 #include "microros/xrce_write_room.h"
 #include "rcl/error_handling.h"
@@ -28,8 +30,9 @@ static uint32_t events_graph;   /* the change of the graph that was asked about 
 static uint32_t events_due_ms;  /* while `events_pause`: no request before */
 static uint16_t events_current; /* the event of the request */
 static bool events_pause;
-static bool events_wait; /* for a response, at most until `events_due_ms` */
-static bool events_busy; /* a task makes requests */
+static bool events_wait;   /* for a response, at most until `events_due_ms` */
+static bool events_busy;   /* a task makes requests */
+static bool events_missed; /* another one came meanwhile */
 
 static bool events_begin(void)
 {
@@ -38,6 +41,7 @@ static bool events_begin(void)
   microros_lock();
   is_free = !events_busy;
   events_busy = true;
+  events_missed = events_missed || !is_free;
   microros_unlock();
   return is_free;
 }
@@ -46,6 +50,11 @@ static void events_end(void)
 {
   microros_lock();
   events_busy = false;
+  if (events_missed) {
+    events_missed = false;
+    xrce_turn_stored(
+      rmw_client_instance()); /* it may have seen an event that this task had looked at before */
+  }
   microros_unlock();
 }
 
@@ -184,6 +193,9 @@ static void events_ask(uint32_t graph, uint32_t now)
     event->is_requested = fits;
     event->is_due = fits; /* a name that cannot be asked for is not tried again before a change */
     event->graph = graph;
+    if (!fits) {
+      xrce_turn_stored(event->endpoint->client); /* the next one that is due */
+    }
   }
   microros_unlock();
   if (!fits) {

@@ -5,10 +5,11 @@
 #include "microros/port_console.h"
 #include "microros/rcutils_console.h"
 #include "microros/rcutils_console_hooks.h"
+#include "microros/rcutils_console_wake.h"
 #include "microros/rcutils_format.h"
 #include "microros_config.h"
 
-enum { CONSOLE_REPORT_SIZE = 96 };
+enum { CONSOLE_REPORT_SIZE = 96, CONSOLE_AGAIN_MS = 1000 };
 
 static uint32_t console_unreported; /* dropped since the last line that was written */
 
@@ -58,11 +59,21 @@ void microros_console_step(void)
   }
 }
 
+uint32_t microros_console_left(uint32_t left)
+{
+  const uint32_t most = console_unreported != 0u ? (uint32_t)CONSOLE_AGAIN_MS : left;
+
+  return most < left ? most : left;
+}
+
 /* The lock is held. */
 static void console_drop(void)
 {
   microros_format_dropped();
   ++console_unreported;
+  if (console_unreported == 1u) {
+    microros_console_wake();
+  }
 }
 
 /* Tells, with `text` as room for the report, whether a line may follow; counts the line as dropped if not. */

@@ -3,6 +3,7 @@
 
 #include "microros/xrce_client.h"
 #include "microros/xrce_routes.h"
+#include "microros/xrce_turn.h"
 #include "microros/xrce_wire.h"
 #include "microros/xrce_write.h"
 
@@ -37,9 +38,18 @@ static uint32_t rosout_line_size(void)
   return (uint32_t)rosout_lines[rosout_at(0u)] << 8 | rosout_lines[rosout_at(1u)];
 }
 
+/* What has to be sent must not wait for the next message: whoever sends looks again. Without a session nothing can be. */
+static void rosout_notify(void)
+{
+  if (rosout_writer != NULL) {
+    xrce_turn_stored(rosout_writer->client);
+  }
+}
+
 void xrce_rosout_use(const xrce_endpoint_t * writer)
 {
   rosout_writer = writer;
+  rosout_notify(); /* of the lines that have waited for it */
 }
 
 /* A new session has no writers until their nodes are open again. */
@@ -62,6 +72,7 @@ bool xrce_rosout_put(const uint8_t * body, uint32_t size)
   }
   rosout_append(header, LINE_HEADER);
   rosout_append(body, size);
+  rosout_notify();
   return true;
 }
 

@@ -24,6 +24,14 @@ void xrce_turn_change(const xrce_client_t * client)
   }
 }
 
+void xrce_turn_stored(const xrce_client_t * client)
+{
+  microros_note();
+  if (client->waiting != 0u) {
+    port_wake();
+  }
+}
+
 uint32_t xrce_turn_longest_ms(const xrce_client_t * client)
 {
   turn_has_changed =

@@ -21,11 +21,9 @@ void xrce_turn_change(const xrce_client_t * client);
  * of their calls has to end it; otherwise an hour. */
 uint32_t xrce_turn_longest_ms(const xrce_client_t * client);
 
-/* Returns the time until a component looks at what may be stored without a wake-up, at most `left`, milliseconds. */
-static inline uint32_t xrce_turn_poll(uint32_t left)
-{
-  return left < (uint32_t)XRCE_TURN_POLL_MS ? left : (uint32_t)XRCE_TURN_POLL_MS;
-}
+/* Called after something was stored that whoever receives and sends hands to the session: no wait begins before that was
+ * seen, and one that has begun ends. */
+void xrce_turn_stored(const xrce_client_t * client);
 
 #ifdef __cplusplus
 }

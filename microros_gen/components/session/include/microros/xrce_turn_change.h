@@ -18,10 +18,10 @@ static inline void xrce_turn_change(const xrce_client_t * client)
   (void)client;
 }
 
-/* Returns the time until a component looks at what may be stored without a wake-up, at most `left`, milliseconds. */
-static inline uint32_t xrce_turn_poll(uint32_t left)
+/* Called after something was stored that whoever receives and sends hands to the session: a wait ends for it. */
+static inline void xrce_turn_stored(const xrce_client_t * client)
 {
-  return left;
+  (void)client;
 }
 
 #ifdef __cplusplus

@@ -51,18 +51,18 @@ void xrce_turn_return(const xrce_client_t * client);
  * end asks the session instead. */
 void xrce_turn_change(const xrce_client_t * client);
 
+/* Called after something was stored that the task of the session hands to a stream, also by that task itself. */
+static inline void xrce_turn_stored(const xrce_client_t * client)
+{
+  xrce_turn_request(client);
+}
+
 /* The calling task begins and ends a round of its executor. */
 void xrce_turn_set_round(bool is_in_round);
 
 /* Returns the longest wait for the line, milliseconds. While the task of the session runs, all that concerns it ends its
  * wait. */
 uint32_t xrce_turn_longest_ms(const xrce_client_t * client);
-
-/* Returns the time until a component looks at what may be stored without a wake-up, at most `left`, milliseconds. */
-static inline uint32_t xrce_turn_poll(uint32_t left)
-{
-  return left < (uint32_t)XRCE_TURN_POLL_MS ? left : (uint32_t)XRCE_TURN_POLL_MS;
-}
 
 /* Returns whether the task of the session runs. */
 bool xrce_turn_is_taken(void);
