@@ -5,9 +5,26 @@ from __future__ import annotations
 
 import itertools
 from bisect import bisect_right
+from collections.abc import Callable
 
 from microros_gen.image.dwarf import file_name
 from microros_gen.image.elf import Elf
+
+
+def code_of(image: Elf) -> Callable[[int], bool]:
+    """Return what says whether a function of the image is at an address.
+
+    The linker sets the addresses of a function that it leaves out to 0, where an image of a microcontroller has its
+    vectors and then its first functions.
+    """
+    extents = sorted((s.address, s.address + s.size) for s in image.symbols if s.function and s.size)
+    begins = [begin for begin, _ in extents]
+
+    def is_code(address: int) -> bool:
+        at = bisect_right(begins, address) - 1
+        return at >= 0 and address < extents[at][1]
+
+    return is_code
 
 
 class Lines:
@@ -16,12 +33,18 @@ class Lines:
     def __init__(self, image: Elf) -> None:
         """Read it."""
         found: dict[int, tuple[int, str, int]] = {}
+        is_code = code_of(image)
         for unit in image.dwarf.iter_CUs() if image.dwarf else ():
+            is_kept = False
             program = image.dwarf.line_program_for_CU(unit) if image.dwarf else None
             states = [e.state for e in program.get_entries() if e.state is not None] if program else []
             names: dict[int, str] = {}
+            begins = True
             for here, after in itertools.pairwise(states):
-                if not here.end_sequence and here.address < after.address:
+                if begins:
+                    is_kept = is_code(here.address)
+                begins = here.end_sequence
+                if is_kept and not here.end_sequence and here.address < after.address:
                     if here.file not in names:
                         names[here.file] = file_name(unit, program, here.file)
                     found[here.address] = (after.address, names[here.file], here.line)

@@ -39,7 +39,7 @@ _UNKNOWN = "an unknown number of bytes"
 _READS_ON = re.compile(r"^(?:cdr_get_\w+|\w+__decode)$")
 """Functions that read what follows in a message, and leave it behind."""
 _THIRD_IS_SIZE = re.compile(
-    r"^(?:mem(?:cpy|move|set|cmp|chr|ccpy)|str(?:ncpy|ncmp|ncat)|__aeabi_mem(?:cpy|move)[48]?)(?:\.|$)"
+    r"^(?:mem(?:cpy|move|set|cmp|chr|ccpy)|str(?:ncpy|ncmp)|__aeabi_mem(?:cpy|move)[48]?)(?:\.|$)"
 )
 """Functions of libraries whose third argument says how many bytes they handle. Others may have any number there."""
 

@@ -18,13 +18,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
 from functools import cache
 
-from microros_gen.image.constants import read_constants, value_of
+from microros_gen.image.constants import UNKNOWN, read_constants, value_of
 from microros_gen.image.decoders import Decoders
 from microros_gen.image.guards import OF_BODY, Guards, Written
 from microros_gen.image.paths import UNIT, Length, longer
 from microros_gen.image.shares import HOLD, Total
+from microros_gen.image.vague import circles, contradicted, loop_macros, without_directives
 from microros_gen.records import dataclass
 
 _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
@@ -51,24 +53,29 @@ SIZE_OF = re.compile(r"\bsize of (\w+)")
 
 @dataclass(frozen=True)
 class Loop:
-    """A loop of a source: its first and last line, and its head as the source has it, without comments."""
+    """A loop of a source: its first and last line, and its head as the source has it, without comments.
+
+    `vague`: what has its lines may be of another loop (vague.py).
+    """
 
     first: int
     last: int
     head: str
     body: str
+    vague: bool = False
 
 
 class Source:
     """A source file: its loops, and what its comments say."""
 
-    def __init__(self, text: str) -> None:
-        """Take the text of a C file."""
+    def __init__(self, text: str, macros: frozenset[str] = frozenset()) -> None:
+        """Take the text of a C file; `macros` of its headers are loops."""
         self._lines = text.splitlines()
         blank = _TEXT.sub(lambda m: " " * len(m[0]), _blanked(text))
         self.plain = blank
         self.is_generated = text.startswith(_GENERATED)
-        self.loops = tuple(_loops(blank))
+        self.loops = _with_vague(blank, tuple(_loops(without_directives(blank))), macros)
+        self._contradicted = tuple(contradicted(text, blank))
         self.constants = read_constants(blank)
         self.guards = Guards(blank)
         self._functions = tuple(
@@ -90,6 +97,8 @@ class Source:
         return found[1] if found is not None else None
 
     def _found(self, line: int, what: str) -> re.Match[str] | None:
+        if any(first <= line <= last for first, last in self._contradicted):
+            return None
         for at in (line, line - 1):
             text = self._lines[at - 1] if 0 < at <= len(self._lines) else ""
             if at != line and not text.lstrip().startswith("/* at most"):
@@ -108,6 +117,21 @@ class Source:
     def begins(self, function: str) -> int | None:
         """Return the line where a function is defined."""
         return next((line for line, name in self._functions if name == function), None)
+
+
+def _with_vague(text: str, loops: tuple[Loop, ...], macros: frozenset[str]) -> tuple[Loop, ...]:
+    """Return the loops of a source, with `vague` where others share their lines or are not in the source."""
+    back, firsts = tuple(circles(text)), [loop.first for loop in loops]
+    names = "|".join(sorted(macros | loop_macros(text)))
+    is_macro = re.compile(rf"\b(?:{names})\b") if names else None
+    return tuple(
+        replace(loop, vague=True)
+        if firsts.count(loop.first) > 1
+        or any(first <= loop.last and loop.first <= last for first, last in back)
+        or (is_macro is not None and is_macro.search(loop.head + loop.body))
+        else loop
+        for loop in loops
+    )
 
 
 def _blanked(text: str) -> str:
@@ -157,11 +181,15 @@ class Sources:
 
         `headers` have the constants of the output, `decoders` its generated functions that decode.
         """
-        self._source = cache(lambda name: Source(read(name)))
+        headers = [_blanked(text) for text in headers]
+        macros = frozenset(name for text in headers for name in loop_macros(text))
+        self._source = cache(lambda name: Source(read(name), macros))
         self._decoders = Decoders(_TEXT.sub(lambda m: " " * len(m[0]), _blanked(text)) for text in decoders)
         self._constants: dict[str, str] = {}
         for text in headers:
-            self._constants.update(read_constants(_blanked(text)))
+            for name, value in read_constants(text).items():
+                known = self._constants.get(name, value)
+                self._constants[name] = value if known == value else UNKNOWN
 
     def rounds(
         self,
@@ -194,7 +222,7 @@ class Sources:
             for place, loop in left.items()
             if not any(_encloses(other, (place, loop)) for other in merged.items())
         )
-        most = Length(1)
+        most = start = Length(1)
         if len({**left, **merged}) == 1:
             ((place, loop),) = {**left, **merged}.items()
             rounds = self._of(place[0], loop, function)
@@ -203,20 +231,27 @@ class Sources:
             rounds = self._of(place[0], loop, function)
             if rounds is None:
                 return f"{_short(place[0])}:{loop.first}"
-            most = self._product(most, rounds) if place in merged else longer(most, rounds)
+            most = (
+                longer(most, rounds) if place not in merged or most is start else self._product(most, rounds)
+            )
         return most
 
     def _product(self, outer: Length, inner: Length) -> Length:
         """Return the rounds of a loop that the compiler made of two, one of which is in the other.
 
-        Of an element that is refused, all rounds of the fixed loop are possible, for fewer bytes than it has.
+        Each round of the outer one also looks once more whether the inner one goes on. Which of both is around the
+        other is not known where one is of an inlined function. Of an element that is refused, all rounds of the fixed
+        loop are possible, for fewer bytes than it has.
         """
+        if not outer.rate and not inner.rate:
+            return Length(outer.count * inner.count + max(outer.count, inner.count))
         if not outer.rate or not inner.rate:
-            fixed = outer if inner.rate else inner
-            last = fixed.count if fixed.count > 1 and (outer.rate or inner.rate) else 0
-            rate = outer.count * inner.rate + outer.rate * inner.count
-            return Length(outer.count * inner.count + last, rate=rate, apart=outer.apart or inner.apart)
-        return Length(outer.of(self.body).count).times(inner, 0)
+            fixed, read = (outer, inner) if inner.rate else (inner, outer)
+            rate = fixed.count * read.rate + read.rate
+            count = fixed.count * read.count + fixed.count + read.count
+            return Length(count, rate=rate, apart=read.apart)
+        most = Length(outer.of(self.body).count).times(inner, 0)
+        return most + Length(max(outer.of(self.body).count, inner.of(self.body).count))
 
     @property
     def body(self) -> int:
@@ -302,6 +337,8 @@ class Sources:
 
     def _of(self, file: str, loop: Loop, function: Function = ("", None)) -> Length | None:
         statement = self._source(file).stated(loop.first, "rounds")
+        if loop.vague:
+            return None
         if statement is not None:
             read = _READ.match(statement)
             if read:

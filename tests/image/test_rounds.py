@@ -109,8 +109,9 @@ static void part(void)
 
 
 def test_where_the_compiler_makes_one_loop_of_two_both_numbers_count() -> None:
-    assert of_lines(NEST, ends=[3], own=[3, 4, 5, 7]) == 36
-    assert of_lines(NEST, ends=[3, 5], own=[3, 5]) == 36
+    """Each of the 9 rounds of the outer loop also looks a fifth time whether the inner one goes on."""
+    assert of_lines(NEST, ends=[3], own=[3, 4, 5, 7]) == 9 * 4 + 9
+    assert of_lines(NEST, ends=[3, 5], own=[3, 5]) == 9 * 4 + 9
     assert of_lines(NEST, ends=[3], own=[3, 4, 7], inner=[4]) == 9, (
         "only its first instructions are of the outer loop"
     )
@@ -122,12 +123,54 @@ def test_where_the_compiler_makes_one_loop_of_two_both_numbers_count() -> None:
 
 
 def test_the_loop_of_an_inlined_function_may_be_one_with_that_around_it() -> None:
-    assert of_lines(NEST, ends=[3], own=[3, 12, 13], inner=[4], function=("work", None)) == 45
+    assert of_lines(NEST, ends=[3], own=[3, 12, 13], inner=[4], function=("work", None)) == 9 * 5 + 9
     assert of_lines(NEST, ends=[3], own=[3, 4, 13], inner=[4, 12], function=("work", None)) == 9
     assert of_lines(NEST, ends=[13], own=[3, 13], function=("work", None)) == 5
-    assert of_lines(NEST, ends=[13], own=[3, 13], function=("other", None)) == 45, (
+    assert of_lines(NEST, ends=[13], own=[3, 13], function=("other", None)) == 9 * 5 + 9, (
         "nobody knows which is around"
     )
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "for (i = 0; i < 3; ++i) { for (k = 0; k < 9; ++k) {\n  a();\n} }",
+        "#define TIMES(n) for (k = 0; k < (n); ++k)\nfor (i = 0; i < 3; ++i) {\n  TIMES(9) a();\n}",
+        "void f(void)\n{\n  for (i = 0; i < 3; ++i) {\n  again:\n    if (a()) { goto again; }\n  }\n}",
+    ],
+    ids=["one line", "macro", "goto"],
+)
+def test_a_loop_whose_lines_have_another_one_has_no_bound(text: str) -> None:
+    begin = text[: text.index("for (i")].count("\n") + 1
+    assert rounds(text, begin) == f"src/part/file.c:{begin}"
+
+
+def test_a_macro_that_repeats_nothing_and_a_jump_forward_leave_the_bound() -> None:
+    text = "#define ONCE(x) do { x; } while (0)\nfor (i = 0; i < 3; ++i) {\n  ONCE(a());\n}"
+    assert rounds(text, 2) == 3
+    forward = "void f(void)\n{\n  for (i = 0; i < 3; ++i) {\n    goto end;\n  }\nend:\n  a();\n}"
+    assert rounds(forward, 3) == 3
+
+
+def test_functions_of_one_code_with_different_comments_have_no_bound() -> None:
+    """The compiler keeps one for both, and with it the lines and comments of one."""
+    code = (
+        "static void {0}(char * {1})\n{{\n  while (*{1}) {{ /* at most {2} rounds */\n    ++{1};\n  }}\n}}\n"
+    )
+    alike = code.format("a", "x", 3) + code.format("b", "y", 3)
+    assert rounds(alike, 3) == 3
+    assert rounds(code.format("a", "x", 3) + code.format("b", "y", 9), 3) == "src/part/file.c:3"
+
+
+def test_constants_are_what_the_compiler_makes_of_them() -> None:
+    def bound(defines: str, most: str) -> int | str:
+        return rounds(f"{defines}\nfor (i = 0; i < {most}; ++i) {{\n  a();\n}}", 1 + len(defines.split("\n")))
+
+    assert bound("#define LOOSE 2 + 6", "16 - LOOSE") == 16 - 2 + 6
+    assert bound("#define OCTAL 010", "20 - OCTAL") == 12
+    assert bound("enum { SUM = 2 + 6 };", "16 - SUM") == 8
+    several = "#if A\n#define N 80\n#else\n#define N 2\n#endif"
+    assert bound(several, "N") == "src/part/file.c:6"
 
 
 def test_a_comment_names_the_size_of_a_function() -> None:
