@@ -210,12 +210,12 @@ void rmw_shared_step(xrce_client_t * client)
     if (rmw_shared_rings[index].sends) {
       (void)rmw_shared_writer(&rmw_shared_rings[index]); /* a reader follows it before its first message */
     } else if (shared_read(client, &rmw_shared_rings[index], &shared_states[index])) {
+      rmw_shared_turned(index);
       moves = true;
     } else {
       /* nothing was written */
     }
   }
-  rmw_shared_turned();
   if (moves) {
     rmw_local_wake(); /* the messages may be for another task */
   }

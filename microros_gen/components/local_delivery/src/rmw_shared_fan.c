@@ -4,7 +4,8 @@
 #include "microros/rmw_shared_call.h"
 #include "microros/rmw_shared_ring.h"
 
-static size_t fan_first; /* the ring that is looked at first */
+/* By the first ring of an endpoint: how many of its rings are looked at after the others. */
+static uint8_t fan_turns[MICROROS_SHARED_RINGS];
 
 const rmw_shared_ring_t * rmw_shared_next(const rmw_shared_ring_t * ring)
 {
@@ -14,16 +15,30 @@ const rmw_shared_ring_t * rmw_shared_next(const rmw_shared_ring_t * ring)
   return next < &rmw_shared_rings[MICROROS_SHARED_RINGS] && next->endpoint == ring->endpoint ? next : NULL;
 }
 
-size_t rmw_shared_turn(size_t i)
+/* Returns the index of the first ring of the endpoint that has this one. */
+static size_t fan_begin(size_t index)
 {
-  const size_t index = fan_first + i;
-
-  return index < (size_t)MICROROS_SHARED_RINGS ? index : index - (size_t)MICROROS_SHARED_RINGS;
+  return rmw_shared_ring_of[rmw_shared_rings[index].endpoint];
 }
 
-void rmw_shared_turned(void)
+size_t rmw_shared_turn(size_t i)
 {
-  fan_first = rmw_shared_turn(1);
+  const size_t begin = fan_begin(i);
+  const size_t index = i + fan_turns[begin];
+  size_t end = i + 1u;
+
+  while (end < (size_t)MICROROS_SHARED_RINGS && rmw_shared_rings[end].endpoint == rmw_shared_rings[i].endpoint) {
+    ++end;
+  }
+  return index < end ? index : begin + (index - end);
+}
+
+void rmw_shared_turned(size_t index)
+{
+  const rmw_shared_ring_t * next = rmw_shared_next(&rmw_shared_rings[index]);
+  const size_t begin = fan_begin(index);
+
+  fan_turns[begin] = next != NULL ? (uint8_t)(next - &rmw_shared_rings[begin]) : 0u;
 }
 
 const rmw_shared_ring_t * rmw_shared_replies(const rmw_shared_ring_t * requests, uint16_t client)

@@ -15,12 +15,13 @@ extern "C" {
 /* Returns the next ring of the endpoint, of a service that of the requests of its next client; NULL: it has no more. */
 const rmw_shared_ring_t * rmw_shared_next(const rmw_shared_ring_t * ring);
 
-/* Returns the index of the ring that is looked at as the `i`-th one: in each round another one is the first, so that the clients of
- * one image do not keep those of another one from a server that is always busy. */
+/*
+ * Returns the index of the ring that is looked at as the `i`-th one. Of the rings of an endpoint the one from which messages
+ * were moved last comes last: the clients of one image do not keep those of another one from a server that is always busy. */
 size_t rmw_shared_turn(size_t i);
 
-/* Ends a round. */
-void rmw_shared_turned(void);
+/* Called after messages were moved from the ring with this index: the next one of its endpoint comes first. */
+void rmw_shared_turned(size_t index);
 
 /*
  * Returns the ring of the replies to a client, by the run of its requests; `requests`: the first ring of the service. NULL: no client

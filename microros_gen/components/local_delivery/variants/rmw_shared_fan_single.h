@@ -21,8 +21,9 @@ static inline size_t rmw_shared_turn(size_t i)
   return i;
 }
 
-static inline void rmw_shared_turned(void)
+static inline void rmw_shared_turned(size_t index)
 {
+  (void)index;
 }
 
 /* Returns the ring of the replies to a client, of which `requests` is that of its requests. */
