@@ -231,7 +231,7 @@ def test_a_server_that_is_away(device: Device) -> None:
     device.client.ok("write a 3")
     device.spin(500)
     assert device.client.now_ms > WRAP_MS
-    assert 5 <= len(device.notices()) <= 7, "one for the change, then one in two seconds"
+    assert 2 <= len(device.notices()) <= 4, "one for the change, then after waits that double"
     result = device.client.call("held")
     assert result.code == TIMEOUT
     assert "took 4 changes for" in result.error
@@ -241,6 +241,48 @@ def test_a_server_that_is_away(device: Device) -> None:
     device.agent.written.clear()
     device.spin(500)
     assert device.notices() == []
+
+
+def pauses(device: Device, count: int) -> list[int]:
+    """Return the milliseconds between each two of the next `count` notices."""
+    found: list[int] = []
+    begin = device.client.now_ms
+    while len(found) < count:
+        device.agent.written.clear()
+        device.spin(1)
+        if device.notices():
+            found.append(device.client.now_ms - begin)
+            begin = device.client.now_ms
+        assert device.client.now_ms - begin < 60_000, found
+    return found[1:]
+
+
+def near(found: list[int], seconds: list[int]) -> bool:
+    """Return whether each pause is that many seconds, up to the steps in which the time of the test goes on."""
+    limits = zip(found, seconds, strict=True)
+    return all(abs(pause - 1000 * wanted) <= 10 * STEP_MS for pause, wanted in limits)
+
+
+def test_notices_become_rare_while_no_server_asks(empty_device: Device) -> None:
+    """Up to one in 32 s, over the wrap of the clock; a server that comes, and goes again, is told soon."""
+    device = empty_device
+    assert len(device.notices()) == 1
+    assert device.client.now_ms < WRAP_MS
+    assert near(pauses(device, 8), [4, 8, 16, 32, 32, 32, 32])
+    device.client.ok("add a")
+    assert near(pauses(device, 2), [32]), "a change is told at once, and nobody asks"
+    device.spin(8000 // STEP_MS)
+    assert device.list() == [("a", 0, DECLARED)]
+    assert near(pauses(device, 3), [8, 16]), "it asked, and did not acknowledge"
+
+
+def test_a_new_session_makes_notices_frequent_again(device: Device) -> None:
+    assert pauses(device, 7)[-1] > 30_000
+    device.agent.restart()
+    device.client.ok("publish")
+    while device.client.statistics()["reconnects"] == 0:
+        device.spin(1)
+    assert near(pauses(device, 4), [2, 4, 8])
 
 
 def test_another_agent_gets_a_notice(device: Device) -> None:

@@ -99,6 +99,7 @@ void rclc_parameter_exchange(const void * request, void * response, void * conte
   }
   held->own_session = held->session;
   held->own_number = held->number;
+  held->wait_s = (uint8_t)RCLC_PARAMETER_HELD_FIRST_S; /* the next server is looked for soon */
   held->requested_ns = port_time_steady_ns();
   if (held->what == (uint8_t)EXCHANGE_ACKNOWLEDGE) {
     exchange_acknowledge(server, held->acknowledged);

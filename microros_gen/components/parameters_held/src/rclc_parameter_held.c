@@ -57,6 +57,7 @@ void rclc_parameter_held_begin(rclc_parameter_server_t * server)
   }
   server->held.requested_ns = port_time_steady_ns();
   server->held.has_begun = true;
+  server->held.wait_s = (uint8_t)RCLC_PARAMETER_HELD_FIRST_S;
   server->held.notice_is_due = true;
 }
 
@@ -99,6 +100,7 @@ static void held_follow_session(rclc_parameter_server_t * server)
   if (reconnects != server->held.reconnects) {
     server->held.reconnects = reconnects;
     server->held.notice_is_due = true;
+    server->held.wait_s = (uint8_t)RCLC_PARAMETER_HELD_FIRST_S;
   }
 }
 
@@ -118,20 +120,27 @@ void rclc_parameter_publish(rclc_parameter_server_t * server)
   }
 }
 
+static int64_t held_wait_ns(const rclc_parameter_held_t * held)
+{
+  return (int64_t)held->wait_s * 1000000000;
+}
+
 void rclc_parameter_held_look(rclc_parameter_server_t * server, int64_t * look_again_ns)
 {
-  const int64_t period_ns = 2000000000; /* between two notices, while the server has not asked */
   rclc_parameter_held_t * const held = &server->held;
   int64_t left;
 
   if (!held->has_begun || held->notice_is_due || (held->own_session != 0u && held_news(server) == 0u)) {
     return;
   }
-  left = held->noticed_ns + period_ns - port_time_steady_ns();
+  left = held->noticed_ns + held_wait_ns(held) - port_time_steady_ns();
   if (left <= 0) {
+    if (held->wait_s < (uint8_t)RCLC_PARAMETER_HELD_MOST_S) {
+      held->wait_s = (uint8_t)(held->wait_s * 2u);
+    }
     held->notice_is_due = true;
     rclc_parameter_publish(server);
-    left = period_ns;
+    left = held_wait_ns(held);
   }
   if (left < *look_again_ns) {
     *look_again_ns = left;

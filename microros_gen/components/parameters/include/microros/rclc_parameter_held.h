@@ -11,6 +11,11 @@
 extern "C" {
 #endif
 
+/*
+ * Seconds between two notices while the server has not asked: at first, and at most; after each notice the wait doubles.
+ * A request of a server and a new session with the agent begin it again. */
+enum { RCLC_PARAMETER_HELD_FIRST_S = 2, RCLC_PARAMETER_HELD_MOST_S = 32 };
+
 /* The type of the service, whose messages are the server, and its callback. */
 extern const rosidl_service_type_support_t rclc_parameter_exchange_type;
 void rclc_parameter_exchange(const void * request, void * response, void * context);

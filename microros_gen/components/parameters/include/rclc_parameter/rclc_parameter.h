@@ -168,6 +168,7 @@ typedef struct rclc_parameter_held_t {
   bool is_setting;
   bool notice_is_due;
   bool has_begun;        /* it is added to an executor */
+  uint8_t wait_s;        /* until the next notice, while the server has not asked */
   uint32_t own_session;  /* with the server; 0: none since the node started */
   uint32_t own_number;   /* of its last request */
   uint32_t own_revision; /* changes by the node */
