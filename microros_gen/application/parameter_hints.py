@@ -7,7 +7,8 @@ import json
 import re
 from collections.abc import Mapping
 
-from microros_gen.application.model import ParameterDecl, Scalar
+from microros_gen.application.model import ParameterDecl, ParameterRule, Scalar
+from microros_gen.application.parameter_rules import refusal
 from microros_gen.documents.tree_values import items
 from microros_gen.documents.yaml_tree import ScalarNode, SequenceNode, YamlNode, to_data
 
@@ -18,6 +19,8 @@ _LISTS: Mapping[str, str] = {
     "double": "[0.5, 1.0]",
     "string": "[a, b]",
 }
+_SIZES: Mapping[str, int] = {"fixed_size": 0, "size_gt": 1, "size_lt": -1, "not_empty": 0}
+"""What is added to the number of a rule for the size closest to it."""
 _LARGEST_INTEGER = 2**63 - 1
 _LIBRARY_NAMES = {bool: "bool", int: "int", float: "double", str: "string"}
 _MEANT = {
@@ -39,6 +42,51 @@ def type_hint(parameter: ParameterDecl, value: Scalar | tuple[Scalar, ...], libr
     if isinstance(value, tuple):
         return f"Write {_list_of(kind, max(len(value), 1), library)}, or a single value"
     return _scalar_hint(kind, value)
+
+
+def rule_hint(parameter: ParameterDecl, value: Scalar | tuple[Scalar, ...], reason: str) -> str:
+    """Return a value close to `value` that follows all rules, and the reason why this one does not."""
+    found: Scalar | tuple[Scalar, ...] = value
+    for rule in parameter.rules:
+        if refusal(rule, parameter.name, found):
+            found = _following(rule, found)
+    if any(refusal(rule, parameter.name, found) for rule in parameter.rules):
+        return f"Write another value: {reason}"
+    return f"Write {json.dumps(found, ensure_ascii=False)}: {reason}"
+
+
+def _following(rule: ParameterRule, value: Scalar | tuple[Scalar, ...]) -> Scalar | tuple[Scalar, ...]:
+    """Return a value that follows a rule, where there is one close to `value`."""
+    if rule.name in ("gt", "lt") and not isinstance(value, (str, tuple)):
+        (end,) = rule.values
+        return end if isinstance(end, str) else end + (1 if rule.name == "gt" else -1)
+    if rule.name == "unique" and isinstance(value, tuple):
+        return tuple(dict.fromkeys(value))
+    if rule.name in ("fixed_size", "size_gt", "size_lt", "not_empty"):
+        return _resized(value, _SIZES[rule.name] + int(rule.values[0] if rule.values else 1))
+    if isinstance(value, tuple):
+        return tuple(_element(rule, element) for element in value)
+    return _element(rule, value)
+
+
+def _resized(value: Scalar | tuple[Scalar, ...], size: int) -> Scalar | tuple[Scalar, ...]:
+    if isinstance(value, str):
+        return value[:size].ljust(size, value[-1:] or "x")
+    if isinstance(value, tuple) and value:
+        return (*value[:size], *[value[-1]] * (size - len(value)))
+    return value
+
+
+def _element(rule: ParameterRule, element: Scalar) -> Scalar:
+    """Return what an element is to be that follows a rule."""
+    if rule.name in ("one_of", "subset_of"):
+        return element if element in rule.values else rule.values[0]
+    bounds = [bound for bound in rule.values if not isinstance(bound, str)]
+    if isinstance(element, str) or not bounds:
+        return element
+    if rule.name != "upper_element_bounds":
+        element = max(element, bounds[0])
+    return element if rule.name == "lower_element_bounds" else min(element, bounds[-1])
 
 
 def scalar_hint(kind: str, value: Scalar | None) -> str:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from microros_gen.application.model import ParameterDecl, ParameterRule, Scalar
+from microros_gen.application.parameter_hints import rule_hint
 from microros_gen.application.parameter_refusals import RANGE_ENDS
 from microros_gen.application.parameter_rules import refusal
 from microros_gen.application.parameters import scalar_of
@@ -68,7 +69,7 @@ def check_rules(
     reason = next(filter(None, reasons), None)
     if reason is not None:
         message = f"{what} does not follow its validation"
-        diagnostics.error(message, span, f"Change one of them: {reason}", id="MG-3077")
+        diagnostics.error(message, span, rule_hint(parameter, value, reason), id="MG-3077")
 
 
 def _float(value: Scalar) -> Scalar:

@@ -253,6 +253,8 @@ def _meant(text: str, schema: dict[str, Any]) -> str | None:
     """Return the value that somebody meant who wrote a word of another program (`x-meant`)."""
     words: dict[str, str] = schema.get("x-meant", {})
     found = next((value for pattern, value in words.items() if re.fullmatch(pattern, text)), None)
+    if found is not None and ": " in found:
+        return f"Write `{found}` instead of this line"
     return None if found is None else f"Write {found}" if re.fullmatch(r"\w+", found) else f"Write '{found}'"
 
 

@@ -87,9 +87,9 @@ def test_values_follow_the_validation_of_a_parameter_file(tmp_path: Path) -> Non
     text = TEXT[:start] + "    parameters: {file: p.yaml}\n    modes: {A: {ids: [3, 3]}, B: {ids: [1, 20]}}\n"
     _, reported = nodes_of(text, tmp_path)
     assert [line.partition("validation. ")[2] for line in reported[0].splitlines()[:1]] == [
-        "Change one of them: Parameter 'ids' must only contain unique values [MG-3077]"
+        "Write [3]: Parameter 'ids' must only contain unique values [MG-3077]"
     ]
-    assert "Value '20' in parameter 'ids' must be within bounds '[0, 9]'" in reported[1]
+    assert "Write [1, 9]: Value '20' in parameter 'ids' must be within bounds '[0, 9]'" in reported[1]
     assert len(reported) == 2
 
 

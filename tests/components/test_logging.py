@@ -277,7 +277,8 @@ def test_a_writer_is_named_once(tmp_path: Path) -> None:
     ("text", "ending"),
     [
         ("rsout", "it is the text 'rsout'. Did you mean 'rosout'?"),
-        ("none", "it is the text 'none'. Write console"),
+        ("none", "it is the text 'none'. Write `components: [-logging]` instead of this line"),
+        ("false", "it is false. Write `components: [-logging]` instead of this line"),
         ("true", "it is true. Write console"),
         ("{to: console}", "it is a mapping. Write [{to: console}]"),
     ],
@@ -288,6 +289,19 @@ def test_a_word_that_is_no_writer_gets_a_hint_that_helps(tmp_path: Path, text: s
     (reported,) = caught.value.diagnostics
     expected = "'logging' must be console, callback, rosout or ring, or a list of such writers; "
     assert without_id(reported.headline()).endswith(f"4:10: error: {expected}{ending}")
+
+
+def test_what_the_hint_says_leaves_logging_out(tmp_path: Path) -> None:
+    """Also where a profile selects it; where none does, it is a warning."""
+    nodes = "version: 1\nprofiles: [configurable_sender_with_diagnostics]\nnodes: [{name: device}]\n"
+    for text, warned in (
+        (nodes, []),
+        (BARE, ["'-logging' drops nothing: no selected profile has 'logging'"]),
+    ):
+        found = planned(tmp_path, f"{text}components: [-logging]\n")
+        assert [d.message for d in found.warnings if "logging" in d.message] == warned
+        assert "LoggingPlan" not in str(found.project.runtime.features)
+    assert "LoggingPlan" in str(planned(tmp_path, f"{BARE}logging: console\n").project.runtime.features)
 
 
 def test_a_console_that_goes_nowhere_is_reported(tmp_path: Path) -> None:

@@ -155,7 +155,7 @@ joint:
         ("speed: 1.0", "speed: 0.0", "MG-8855", "Write a number above 0.0"),
         ("share: 0.5", "share: 1.0", "MG-8855", "Write a number above 0.0 and below 1.0"),
         ("count: 3", "count: 1", "MG-8855", "Write a number from 2 on"),
-        ('name: "a"', 'name: ""', "MG-3077", "Change one of them: Parameter 'name' cannot be empty"),
+        ('name: "a"', 'name: ""', "MG-3077", "Write \"x\": Parameter 'name' cannot be empty"),
     ],
 )
 def test_validation_of_a_parameter_file(

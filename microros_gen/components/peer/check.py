@@ -141,7 +141,7 @@ def _check_links(context: PlanContext, diagnostics: Diagnostics) -> None:
     for link in application.links:
         if link.kind != kind:
             message = f"a {link.kind} link needs `transport: {{type: {link.kind}}}`; that of the application is {kind}"
-            hint = "Change one of them: links have the type of the transport"
+            hint = f"Write `transport: {{type: {link.kind}}}`"
             diagnostics.error(message, link.span, hint, id="MG-7193")
         elif link.kind == "serial":
             _check_line(context, link, diagnostics)
