@@ -16,9 +16,9 @@ Value = Scalar | tuple[Scalar, ...]
 
 def hint(kind: str, value: Value, *rules: tuple[str, tuple[Scalar, ...]]) -> str:
     """Return the hint without its reason, which is that of a rule."""
-    made = tuple(ParameterRule(name, values) for name, values in rules)
-    parameter = ParameterDecl(name="p", type=kind, rules=made)
-    reason = next(filter(None, (refusal(rule, "p", value) for rule in made)))
+    created = tuple(ParameterRule(name, values) for name, values in rules)
+    parameter = ParameterDecl(name="p", type=kind, rules=created)
+    reason = next(filter(None, (refusal(rule, "p", value) for rule in created)))
     text = rule_hint(parameter, value, reason)
     assert text.endswith(f": {reason}")
     return text.removesuffix(f": {reason}")

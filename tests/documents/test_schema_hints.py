@@ -38,7 +38,7 @@ HINTS = {
     "session: {key: abc}": "it is the text 'abc'. Write device",
     "session: {key: devise}": "it is the text 'devise'. Write device",
     "logging: stdout": "it is the text 'stdout'. Write console",
-    "logging: off": "it is the text 'off'. Write console",
+    "logging: off": "it is the text 'off'. Write `components: [-logging]` instead of this line",
     "logging: [{to: uart}]": "it is the text 'uart'. Write console",
     "logging: [{to: console, level: WARNING}]": "it is the text 'WARNING'. Write warn",
     "logging: {to: console, level: warn}": "it is a mapping. Write [{to: console, level: warn}]",

@@ -20,7 +20,10 @@ typedef struct service_text_t {
   size_t size;
 } service_text_t;
 
-#define SERVICE_PART(words, then) {MICROROS_FLASH_NAME(words), (uint8_t)(sizeof(words) - 1u), (then)}
+#define SERVICE_PART(words, then) \
+  { \
+    MICROROS_FLASH_NAME(words), (uint8_t)(sizeof(words) - 1u), (then) \
+  }
 
 static const MICROROS_FLASH service_part_t service_parts[] = {
   SERVICE_PART("<dds><", SERVICE_KIND),
@@ -33,7 +36,8 @@ static const MICROROS_FLASH service_part_t service_parts[] = {
   SERVICE_PART("Reply</reply_topic_name><publisher>", SERVICE_DEPTH),
   SERVICE_PART("</publisher><subscriber>", SERVICE_DEPTH),
   SERVICE_PART("</subscriber></", SERVICE_KIND)};
-static const MICROROS_FLASH char service_depth[] = "<topic><historyQos><depth>10</depth></historyQos></topic>";
+static const MICROROS_FLASH char service_depth[] =
+  "<topic><historyQos><depth>10</depth></historyQos></topic>";
 static const MICROROS_FLASH char service_end[] = "></dds>";
 
 uint8_t * xrce_describe_service(

@@ -27,7 +27,8 @@ size_t rmw_shared_turn(size_t i)
   const size_t index = i + fan_turns[begin];
   size_t end = i + 1u;
 
-  while (end < (size_t)MICROROS_SHARED_RINGS && rmw_shared_rings[end].endpoint == rmw_shared_rings[i].endpoint) {
+  while (end < (size_t)MICROROS_SHARED_RINGS &&
+         rmw_shared_rings[end].endpoint == rmw_shared_rings[i].endpoint) {
     ++end;
   }
   return index < end ? index : begin + (index - end);
