@@ -138,13 +138,25 @@ MEMBERS: Mapping[str, Member] = MappingProxyType(
 """One image sends to two others and serves both; two send to one; and there is a topic between these two."""
 
 
+FOUR: Mapping[str, Member] = MappingProxyType(
+    {
+        "first": Member(NEWS, TALK, served="/sum"),
+        **{board: Member(TALK, NEWS, requested="/sum") for board in ("second", "third", "fourth")},
+    }
+)
+"""One image sends to three others and serves all of them, which send to it."""
+FOUR_SYSTEM = GROUP_SYSTEM.replace("third]", "third, fourth]").replace(
+    "chips:", "  fourth: {application: fourth/microros.yaml}\nchips:"
+)
+
+
 def write_group(folder: Path, system: str = GROUP_SYSTEM, **applications: str) -> Path:
-    """Write a system with three images of one chip, some of them with another application; return the folder."""
+    """Write a system of one chip with three images, some with another application, or more; return the folder."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "system.yaml").write_text(system)
-    for board, member in MEMBERS.items():
+    texts = {board: member.application(board) for board, member in MEMBERS.items()} | applications
+    for board, text in texts.items():
         (folder / board).mkdir(exist_ok=True)
-        text = applications.get(board, member.application(board))
         (folder / board / "microros.yaml").write_text(text)
     return folder
 
@@ -154,6 +166,13 @@ def group_program(folder: Path, own: str, old: str = "", new: str = "") -> Path:
     texts = {board: member.application(board).replace(old, new) for board, member in MEMBERS.items()}
     home = write_group(folder / f"of_{own}", **(texts if old else {}))
     return _linked(home, own, (f'-DOWN="{own}"', *MEMBERS[own].flags))
+
+
+def program_of_four(folder: Path, own: str) -> Path:
+    """Build the image `own` of a chip with four."""
+    texts = {board: member.application(board) for board, member in FOUR.items()}
+    home = write_group(folder / f"of_{own}", FOUR_SYSTEM, **texts)
+    return _linked(home, own, (f'-DOWN="{own}"', *FOUR[own].flags))
 
 
 def written(folder: Path, system: str = SYSTEM, first: str = FIRST, second: str = SECOND) -> Path:

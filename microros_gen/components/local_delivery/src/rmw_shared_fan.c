@@ -21,25 +21,38 @@ static size_t fan_begin(size_t index)
   return rmw_shared_ring_of[rmw_shared_rings[index].endpoint];
 }
 
-size_t rmw_shared_turn(size_t i)
+/* Returns the index after the last ring of the endpoint that has this one. */
+static size_t fan_end(size_t index)
 {
-  const size_t begin = fan_begin(i);
-  const size_t index = i + fan_turns[begin];
-  size_t end = i + 1u;
+  size_t end = index + 1u;
 
   while (end < (size_t)MICROROS_SHARED_RINGS &&
-         rmw_shared_rings[end].endpoint == rmw_shared_rings[i].endpoint) {
+         rmw_shared_rings[end].endpoint == rmw_shared_rings[index].endpoint) {
     ++end;
   }
+  return end;
+}
+
+size_t rmw_shared_turn(size_t i)
+{
+  static uint8_t turn; /* of this endpoint: the order of its rings stays the same to its last one */
+  const size_t begin = fan_begin(i);
+  const size_t end = fan_end(i);
+  size_t index;
+
+  if (i == begin) {
+    turn = fan_turns[begin];
+  }
+  index = i + turn;
   return index < end ? index : begin + (index - end);
 }
 
 void rmw_shared_turned(size_t index)
 {
-  const rmw_shared_ring_t * next = rmw_shared_next(&rmw_shared_rings[index]);
   const size_t begin = fan_begin(index);
+  const size_t next = index + 1u;
 
-  fan_turns[begin] = next != NULL ? (uint8_t)(next - &rmw_shared_rings[begin]) : 0u;
+  fan_turns[begin] = next < fan_end(index) ? (uint8_t)(next - begin) : 0u;
 }
 
 const rmw_shared_ring_t * rmw_shared_replies(const rmw_shared_ring_t * requests, uint16_t client)
