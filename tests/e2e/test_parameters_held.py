@@ -42,6 +42,9 @@ nodes: [{name: device, namespace: /arm, parameters: {at: agent}}]
 """
 STRICT = ("-std=c99", "-Wall", "-Wextra", "-Werror")
 HELD = "held until the node is back"
+SHORT_SERVER = ("-m", "tests.support.parameter_server.short_server")
+LAST_NOTICE_S = 30
+"""After the first notice: the one after which nothing but a wait of 32 s follows (0, 2, 6, 14, 30, 62)."""
 
 
 @pytest.fixture(scope="module")
@@ -153,6 +156,49 @@ def test_a_server_of_its_own_that_restarts(program: Path, relay: Relay, domain: 
     assert not (tmp_path / "agent.json").exists()
 
 
+def wait_for_the_last_notice(process: subprocess.Popen[str]) -> float:
+    """Wait until the next notice of a program that has just started is 31 s away; return when it is due."""
+    await_line(process, "ready")
+    begin = time.monotonic()
+    time.sleep(LAST_NOTICE_S + 1)
+    return begin + LAST_NOTICE_S + 32
+
+
+@pytest.mark.system
+def test_a_server_that_starts_late_has_the_last_notice(
+    program: Path, relay: Relay, domain: int, tmp_path: Path
+) -> None:
+    """It does not wait for the next one: the agent still has the last one."""
+    options = ("--domain", str(domain), "--no-parameter-server")
+    with parameter_peer(domain) as peer, running_agent(domain, *options) as agent:
+        relay.connect(agent.port)
+        with started(program) as process:
+            due = wait_for_the_last_notice(process)
+            with parameter_server(domain, tmp_path / "late.json"):
+                peer.wait(DEVICE)
+                assert time.monotonic() < due
+                until(lambda: set_steps(peer, 30), [(True, "")])
+                await_line(process, "changed motor.steps 30")
+
+
+@pytest.mark.system
+def test_a_late_server_without_the_last_notice_gets_the_next_one(
+    program: Path, relay: Relay, domain: int, tmp_path: Path
+) -> None:
+    """It is published when it is due, within 32 s."""
+    options = ("--domain", str(domain), "--no-parameter-server")
+    with running_agent(domain, *options) as agent:
+        relay.connect(agent.port)
+        with started(program) as process:
+            due = wait_for_the_last_notice(process)
+            with parameter_server(domain, tmp_path / "none.json", (*SHORT_SERVER, "--volatile")) as server:
+                ready = time.monotonic()
+                await_line(server, f"follows {DEVICE}")
+                found = time.monotonic()
+                assert found - ready < 32
+                assert found > due - 1, "not by the last notice, which it did not get"
+
+
 def replaced(program: Path, relay: Relay, domain: int, folder: Path, *script: str) -> None:
     """Hold values by a script, which has the contract of the page and nothing else of this tool's server."""
     with (
@@ -176,7 +222,7 @@ def replaced(program: Path, relay: Relay, domain: int, folder: Path, *script: st
 def test_a_short_script_instead_of_the_server(
     program: Path, relay: Relay, domain: int, tmp_path: Path
 ) -> None:
-    replaced(program, relay, domain, tmp_path, "-m", "tests.support.parameter_server.short_server")
+    replaced(program, relay, domain, tmp_path, *SHORT_SERVER)
 
 
 @pytest.mark.system

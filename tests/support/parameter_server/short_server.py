@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A short parameter server in place of the tool's: it holds values in memory, without checks, events and a file."""
+"""A short parameter server in place of the tool's: it holds values in memory, without checks, events and a file.
+
+With `--volatile` it gets no notice of before it started, as if the last one was lost.
+"""
 
 from __future__ import annotations
 
 import random
+import sys
 from collections.abc import Callable
 from functools import partial
 from typing import Any
@@ -65,9 +69,10 @@ def main() -> None:
         if notice["node"] not in nodes:
             nodes[notice["node"]] = HeldNode(peer, notice["node"], work.append)
         nodes[notice["node"]].follow(notice)
+        print("follows", notice["node"], flush=True)
 
     with Peer("microros_parameters") as peer:
-        qos = Qos(transient_local=True, depth=10)
+        qos = Qos(transient_local="--volatile" not in sys.argv, depth=10)
         kind = "microros_parameter_msgs/msg/Notice"
         peer.subscribe("/microros_parameters/notices", kind, lambda n: work.append(partial(follow, n)), qos)
         print("parameter server ready:", peer.name, flush=True)
