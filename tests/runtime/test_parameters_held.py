@@ -270,7 +270,7 @@ def test_notices_become_rare_while_no_server_asks(empty_device: Device) -> None:
     assert device.client.now_ms < WRAP_MS
     assert near(pauses(device, 8), [4, 8, 16, 32, 32, 32, 32])
     device.client.ok("add a")
-    assert near(pauses(device, 2), [32]), "a change is told at once, and nobody asks"
+    assert near(pauses(device, 2), [32]), "a change is reported at once, and nobody asks"
     device.spin(8000 // STEP_MS)
     assert device.list() == [("a", 0, DECLARED)]
     assert near(pauses(device, 3), [8, 16]), "it asked, and did not acknowledge"

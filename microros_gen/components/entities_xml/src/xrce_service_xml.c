@@ -6,7 +6,7 @@
 #include "microros/xrce_creation.h"
 #include "microros/xrce_service_sizes.h"
 
-/* Texts that differ between services, and one that is there twice. */
+/* Texts that differ between services, and one that a description has two times. */
 enum { SERVICE_NAME, SERVICE_TYPE, SERVICE_KIND, SERVICE_DEPTH, SERVICE_TEXTS };
 
 typedef struct service_part_t {
