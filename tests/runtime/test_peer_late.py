@@ -16,6 +16,7 @@ from tests.support.runtime.peers import (
     Board,
     Relay,
     board_program,
+    calm,
     started,
     system,
     unreliable,
@@ -24,6 +25,7 @@ from tests.support.runtime.peers import (
 BEST, SURE = 0, 1
 SHORTLY_BEFORE_WRAP = 0xFFFFFFFF - 300
 EARLY_MS = 10_000
+HEARTBEAT_MS, STEP_MS, PERIODS = 10, 2, 80
 
 
 @pytest.fixture(scope="module")
@@ -111,6 +113,23 @@ def test_a_message_waits_for_a_board_that_starts_again(programs: tuple[Path, Pat
             send(a, b, range(3, 10))
             until(lambda: len(b.values[SURE]) == 10, a, b)
             assert b.values[SURE] == [*range(10)]
+
+
+def test_a_message_that_waits_is_asked_for_in_each_period(programs: tuple[Path, Path], relay: Relay) -> None:
+    """The answers are at once: the subscription gets its messages as soon as it is open, however late that is."""
+    with started(programs[0], SHORTLY_BEFORE_WRAP) as a, started(programs[1], SHORTLY_BEFORE_WRAP) as b:
+        send(a, b, range(4))
+        run(a, b)
+        relay.seen.clear()
+        for _ in range(PERIODS * HEARTBEAT_MS // STEP_MS):
+            for board in (a, b):
+                board.spin(STEP_MS)
+                calm(relay, lambda: None)
+        asked = sum(sender == 0 for sender, _ in relay.of("Heartbeat"))
+        assert asked >= PERIODS // 2
+        assert b.values[SURE] == []
+        b.open(SURE)
+        until(lambda: len(b.values[SURE]) == 4, a, b)
 
 
 def test_messages_without_a_subscription_are_counted(programs: tuple[Path, Path], relay: Relay) -> None:

@@ -12,7 +12,17 @@ import pytest
 from microros_gen.agent.wire.entity_messages import Acknack
 from tests.support.free_ports import free_ports
 from tests.support.runtime import peers
-from tests.support.runtime.peers import HOST, Board, Relay, board_program, calm, started, system
+from tests.support.runtime.peers import (
+    APPLICATION,
+    HOST,
+    Board,
+    Fate,
+    Relay,
+    board_program,
+    calm,
+    started,
+    system,
+)
 
 SURE = 1
 HEARTBEAT_MS = 10
@@ -21,6 +31,10 @@ SHORTLY_BEFORE_WRAP = 0xFFFFFFFF - 300
 MESSAGES = 4
 TIMES = 300
 RELIABLE = 0x80
+HEARTBEAT = 0x0B
+PATIENCE = 1000
+"""So that little of the period passes while a machine is busy."""
+PAUSES = 7
 until = partial(peers.until, at_most_s=20)
 
 
@@ -38,6 +52,14 @@ def programs(tmp_path_factory: pytest.TempPathFactory, relay: Relay) -> tuple[Pa
     first = system(f"{HOST}:{own[0]}", f"{HOST}:{relay.ports[0]}")
     second = system(f"{HOST}:{relay.ports[1]}", f"{HOST}:{own[1]}")
     return board_program(folder, "a", first), board_program(folder, "b", second)
+
+
+@pytest.fixture(scope="module")
+def patient(tmp_path_factory: pytest.TempPathFactory, relay: Relay) -> Path:
+    """Return board a with a longer period."""
+    text = APPLICATION.replace(f"heartbeat: {HEARTBEAT_MS} ms", f"heartbeat: {HEARTBEAT_MS * PATIENCE} ms")
+    first = system(f"{HOST}:{free_ports(1)[0]}", f"{HOST}:{relay.ports[0]}")
+    return board_program(tmp_path_factory.mktemp("patient"), "a", first, text)
 
 
 @pytest.fixture
@@ -60,6 +82,19 @@ def both(a: Board, b: Board) -> None:
 
 def is_reliable(data: bytes) -> bool:
     return data[1] == RELIABLE
+
+
+def without_first(kind: int) -> Fate:
+    """Return a network that loses the first message of a kind."""
+    lost: list[bytes] = []
+
+    def fate(data: bytes) -> Sequence[bytes]:
+        if data[4] == kind and not lost:
+            lost.append(data)
+            return ()
+        return (data,)
+
+    return fate
 
 
 def questions(relay: Relay) -> int:
@@ -127,3 +162,33 @@ def test_the_pause_is_short_again_when_answers_are(boards: tuple[Board, Board], 
     assert len(relay.of("Heartbeat")) >= 1
     relay.fate = lambda data: (data,)
     until(lambda: 8 in b.values[SURE], a, b)
+
+
+def test_a_board_that_starts_again_is_asked_soon(
+    patient: Path, programs: tuple[Path, Path], relay: Relay
+) -> None:
+    """After a long silence, and if the HEARTBEAT that greets it is lost."""
+    relay.fate = lambda data: (data,)
+    with started(patient, SHORTLY_BEFORE_WRAP) as a:
+        with started(programs[1]) as b:
+            until(lambda: not a.publish(SURE, 0) and b.values[SURE], a, b)
+            calm(relay, partial(both, a, b))
+            b.kill()
+        relay.fate = lambda data: ()
+        assert not a.publish(SURE, 1)
+        for _ in range(PAUSES):
+            a.let_pass(LONGEST_PAUSE_MS * PATIENCE)
+            a.spin()
+        relay.fate = without_first(HEARTBEAT)
+        with started(programs[1]) as b:
+            periods = 0
+            while not b.values[SURE]:
+                a.let_pass(HEARTBEAT_MS * PATIENCE)
+                for board in (a, b):
+                    board.spin()
+                    calm(relay, lambda: None)
+                periods += 1
+                assert periods < LONGEST_PAUSE_MS // HEARTBEAT_MS // 2, (
+                    "the pause of the silence does not end first"
+                )
+            assert b.values[SURE] == [1]

@@ -152,7 +152,8 @@ static bool peer_is_used(const xrce_peer_t * peer, uint32_t key)
 }
 
 /* Handles CREATE_CLIENT. */
-static void peer_take_client(xrce_client_t * client, uint8_t index, const uint8_t * message, size_t size)
+static void peer_take_client(
+  xrce_client_t * client, uint8_t index, const uint8_t * message, size_t size, uint32_t now)
 {
   xrce_peer_t * peer = &client->peers[index];
   const xrce_peer_line_t * line = &xrce_peer_lines[index];
@@ -186,6 +187,7 @@ static void peer_take_client(xrce_client_t * client, uint8_t index, const uint8_
       xrce_peer_heartbeat(client, index); /* has it restarted, and forgotten the own session? */
     }
   }
+  xrce_peer_hurry(peer, now);
   xrce_peer_in_reset(peer, index);
   peer_send_status(client, index, key, XRCE_STATUS_OK);
 }
@@ -203,7 +205,7 @@ static void peer_take(
   if (!xrce_peer_is_whole(message, size)) {
     ++client->session.statistics.malformed;
   } else if (message[0] == XRCE_SESSION_NONE) {
-    peer_take_client(client, index, message, size);
+    peer_take_client(client, index, message, size, now);
   } else if (!xrce_peer_is_own(message[0], line)) {
     xrce_peer_in_take(client, index, message, size, now);
   } else if (message[0] == xrce_peer_own(&client->peers[index], line)) {
@@ -249,6 +251,7 @@ static void peer_look_at_line(xrce_client_t * client, uint8_t index, uint32_t no
 
   if (client->peers[index].lost && !lost) {
     ++client->session.statistics.reconnects;
+    xrce_peer_hurry(&client->peers[index], now);
   }
   client->peers[index].lost = lost;
 }

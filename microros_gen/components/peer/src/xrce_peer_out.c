@@ -23,6 +23,14 @@ static void peer_pause(xrce_peer_t * peer, uint32_t now)
   peer->due_ms = now + ((uint32_t)MICROROS_PEER_HEARTBEAT_MS << peer->pauses);
 }
 
+/* Returns whether less than a period has passed since the last HEARTBEAT, or what ended the pause before it. */
+static bool peer_is_prompt(const xrce_peer_t * peer, uint32_t now)
+{
+  const uint32_t pause = (uint32_t)MICROROS_PEER_HEARTBEAT_MS << peer->pauses;
+
+  return now - (peer->due_ms - pause) < (uint32_t)MICROROS_PEER_HEARTBEAT_MS;
+}
+
 /* Returns the bits of the first `count` numbers, at most 16. */
 static uint16_t peer_bits(uint8_t count)
 {
@@ -100,14 +108,21 @@ bool xrce_peer_commit(xrce_client_t * client, uint8_t index, bool reliable, size
   return true;
 }
 
+void xrce_peer_hurry(xrce_peer_t * peer, uint32_t now)
+{
+  if (peer->ready) {
+    peer->pauses = 0;
+    peer_pause(peer, now);
+  }
+}
+
 void xrce_peer_renumber(xrce_peer_t * peer, uint8_t index, uint32_t now)
 {
   peer->number = 0;
   peer->first = 0;
   peer->done = 0;
   peer->unsent = peer_bits(xrce_peer_slots_window(peer, index));
-  peer->pauses = 0;
-  peer_pause(peer, now);
+  xrce_peer_hurry(peer, now);
 }
 
 void xrce_peer_heartbeat(xrce_client_t * client, uint8_t index)
@@ -154,14 +169,18 @@ void xrce_peer_acknowledged(
     return; /* overtaken by a later one */
   }
   window = (uint8_t)(window - freed);
+  missing = (uint16_t)(xrce_get_be16(&payload[2]) & peer_bits(window));
   if (freed != 0u) {
     xrce_peer_slots_free(peer, index, (uint8_t)freed);
     peer->first = (uint16_t)(peer->first + freed);
     peer->unsent = (uint16_t)((uint32_t)peer->unsent >> freed);
+  }
+  /* A board that has yet to open a subscription asks at once for what it does not acknowledge. Answers to copies ask for
+   * nothing. */
+  if (freed != 0u || (missing != 0u && peer_is_prompt(peer, now))) {
     peer->pauses = (uint8_t)(peer->pauses / 2u);
     peer_pause(peer, now);
   }
-  missing = (uint16_t)(xrce_get_be16(&payload[2]) & peer_bits(window));
   /* Fragments follow for those that are acknowledged. */
   missing = (uint16_t)(missing | (peer_bits(xrce_peer_slots_window(peer, index)) ^ peer_bits(window)));
   peer->unsent = (uint16_t)(peer->unsent | missing);

@@ -103,7 +103,7 @@ typedef struct xrce_peer_t {
   /* the next reliable message is not acknowledged: the program has not opened its subscription yet */
   bool early : 1;
   bool begun : 1; /* no message waits for a subscription any more */
-  bool asked : 1; /* an ACKNACK has asked for the next reliable message; from then on a HEARTBEAT asks for one */
+  bool asked : 1; /* a gap has been reported; until it is closed, only HEARTBEATs are answered */
 } xrce_peer_t;
 
 /* The part of a key that counts sessions; the rest identifies the table. */
@@ -171,6 +171,10 @@ bool xrce_peer_send(xrce_client_t * client, uint8_t index, const uint8_t * messa
 
 /* Called when the own session begins: all messages that wait are numbered from 0. */
 void xrce_peer_renumber(xrce_peer_t * peer, uint8_t index, uint32_t now);
+
+/* Called when the other board may answer again: what waits for it is asked for a HEARTBEAT's period from now, however long
+ * it has been silent. */
+void xrce_peer_hurry(xrce_peer_t * peer, uint32_t now);
 
 /* Sends what has to be sent, and a HEARTBEAT when it is due. */
 void xrce_peer_flow(xrce_client_t * client, uint8_t index, uint32_t now);
