@@ -46,6 +46,14 @@ static bool events_begin(void)
   return is_free;
 }
 
+/* Whichever task receives looks at the events again. */
+static void events_notify(void)
+{
+  microros_lock();
+  xrce_turn_stored(rmw_client_instance());
+  microros_unlock();
+}
+
 static void events_end(void)
 {
   microros_lock();
@@ -93,6 +101,7 @@ rcl_ret_t rcl_graph_events_open(const rcl_node_t * node)
   events_set_pause(false);
   events_client = client;
   events_end();
+  events_notify(); /* of the events that have waited for it */
   return result;
 }
 
