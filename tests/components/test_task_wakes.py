@@ -69,6 +69,7 @@ nodes:
   - name: device
     subscriptions: [{{topic: target, type: std_msgs/msg/Int32}}]
 """
+CONSOLE = LOGS.replace(", {{to: rosout, level: warn}}, {{to: ring, level: warn, size: 2048}}", "")
 WITH_TASK = """\
     executors: [{{name: a, handles: [target]}}]
 tasks: [{{name: reader, executor: a}}]
@@ -78,6 +79,8 @@ WRITE_DATA = 7
 READER = 1
 QUIET_MS = 3500
 FULL_MS = 1500
+AGAIN_MS, SOME_TRIES = 1000, 4
+"""By the log call itself and by the wake-up of its line."""
 READ = 100
 """Messages that the agent reads before it stops."""
 TIMER = 1
@@ -151,6 +154,25 @@ def test_a_node_that_logs_sleeps_until_a_line_is_to_be_sent(
     for writer in range(WRITERS):
         for number in range(ROUNDS):
             assert b"writer %d round %d\0" % (writer, number) in bodies
+
+
+@pytest.mark.parametrize("text", [CONSOLE, CONSOLE + WITH_TASK], ids=["threads", "tasks"])
+def test_a_console_that_is_full_is_tried_each_second_until_it_takes_the_report(
+    tmp_path: Path, text: str
+) -> None:
+    """While it takes nothing, the node wakes each second; after the report, it sleeps."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as served:
+        served.bind(("127.0.0.1", 0))
+        threading.Thread(target=serve_lines, args=(ReadingAgent(), served), daemon=True).start()
+        out = rendered(tmp_path, text.format(port=served.getsockname()[1]))
+        program = program_of(out, "console_wakes.c", ("port_posix_console.c",), ("-pthread",))
+        done = subprocess.run(
+            [program, str(QUIET_MS)], capture_output=True, text=True, timeout=seconds(60), check=False
+        )
+    assert (done.returncode, done.stderr) == (0, "")
+    tries, reports, wakes = (int(word) for word in done.stdout.split())
+    assert QUIET_MS // AGAIN_MS <= tries <= QUIET_MS // AGAIN_MS + SOME_TRIES
+    assert (reports, wakes <= TIMER) == (1, True)
 
 
 def test_tasks_without_work_do_not_wake(tmp_path: Path) -> None:
