@@ -12,6 +12,7 @@ import click
 
 from microros_gen.cli.options import check_map, file_option, image_option, map_option, write_result
 from microros_gen.cli.tables import format_table
+from microros_gen.cli.terminal import echo_found
 from microros_gen.diagnostics import Diagnostic, UserError
 
 if TYPE_CHECKING:
@@ -62,10 +63,12 @@ def command(
     check_map(image, linker_map)
     from microros_gen.image.folder import read_folder
 
-    holds = _measured(read_folder(out, image, linker_map), port)
+    folder = read_folder(out, image, linker_map)
+    holds = _measured(folder, port)
     if not holds:
         hint = "Declare them in the application file: `tasks: [{name: control, executor: NAME}]`"
         raise UserError([Diagnostic(f"{out} has no tasks", hint=hint, id="MG-7151")])
+    echo_found("".join(f"{note.render()}\n" for note in _notes(folder, holds)))
     kind = kind or ("table" if output is None else "yaml")
     if kind == "yaml":
         _refuse(_unbounded(holds))
@@ -83,7 +86,15 @@ def check_locks(folder: Folder) -> None:
 
     if folder.image is not None and has_automatic(folder.manifest):
         holds = [hold for hold in _measured(folder, 0) if hold.automatic]
-        _refuse([*_unbounded(holds), *_longer(holds)])
+        open_ones = _unbounded(holds)
+        _refuse([*(_notes(folder, holds) if open_ones else ()), *open_ones, *_longer(holds)])
+
+
+def _notes(folder: Folder, holds: Sequence[TaskHold]) -> Sequence[Diagnostic]:
+    """Return why the images of a target have no bounds, where one of `holds` has none."""
+    from microros_gen.image.lock_holds import target_notes
+
+    return target_notes(folder.manifest) if any(hold.open for hold in holds) else ()
 
 
 def _measured(folder: Folder, port: int | None) -> tuple[TaskHold, ...]:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,9 @@ import click
 
 from microros_gen.cli.options import file_option, write_result
 from microros_gen.cli.tables import format_table
+from microros_gen.cli.terminal import echo_found
 from microros_gen.diagnostics import Diagnostic, UserError, nearest
+from microros_gen.diagnostics.notes import KEY, note_data, notes_of
 from microros_gen.documents.files import read_json
 from microros_gen.image.records import locate
 from microros_gen.output.tree import MANIFEST
@@ -52,25 +55,26 @@ def command(out: Path, kind: str, name: str | None, output: Path | None) -> None
     """
     if name is not None and kind != "svg":
         raise click.UsageError("--task chooses the time line of --format svg.")
-    responses = _responses(locate(out).output)
+    responses, notes = _analysis(locate(out).output)
+    echo_found("".join(f"{note.render()}\n" for note in notes))
     if kind == "table":
         text = format_table(HEAD, schedule_rows(responses))
     elif kind == "json":
-        data = {"version": 1, "tasks": schedule_data(responses)}
+        data = {"version": 1, "tasks": schedule_data(responses), KEY: [*map(note_data, notes)]}
         text = json.dumps(data, indent=2, sort_keys=True, ensure_ascii=False) + "\n"
     else:
         text = draw(responses, _chosen(responses, name))
     write_result(text, output)
 
 
-def _responses(out: Path) -> tuple[Response, ...]:
-    """Return the analysis that is in the manifest of `out`."""
+def _analysis(out: Path) -> tuple[tuple[Response, ...], Sequence[Diagnostic]]:
+    """Return the analysis that is in the manifest of `out`, and the warnings about its numbers."""
     path = out / MANIFEST
     try:
         data: Any = read_json(path, follow=False)
         values = data.get("features", {}).get("tasks", {}).get("values", {})
         lacking = ", ".join(values.get("not_analyzed", ()))
-        responses = schedule_of(values.get("schedule", ()))
+        responses, notes = schedule_of(values.get("schedule", ())), _used(values)
     except (ArithmeticError, AttributeError, KeyError, TypeError, ValueError) as error:
         message = f"{path} was not written by this version of microros-gen"
         hint = "Generate the folder again"
@@ -83,7 +87,13 @@ def _responses(out: Path) -> tuple[Response, ...]:
         message = f"{out} has no tasks"
         hint = "Declare them in microros.yaml: `tasks: [{name: control, executor: NAME, rate: 100 Hz, time: 1 ms}]`"
         raise UserError([Diagnostic(message, hint=hint, id="MG-9740")])
-    return responses
+    return responses, notes
+
+
+def _used(values: Mapping[str, Any]) -> Sequence[Diagnostic]:
+    """Return the warnings of the manifest where the analysis lacks the number that they are about."""
+    notes = notes_of(values)
+    return notes if any(task["lock_auto"] for task in values.get("tasks", ())) else ()
 
 
 def _chosen(responses: tuple[Response, ...], name: str | None) -> str:

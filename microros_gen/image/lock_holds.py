@@ -4,11 +4,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from microros_gen.diagnostics import Diagnostic
+from microros_gen.diagnostics.notes import notes_of
 from microros_gen.image.attribution import Chunk
 from microros_gen.image.callgraph import disassembly_text, reached
 from microros_gen.image.decoders import least_of
@@ -272,6 +274,11 @@ def _targets(
 def has_automatic(manifest: Mapping[str, Any]) -> bool:
     """Return whether the number of a task is to follow from the image."""
     return any(task.get("lock_auto") for task in _values(manifest).get("tasks", ()))
+
+
+def target_notes(manifest: Mapping[str, Any]) -> Sequence[Diagnostic]:
+    """Return why no image of the target bounds how long a task holds the lock; nothing where images do."""
+    return notes_of(_values(manifest))
 
 
 def _values(manifest: Mapping[str, Any]) -> Mapping[str, Any]:

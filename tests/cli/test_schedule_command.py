@@ -58,7 +58,7 @@ session  session  3         5000   100   0   3900  5000   1100   time
     )
     data = json.loads(run("schedule", "out", "--format", "json").out)
     manifest = json.loads((folder / "out" / "manifest.json").read_text(encoding="utf-8"))
-    assert data == {"version": 1, "tasks": manifest["features"]["tasks"]["values"]["schedule"]}
+    assert data == {"version": 1, "tasks": manifest["features"]["tasks"]["values"]["schedule"], "notes": []}
     assert [(row["task"], row["slack"]) for row in data["tasks"]] == [
         ("control", 540),
         ("log", 46_140),
@@ -68,6 +68,43 @@ session  session  3         5000   100   0   3900  5000   1100   time
         assert run("schedule", "out", "--format", "svg", *arguments, "-o", "line.svg").out == ""
         root = ElementTree.parse(folder / "line.svg").getroot()
         assert root.findtext(f"{SVG}title") == f"Worst phasing of {title}"
+
+
+def test_a_bound_that_posix_threads_do_not_have_is_said_once_with_its_place(
+    run: Runner, folder: Path
+) -> None:
+    text = NODES + TASKS.replace("lock: 20 us", "lock: auto").replace("lock: 30 us", "lock: auto")
+    text = text.replace("true, interval: 2 ms", "true, interval: 5 ms").replace(
+        "deadline: 800 us", "deadline: 900 us"
+    )
+    text = text.replace("time: 3 ms", "time: 300 us")
+    (folder / "microros.yaml").write_text(text, encoding="utf-8")
+    line = text.splitlines()[5]
+    column = line.index("auto") + 1
+    warning = (
+        f"microros.yaml:6:{column}: warning: how long a task holds the lock has no bound on the target host: the C"
+        " library is a shared one, and no number of cycles bounds an instruction beside a kernel and caches; until"
+        " then all of the time of 'control', 'log' counts. Write what you measured, `lock: 40 us`, or build for a"
+        " board: `target: {name: cortex-m4f, rtos: freertos}` [MG-9874]\n"
+        f"  {line}\n  {' ' * (column - 1)}^~~~\n"
+    )
+    done = run("generate", "-o", "out")
+    assert (done.status, done.err) == (0, warning)
+    shown = run("schedule", "out", "--format", "json")
+    assert (shown.status, shown.err) == (0, warning)
+    (note,) = json.loads(shown.out)["notes"]
+    assert note["id"] == "MG-9874"
+    assert note["place"] == {
+        "file": "microros.yaml",
+        "line": 6,
+        "column": column,
+        "end_column": column + 4,
+        "text": line,
+    }
+    pasted = text.replace("lock: auto", "lock: 40 us")
+    (folder / "microros.yaml").write_text(pasted, encoding="utf-8")
+    assert run("generate", "-o", "out").err == ""
+    assert run("schedule", "out").err == "", "what was declared is what the analysis used"
 
 
 @pytest.mark.parametrize(

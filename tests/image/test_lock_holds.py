@@ -37,6 +37,9 @@ def test_what_a_shared_library_has_is_no_bound(tmp_path: Path) -> None:
     assert run(tmp_path, "build", "-o", "out").returncode == 0
     done = run(tmp_path, "locks", "out", "--format", "json")
     assert done.returncode == 0, "no task has `lock: auto`"
+    assert done.stderr.count("[MG-9874]") == 1
+    assert done.stderr.startswith("microros.yaml:11:5: warning: how long a task holds the lock has no bound")
+    assert "  - {name: control, executor: motor, rate: 1 kHz}\n" in done.stderr
     rows = {row["task"]: row for row in json.loads(done.stdout)["tasks"]}
     assert all(row["instructions"] is None for row in rows.values())
     named = rows["control"]["open"]

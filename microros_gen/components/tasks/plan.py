@@ -9,7 +9,9 @@ from microros_gen.application.model import Application
 from microros_gen.application.task_decl import CRITICALITIES, TaskDecl
 from microros_gen.client.plan.features import PlanContext
 from microros_gen.components.tasks.analysis import analyze_tasks, gaps, is_placed_by_rule, timed
-from microros_gen.diagnostics import Diagnostics
+from microros_gen.components.tasks.unbounded import unbounded_locks
+from microros_gen.diagnostics import Diagnostic, Diagnostics
+from microros_gen.diagnostics.notes import note_data
 from microros_gen.platform.target import Target
 from microros_gen.records import dataclass
 from microros_gen.schedule.report import schedule_data
@@ -96,6 +98,7 @@ class TasksPlan:
     `responses` is the analysis of their deadlines, by priority; empty where it cannot be made, because of `gaps`.
     `margin_us`: time after a deadline from which on the watchdog is not fed; 0: without one.
     `outbox_size`: bytes for messages that wait for the write function of the application.
+    `unbounded`: why no image says how long a task holds the lock; None: images do.
     """
 
     tasks: tuple[TaskPlan, ...]
@@ -106,6 +109,7 @@ class TasksPlan:
     margin_us: int = 0
     gaps: tuple[str, ...] = ()
     outbox_size: int = 0
+    unbounded: Diagnostic | None = None
 
     @property
     def count(self) -> int:
@@ -156,6 +160,11 @@ class TasksPlan:
     def schedule(self) -> list[dict[str, object]]:
         """Return the rows of `microros-gen schedule` as data; empty: the deadlines were not analyzed."""
         return schedule_data(self.responses)
+
+    @property
+    def notes(self) -> list[dict[str, object]]:
+        """Return as data what `microros-gen locks` and `schedule` say of the numbers."""
+        return [note_data(self.unbounded)] if self.unbounded is not None else []
 
     @property
     def analysis(self) -> str:
@@ -220,7 +229,8 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> TasksPlan:
     open_gaps = gaps(tasks)
     os = context.target.os
     _warn_of_stacks(tasks, os.task_stack, diagnostics)
-    _warn_of_locks(tasks, diagnostics)
+    unbounded = unbounded_locks(tasks, context.target)
+    _warn_of_locks(tasks, unbounded, diagnostics)
     return TasksPlan(
         stack_context=os.task_stack_context,
         tasks=tuple(
@@ -250,6 +260,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> TasksPlan:
         margin_us=application.watchdog.margin_us if application.watchdog is not None else 0,
         gaps=open_gaps,
         outbox_size=context.runtime.streams.mtu + _OUTBOX_BESIDES,
+        unbounded=unbounded,
     )
 
 
@@ -293,10 +304,12 @@ def _warn_of_stacks(tasks: Iterable[TaskDecl], plain: int, diagnostics: Diagnost
             diagnostics.warning(message, task.stack_span, hint, id="MG-7146")
 
 
-def _warn_of_locks(tasks: Iterable[TaskDecl], diagnostics: Diagnostics) -> None:
-    """Warn of holds of the lock that are to follow from an image which nobody has measured yet."""
+def _warn_of_locks(tasks: Sequence[TaskDecl], unbounded: Diagnostic | None, diagnostics: Diagnostics) -> None:
+    """Warn of holds of the lock that are to follow from an image: nobody has measured it yet, or it cannot say."""
+    if unbounded is not None and any(task.lock_auto for task in tasks):
+        diagnostics.add(unbounded)
     for task in tasks:
-        if task.lock_auto and not task.lock_instructions:
+        if unbounded is None and task.lock_auto and not task.lock_instructions:
             message = (
                 f"how long the task '{task.name}' holds the lock is not known yet: all of its time counts"
             )
