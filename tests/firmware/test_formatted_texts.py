@@ -11,7 +11,7 @@ from microros_gen.image.elf import Elf
 from microros_gen.image.folder import read_folder
 from microros_gen.image.lock_holds import longest_calls
 from microros_gen.image.report import measure_folder
-from tests.support.firmware.board import C_FILES, Builds
+from tests.support.firmware.board import C_FILES, Builds, Built
 from tests.support.firmware.footprint import EXIT
 from tests.support.firmware.instructions import trace_regions
 from tests.support.firmware.tasks import BOARD
@@ -33,6 +33,33 @@ nodes: [{name: device, publishers: [{topic: count, type: std_msgs/msg/Int32}]}]
 """
 
 
+FLOATS = 30
+"""Numbers that c/measured_floats.c formats."""
+CLOSE_FLOAT = 20
+"""As CLOSE: the compiler makes one loop of two in microros_digits_begin, so that their rounds are multiplied."""
+
+
+def counts(built: Built, image: Path) -> list[int]:
+    """Return the instructions between each two marks of a program."""
+    emulator = built.target.emulator
+    assert emulator is not None
+    command = [emulator.program, *emulator.arguments, *EXIT]
+    return [region.counted for region in trace_regions(command, image, ())][0::2]
+
+
+@pytest.mark.system
+def test_no_floating_point_number_takes_more_than_the_call_graph_says(builds: Builds, tmp_path: Path) -> None:
+    """The largest and the smallest double with the highest precision: all digits are exact, and each is counted."""
+    built = builds.build(BOARD, APPLICATION + "components: [+logging_float]\n")
+    image = built.link(C_FILES / "measured_floats.c", tmp_path / "floats.elf")
+    name = "microros_format_floating"
+    bound = longest_calls(measure_folder(read_folder(built.out, image)), Elf(image), [name])[name]
+    measured = counts(built, image)
+    assert (len(measured), bound.open) == (FLOATS, frozenset())
+    assert max(measured) <= bound.count + AROUND, (measured, bound.count)
+    assert bound.count < CLOSE_FLOAT * max(measured), (measured, bound.count)
+
+
 @pytest.mark.system
 def test_no_text_takes_more_instructions_than_the_call_graph_says(builds: Builds, tmp_path: Path) -> None:
     built = builds.build(BOARD, APPLICATION)
@@ -40,10 +67,7 @@ def test_no_text_takes_more_instructions_than_the_call_graph_says(builds: Builds
     report = measure_folder(read_folder(built.out, image))
     bounds = longest_calls(report, Elf(image), FUNCTIONS)
     assert [bounds[name].open for name in FUNCTIONS] == [frozenset()] * len(FUNCTIONS)
-    emulator = built.target.emulator
-    assert emulator is not None
-    command = [emulator.program, *emulator.arguments, *EXIT]
-    counted = [region.counted for region in trace_regions(command, image, ())][0::2]
+    counted = counts(built, image)
     assert len(counted) == LINES + ERRORS + 1
     parts = (counted[:LINES], counted[LINES : LINES + ERRORS], counted[LINES + ERRORS :])
     for name, measured in zip(FUNCTIONS, parts, strict=True):

@@ -12,6 +12,13 @@ enum {
   WEIGHT_LEAST = -1074 /* of the last bit of the mantissa where the exponent is 0 or 1 */
 };
 
+/*
+ * Each digit after the point uses up one bit of it, since ten is two times five. So all digits of a number shift at
+ * most 16 * (1 + 2 + .. + 67) + 2 * 68 limbs: SHIFTED. PASSES is how often a conversion reads the digits of its number:
+ * `g` looks for the first one and rounds, does both again with the other precision, and puts them.
+ */
+enum { SHIFTED = 36584, PASSES = 5 };
+
 /* Sets the bit of 2^weight: before the point the limb of the smallest weights is the first, after it the largest. */
 static void digits_set(microros_digits_t * digits, int32_t weight)
 {
@@ -32,7 +39,7 @@ static uint32_t digits_divide(microros_digits_t * digits, uint32_t size)
 {
   uint32_t remainder = 0;
 
-  for (uint32_t i = size; i != 0u; --i) {
+  for (uint32_t i = size; i != 0u; --i) { /* at most MICROROS_DIGITS_LIMBS rounds */
     const uint32_t value = remainder << (uint32_t)LIMB_BITS | digits->whole[i - 1u];
 
     digits->whole[i - 1u] = (uint16_t)(value / (uint32_t)GROUP);
@@ -49,12 +56,13 @@ static void digits_group(microros_digits_t * digits)
   uint32_t size = MICROROS_DIGITS_LIMBS;
   uint32_t first = MICROROS_DIGITS_GROUPS;
 
-  while (size != 0u && digits->whole[size - 1u] == 0u) {
+  while (size != 0u && digits->whole[size - 1u] == 0u) { /* at most MICROROS_DIGITS_LIMBS rounds */
     --size;
   }
-  while (size != 0u) {
+  while (size != 0u) { /* at most MICROROS_DIGITS_GROUPS rounds */
     const uint32_t group = digits_divide(digits, size);
 
+    /* at most MICROROS_DIGITS_LIMBS rounds in each microros_digits_begin */
     while (size != 0u && digits->whole[size - 1u] == 0u) {
       --size;
     }
@@ -95,7 +103,7 @@ static uint32_t digits_ten_to(int32_t power)
 {
   uint32_t result = 1;
 
-  for (int32_t i = 0; i < power; ++i) {
+  for (int32_t i = 0; i < power; ++i) { /* at most GROUP_DIGITS rounds */
     result *= 10u;
   }
   return result;
@@ -106,12 +114,14 @@ static uint32_t digits_shift(microros_digits_t * digits)
 {
   uint32_t carry = 0;
 
+  /* at most MICROROS_DIGITS_LIMBS rounds, PASSES * SHIFTED in each microros_format_floating */
   for (uint32_t i = digits->used; i != 0u; --i) {
     const uint32_t value = digits->part[i - 1u] * 10u + carry;
 
     digits->part[i - 1u] = (uint16_t)(value & 0xffffu);
     carry = value >> (uint32_t)LIMB_BITS;
   }
+  /* at most MICROROS_DIGITS_LIMBS rounds, PASSES * MICROROS_DIGITS_LIMBS in each microros_format_floating */
   while (digits->used != 0u && digits->part[digits->used - 1u] == 0u) {
     --digits->used;
   }
@@ -139,6 +149,7 @@ bool microros_digits_end(const microros_digits_t * digits)
   if (place >= 0 && digits_of(digits, place) % digits_ten_to(place % GROUP_DIGITS + 1) != 0u) {
     return false;
   }
+  /* at most MICROROS_DIGITS_GROUPS rounds */
   for (place -= GROUP_DIGITS; place >= 0; place -= GROUP_DIGITS) {
     if (digits_of(digits, place) != 0u) {
       return false;

@@ -14,6 +14,13 @@ enum {
   FLOAT_MANTISSA_BITS = 52
 };
 
+/*
+ * Groups have 312 places before the point, and the smallest number begins 324 places after it: LEADING. A number has
+ * 309 digits before the point, PRECISION_MOST after it (WIDTH_MOST of rcutils_format.c), and one more where rounding
+ * carries over all of them: SHOWN.
+ */
+enum { PRECISION_MOST = 4095, LEADING = 312 + 324, SHOWN = 309 + PRECISION_MOST + 1 };
+
 /* The digits of a number that are shown. Where rounding has carried over all of them, they are 1 and zeros. */
 typedef struct float_shown_t {
   uint64_t bits;
@@ -41,7 +48,7 @@ static int32_t float_first(microros_digits_t * digits, uint64_t bits)
     return 0;
   }
   microros_digits_begin(digits, bits);
-  while (microros_digits_next(digits) == 0u) {
+  while (microros_digits_next(digits) == 0u) { /* at most LEADING rounds */
   }
   return digits->place + 1;
 }
@@ -49,7 +56,7 @@ static int32_t float_first(microros_digits_t * digits, uint64_t bits)
 static void float_begin(microros_digits_t * digits, const float_shown_t * shown)
 {
   microros_digits_begin(digits, shown->bits);
-  while (digits->place > shown->first) {
+  while (digits->place > shown->first) { /* at most LEADING rounds */
     (void)microros_digits_next(digits);
   }
 }
@@ -72,7 +79,7 @@ static float_shown_t float_shown(microros_digits_t * digits, uint64_t bits, int3
   uint32_t digit = 0;
 
   float_begin(digits, &shown);
-  for (int32_t i = 0; i < count; ++i) {
+  for (int32_t i = 0; i < count; ++i) { /* at most SHOWN rounds */
     digit = microros_digits_next(digits);
     shown.raised = digit != 9u ? i : shown.raised;
     shown.last = digit != 0u ? i : shown.last;
@@ -165,7 +172,7 @@ static void float_put_digits(
 
   from.first = shown->carried ? shown->first - 1 : shown->first;
   float_begin(digits, &from);
-  for (int32_t i = 0; i < layout->before + layout->after; ++i) {
+  for (int32_t i = 0; i < layout->before + layout->after; ++i) { /* at most SHOWN rounds */
     if (i == layout->before) {
       microros_format_put(out, '.');
     }
