@@ -30,7 +30,7 @@ def test_one_without_a_place_has_none_afterwards() -> None:
     assert note_of(note_data(placeless)) == placeless
 
 
-def test_what_is_none_is_refused() -> None:
+def test_what_is_no_note_is_refused() -> None:
     assert notes_of({}) == []
     wrong: list[dict[str, object]] = [{}, {"place": {}}, {"place": 7}]
     for data in wrong:

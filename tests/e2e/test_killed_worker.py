@@ -42,14 +42,14 @@ def test_a_device_goes_on_after_its_worker_is_killed(images: Images, domain: int
         other = stack.enter_context(XrceClient(port, key=0x10 + 2 - device["worker"]))
         assert other.connect() == 0
         other.publisher("beside", "beside", INT32, domain)
-        beside = agent.client(other.key.hex().upper(), state="connected")
-        assert beside["worker"] != device["worker"]
+        neighbor = agent.client(other.key.hex().upper(), state="connected")
+        assert neighbor["worker"] != device["worker"]
         for count in range(1, KILLS + 1):
             os.kill(agent.pid(device["worker"]), signal.SIGKILL)
             flow.go_on_for(20)
             known = clients(agent.status())
             assert known[device["key"]]["state"] == "connected"
-            assert known[beside["key"]]["sessions"] == 1
+            assert known[neighbor["key"]]["sessions"] == 1
             assert agent.status()["agent"]["workers"][device["worker"] - 1]["restarts"] == count
             assert other.ping() == 1
         flow.finish()

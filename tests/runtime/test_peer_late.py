@@ -125,8 +125,8 @@ def test_a_message_that_waits_is_asked_for_in_each_period(programs: tuple[Path, 
             for board in (a, b):
                 board.spin(STEP_MS)
                 calm(relay, lambda: None)
-        asked = sum(sender == 0 for sender, _ in relay.of("Heartbeat"))
-        assert asked >= PERIODS // 2
+        heartbeats = sum(sender == 0 for sender, _ in relay.of("Heartbeat"))
+        assert heartbeats >= PERIODS // 2
         assert b.values[SURE] == []
         b.open(SURE)
         until(lambda: len(b.values[SURE]) == 4, a, b)

@@ -50,14 +50,14 @@ def test_messages_of_each_image_are_read_in_each_round(
     """Two images always have messages; that of the third is among the first three."""
     with chip(programs, tmp_path, place) as (receiver, sender, others):
         assert sender.publish(SURE, "once") == ""
-        heard: list[str] = []
-        while len(heard) < 3:
+        printed: list[str] = []
+        while len(printed) < 3:
             for other in others:
                 other.publish(SURE, "often")  # refused while its ring is full
             found = receiver.call(f"take {SURE}")
             assert found[:2] == (0, "")
-            heard += found[2]
-        assert f"got {SURE} once" in heard
+            printed += found[2]
+        assert f"got {SURE} once" in printed
 
 
 @SENDERS

@@ -108,7 +108,7 @@ def test_each_line_of_the_log_is_whole_and_names_its_worker() -> None:
     assert whole["samples"] == sum(line["samples"] for line in stopped if "worker" in line) == 1200
 
 
-def test_a_service_manager_is_told_by_the_first_process_alone(
+def test_only_the_first_process_reports_to_a_service_manager(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It reloads an agent that has nothing to reload, and ends it with a signal for all processes of the service."""

@@ -23,7 +23,7 @@ void xrce_peer_in_reset(xrce_peer_t * peer, uint8_t index)
   peer->newest = UINT16_MAX; /* 0 is newer */
   peer->received = false;
   peer->early = false;
-  peer->asked = false;
+  peer->requested = false;
 }
 
 void xrce_peer_in_closed(const xrce_endpoint_t * endpoint)
@@ -215,8 +215,8 @@ static void in_report_gap(xrce_client_t * client, uint8_t index)
 {
   xrce_peer_t * peer = &client->peers[index];
 
-  if (!peer->asked) {
-    peer->asked = true;
+  if (!peer->requested) {
+    peer->requested = true;
     in_acknowledge(client, index, WINDOW);
   }
 }
@@ -238,7 +238,7 @@ static void in_take_reliable(
     uint8_t * input = xrce_peer_fragments_join(client, index, &whole);
 
     ++peer->next;
-    peer->asked = false;
+    peer->requested = false;
     if (input != NULL) {
       in_deliver(client, index, input, whole, now);
     }

@@ -102,8 +102,8 @@ typedef struct xrce_peer_t {
   bool more : 1;       /* more may have arrived than a pump takes */
   /* the next reliable message is not acknowledged: the program has not opened its subscription yet */
   bool early : 1;
-  bool begun : 1; /* no message waits for a subscription any more */
-  bool asked : 1; /* a gap has been reported; until it is closed, only HEARTBEATs are answered */
+  bool begun : 1;     /* no message waits for a subscription any more */
+  bool requested : 1; /* a gap has been reported; until it is closed, only HEARTBEATs are answered */
 } xrce_peer_t;
 
 /* The part of a key that counts sessions; the rest identifies the table. */
