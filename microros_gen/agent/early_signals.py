@@ -7,9 +7,10 @@ import signal
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from types import FrameType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from microros_gen.agent.server import Server, reloaded_by_signal, stopped_by_signals
+if TYPE_CHECKING:  # the server imports all that serves; the command line, which imports this, completes words
+    from microros_gen.agent.server import Server
 
 Reloads = Sequence[Callable[[], object] | None]
 
@@ -50,6 +51,8 @@ class EarlySignals:
     @contextmanager
     def stopping(self, server: Server) -> Iterator[None]:
         """Let SIGINT and SIGTERM stop `server` within the context, also those that came before."""
+        from microros_gen.agent.server import stopped_by_signals
+
         with stopped_by_signals(server):
             if self._stops:
                 server.stop()
@@ -58,6 +61,8 @@ class EarlySignals:
     @contextmanager
     def reloading(self, server: Server, reloads: Reloads) -> Iterator[None]:
         """Let SIGHUP call all of `reloads` in the loop of `server`, also one that came before."""
+        from microros_gen.agent.server import reloaded_by_signal
+
         with reloaded_by_signal(server, reloads):
             if self._reloads:
                 for reload in reloads:

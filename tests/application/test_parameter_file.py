@@ -284,17 +284,24 @@ RULES = [
 
 @pytest.mark.parametrize(("kind", "default", "rule", "reason"), RULES)
 def test_a_default_follows_the_rules(kind: str, default: str, rule: str, reason: str | None) -> None:
-    """The reason is that which a set request would get; what is too long for the device has another one."""
-    found, faults = parsed(f"a:\n  x: {{type: {kind}, default_value: {default}, validation: {{{rule}}}}}\n")
+    """The reason is that which a set request would get; what is too long for the device has another one.
+
+    A value that is proposed follows all rules.
+    """
+    declared = f"a:\n  x: {{{{type: {kind}, default_value: {{}}, validation: {{{{{rule}}}}}}}}}\n"
+    found, faults = parsed(declared.format(default))
     assert found == ()
-    what = "the default of the parameter 'x'"
-    expected = (
-        f"{what} does not follow its validation. Change one of them: {reason}"
-        if reason
-        else f"{what} is longer than its size. Write fixed_size<>: [2]"
-    )
     column = len(f"  x: {{type: {kind}, default_value: ") + 1
-    assert faults == [f"p.yaml:2:{column}: error: {expected}"]
+    begin = f"p.yaml:2:{column}: error: the default of the parameter 'x' "
+    if reason is None:
+        assert faults == [f"{begin}is longer than its size. Write fixed_size<>: [2]"]
+        return
+    (fault,) = faults
+    assert fault.startswith(f"{begin}does not follow its validation. Write ")
+    assert fault.endswith(f": {reason}")
+    proposed = fault.removesuffix(f": {reason}").rpartition("Write ")[2]
+    if proposed != "another value":
+        assert parsed(declared.format(proposed))[1] == []
 
 
 MISFITS = [

@@ -20,6 +20,7 @@ _OF_OTHERS = {
     ("session", "wake"): "executor",
     ("session", "lock"): "multithread",
     ("multithread", "time"): "session",
+    ("logging_console", "wake"): "executor",
     ("multithread", "wake"): "executor",
     ("peer", "wake"): "executor",
     ("transport_canfd", "canfd_link"): "peer",
