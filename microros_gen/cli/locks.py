@@ -105,7 +105,8 @@ def _measured(folder: Folder, port: int | None) -> tuple[TaskHold, ...]:
     if folder.image is None:
         message = f"{folder.path} has no image: only a linked one has every path"
         raise UserError([Diagnostic(message, hint="Give yours: --image FILE", id="MG-7152")], status=1)
-    return task_holds(measure_folder(folder), Elf(folder.image), port)
+    image = Elf(folder.image)
+    return task_holds(measure_folder(folder, image), image, port)
 
 
 def _refuse(found: Sequence[Diagnostic]) -> None:

@@ -68,10 +68,15 @@ def measure(path: Path, image: Path | None = None, linker_map: Path | None = Non
     return measure_folder(read_folder(path, image, linker_map))
 
 
-def measure_folder(folder: Folder) -> SizeReport:
-    """Measure what was read. UserError where the image, or an object of it, is no whole ELF file."""
+def measure_folder(folder: Folder, image: Elf | None = None) -> SizeReport:
+    """Measure what was read. UserError where the image, or an object of it, is no whole ELF file.
+
+    `image`: that of the folder, for a caller that reads more of it; what was read of it is not read again.
+    """
     try:
-        return _measure_library(folder) if folder.image is None else _measure_image(folder, folder.image)
+        if folder.image is None:
+            return _measure_library(folder)
+        return _measure_image(folder, Elf(folder.image) if image is None else image)
     except (ELFError, DWARFError) as error:
         what = f"{folder.image or folder.path} cannot be measured: {error}"
         raise UserError([Diagnostic(what, hint="Link it again", id="MG-8413")], status=1) from error
@@ -87,8 +92,7 @@ def _static_ram(chunks: Iterable[Chunk]) -> int:
     return sum(chunk.ram for chunk in chunks if chunk.owner.group in ("component", "type support"))
 
 
-def _measure_image(folder: Folder, path: Path) -> SizeReport:
-    image = Elf(path)
+def _measure_image(folder: Folder, image: Elf) -> SizeReport:
     if folder.linked is not None:
         _check_plan(folder, image)
     chunks = attribute(folder, image)
