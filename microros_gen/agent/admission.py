@@ -269,7 +269,7 @@ class Admission:
         self._newcomers.forget(address)
         client, heritage = self._clients.with_key(link.key), {}
         access = self.gatekeeper.decide(link.key, transport, address, client)
-        if access is None:  # this has changed since it came
+        if access is None:  # the policy, or who has its key, has changed
             return Status.DENIED
         neighbor = self._clients.at(address)
         if neighbor is not None and neighbor.session.link.key != link.key:

@@ -65,9 +65,7 @@ class EarlySignals:
 
         with reloaded_by_signal(server, reloads):
             if self._reloads:
-                for reload in reloads:
-                    if reload is not None:
-                        server.soon(reload)
+                signal.raise_signal(signal.SIGHUP)
             yield
 
     def _stop(self, number: int, _frame: FrameType | None) -> None:

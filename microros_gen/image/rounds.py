@@ -26,7 +26,7 @@ from microros_gen.image.decoders import Decoders
 from microros_gen.image.guards import OF_BODY, Guards, Written
 from microros_gen.image.paths import UNIT, Length, longer
 from microros_gen.image.shares import HOLD, Total
-from microros_gen.image.vague import circles, contradicted, loop_macros, without_directives
+from microros_gen.image.vague import circles, contradicted, line_at, loop_macros, without_directives
 from microros_gen.records import dataclass
 
 _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
@@ -79,7 +79,7 @@ class Source:
         self.constants = read_constants(blank)
         self.guards = Guards(blank)
         self._functions = tuple(
-            (blank.count("\n", 0, found.start()) + 1, found[1]) for found in _FUNCTION.finditer(blank)
+            (line_at(blank, found.start()), found[1]) for found in _FUNCTION.finditer(blank)
         )
 
     def function(self, line: int) -> str:
@@ -141,12 +141,12 @@ def _blanked(text: str) -> str:
 def _loops(text: str) -> Iterator[Loop]:
     closing: list[int] = []  # ends of `do` bodies, whose `while` is no further loop
     for match in _LOOP.finditer(text):
-        first = text.count("\n", 0, match.start()) + 1
+        first = line_at(text, match.start())
         if match[1] == "do":
             begin, end = text.find("{", match.end()), 0
             end = _closing(text, begin, "{}")
             closing.append(end)
-            yield Loop(first, text.count("\n", 0, text.find(";", end)) + 1, "", text[begin:end])
+            yield Loop(first, line_at(text, text.find(";", end)), "", text[begin:end])
             continue
         if any(text[end + 1 : match.start()].strip() == "" and end < match.start() for end in closing):
             continue
@@ -156,7 +156,7 @@ def _loops(text: str) -> Iterator[Loop]:
         while after < len(text) and text[after].isspace():
             after += 1
         last = _closing(text, after, "{}") if text[after : after + 1] == "{" else text.find(";", after)
-        yield Loop(first, text.count("\n", 0, last) + 1, text[begin + 1 : end], text[after:last])
+        yield Loop(first, line_at(text, last), text[begin + 1 : end], text[after:last])
 
 
 def _closing(text: str, begin: int, pair: str) -> int:
@@ -336,9 +336,9 @@ class Sources:
         return next((value for value in values if value is not None), None)
 
     def _of(self, file: str, loop: Loop, function: Function = ("", None)) -> Length | None:
-        statement = self._source(file).stated(loop.first, "rounds")
         if loop.vague:
             return None
+        statement = self._source(file).stated(loop.first, "rounds")
         if statement is not None:
             read = _READ.match(statement)
             if read:

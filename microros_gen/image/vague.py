@@ -40,7 +40,7 @@ def circles(text: str) -> Iterator[Lines]:
         begin = text.rfind("\n{", 0, match.start()) + 1
         label = re.search(rf"\b{match[1]}\s*:(?!:)", text[begin : match.start()])
         if label:
-            yield _line(text, begin + label.start()), _line(text, match.start())
+            yield line_at(text, begin + label.start()), line_at(text, match.start())
 
 
 def contradicted(text: str, plain: str) -> Iterator[Lines]:
@@ -49,7 +49,7 @@ def contradicted(text: str, plain: str) -> Iterator[Lines]:
     rows = text.splitlines()
     for match in _BODY.finditer(plain):
         end = plain.find("\n}", match.end())
-        lines = (_line(plain, match.start()), _line(plain, end if end >= 0 else len(plain)))
+        lines = (line_at(plain, match.start()), line_at(plain, end if end >= 0 else len(plain)))
         comments = _STATED.findall("\n".join(rows[lines[0] - 1 : lines[1]]))
         found.setdefault(_code(plain[match.end() : end]), []).append((lines, comments))
     for same in found.values():
@@ -57,7 +57,8 @@ def contradicted(text: str, plain: str) -> Iterator[Lines]:
             yield from (lines for lines, _ in same)
 
 
-def _line(text: str, at: int) -> int:
+def line_at(text: str, at: int) -> int:
+    """Return the number of the line, from 1, with the character at an index."""
     return text.count("\n", 0, at) + 1
 
 

@@ -61,7 +61,7 @@ def test_a_system_that_says_nothing(tmp_path: Path) -> None:
     ],
 )
 def test_all_processes_together(workers: int, available: int | None, hint: str | None) -> None:
-    """The hint is a value with which there is no warning any more."""
+    """With the value of the hint there is no warning."""
     options = AgentOptions(transports=(PtyChoice(),), workers=workers)
     found = memory_of_system(options, available)
     assert (found is not None) == (hint is not None)

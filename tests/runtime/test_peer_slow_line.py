@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -84,12 +84,15 @@ def is_reliable(data: bytes) -> bool:
     return data[1] == RELIABLE
 
 
-def without_first(kind: int) -> Fate:
-    """Return a network that loses the first message of a kind."""
-    lost: list[bytes] = []
+def is_heartbeat(data: bytes) -> bool:
+    return data[4] == HEARTBEAT
+
+
+def without_first(is_meant: Callable[[bytes], bool], lost: list[bytes]) -> Fate:
+    """Return a network that loses the first message that is meant, and adds it to `lost`."""
 
     def fate(data: bytes) -> Sequence[bytes]:
-        if data[4] == kind and not lost:
+        if is_meant(data) and not lost:
             lost.append(data)
             return ()
         return (data,)
@@ -107,14 +110,7 @@ def questions(relay: Relay) -> int:
 def test_a_gap_is_reported_once(boards: tuple[Board, Board], relay: Relay) -> None:
     a, b = boards
     lost: list[bytes] = []
-
-    def fate(data: bytes) -> Sequence[bytes]:
-        if is_reliable(data) and not lost:
-            lost.append(data)
-            return ()
-        return (data,)
-
-    relay.fate = fate
+    relay.fate = without_first(is_reliable, lost)
     for value in range(MESSAGES):
         assert not a.publish(SURE, value)
     until(lambda: len(b.values[SURE]) == MESSAGES, a, b)
@@ -179,7 +175,7 @@ def test_a_board_that_starts_again_is_asked_soon(
         for _ in range(PAUSES):
             a.let_pass(LONGEST_PAUSE_MS * PATIENCE)
             a.spin()
-        relay.fate = without_first(HEARTBEAT)
+        relay.fate = without_first(is_heartbeat, [])
         with started(programs[1]) as b:
             periods = 0
             while not b.values[SURE]:

@@ -69,12 +69,10 @@ def memory_of_system(options: AgentOptions, available: int | None) -> Diagnostic
     wanted = workers * limits.memory_bytes + front
     if available is None or wanted <= available:
         return None
-    each = (
-        f"{workers} workers with memory_bytes {limits.memory_bytes} each, and the first process"
-        if front
-        else ""
-    )
-    message = f"{each or f'memory_bytes {limits.memory_bytes}'} may take {wanted} bytes, and the system has {available}"
+    each = f"memory_bytes {limits.memory_bytes}"
+    if front:
+        each = f"{workers} workers with {each} each, and the first process"
+    message = f"{each} may take {wanted} bytes, and the system has {available}"
     fitting = (available - front) // workers
     if fitting >= most_bytes(limits):
         hint = f"Set memory_bytes: {fitting}, or let the system give more (systemd: MemoryMax)"

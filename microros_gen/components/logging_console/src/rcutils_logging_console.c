@@ -61,9 +61,7 @@ void microros_console_step(void)
 
 uint32_t microros_console_left(uint32_t left)
 {
-  const uint32_t most = console_unreported != 0u ? (uint32_t)CONSOLE_AGAIN_MS : left;
-
-  return most < left ? most : left;
+  return console_unreported != 0u && left > (uint32_t)CONSOLE_AGAIN_MS ? (uint32_t)CONSOLE_AGAIN_MS : left;
 }
 
 /* The lock is held. */

@@ -18,17 +18,20 @@ enum { PAUSES_MOST = 5 };
 
 static uint8_t peer_message[MICROROS_PEER_MTU]; /* best effort */
 
+static uint32_t peer_pause_ms(const xrce_peer_t * peer)
+{
+  return (uint32_t)MICROROS_PEER_HEARTBEAT_MS << peer->pauses;
+}
+
 static void peer_pause(xrce_peer_t * peer, uint32_t now)
 {
-  peer->due_ms = now + ((uint32_t)MICROROS_PEER_HEARTBEAT_MS << peer->pauses);
+  peer->due_ms = now + peer_pause_ms(peer);
 }
 
 /* Returns whether less than a period has passed since the last HEARTBEAT, or what ended the pause before it. */
 static bool peer_is_prompt(const xrce_peer_t * peer, uint32_t now)
 {
-  const uint32_t pause = (uint32_t)MICROROS_PEER_HEARTBEAT_MS << peer->pauses;
-
-  return now - (peer->due_ms - pause) < (uint32_t)MICROROS_PEER_HEARTBEAT_MS;
+  return now - (peer->due_ms - peer_pause_ms(peer)) < (uint32_t)MICROROS_PEER_HEARTBEAT_MS;
 }
 
 /* Returns the bits of the first `count` numbers, at most 16. */
