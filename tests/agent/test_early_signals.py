@@ -20,6 +20,7 @@ pytestmark = [pytest.mark.ros, pytest.mark.system]
 POLICY = "version: 1\nclients:\n  - {name: some, keys: [0x2], publish: [/a]}\n"
 PROGRAM = """\
 import os, signal
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
 from microros_gen.cli.agent import {module}
 
 def signaled(*given, original={module}.{function}, **named):
@@ -30,7 +31,7 @@ def signaled(*given, original={module}.{function}, **named):
 from microros_gen.cli.main import main
 main()
 """
-"""The agent, which gets a signal when it calls a function."""
+"""The agent, which gets a signal when it calls a function. The tests may run where a hang-up is ignored (nohup)."""
 PLACES = [
     ("start", "read_files", "1"),
     ("start", "open_bridge", "1"),
