@@ -68,7 +68,7 @@ uint8_t * xrce_describe_service(
   begin[1] = (uint8_t)'r';
   end = xrce_describe_sized(&begin[2], name, sizes.name);
   (void)memcpy(end, reply_topic, sizeof(reply_topic));
-  end += sizeof(reply_topic);
+  end = &end[sizeof(reply_topic)];
   service_count(begin, end);
   return end;
 }

@@ -191,9 +191,9 @@ static bool format_is_length(char character)
 /* f, e, g and a, and the upper-case ones. */
 static bool format_is_floating(char kind)
 {
-  const char lower = (char)(kind | 0x20);
+  const uint8_t lower = (uint8_t)kind | 0x20u;
 
-  return lower == 'f' || lower == 'e' || lower == 'g' || lower == 'a';
+  return lower == (uint8_t)'f' || lower == (uint8_t)'e' || lower == (uint8_t)'g' || lower == (uint8_t)'a';
 }
 
 static char format_length(const char ** next)
@@ -314,11 +314,12 @@ void microros_format_arguments(microros_format_t * out, const char * format, va_
   size_t left = out->size + (size_t)FORMAT_EMPTY;
 
   /* at most MICROROS_LOG_LONGEST + FORMAT_EMPTY + 1 rounds */
-  for (; *next != '\0' && !out->truncated; --left) {
+  while (*next != '\0' && !out->truncated) {
     if (left == 0u) {
       out->truncated = true;
       return;
     }
+    --left;
     const char * const first = next;
 
     ++next;
