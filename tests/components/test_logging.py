@@ -19,7 +19,7 @@ from microros_gen.interfaces.find import shipped_folder
 from microros_gen.output.tree import MANIFEST
 from microros_gen.platform.find import builtin_targets
 from microros_gen.toolchain.toolchain import WARNINGS
-from tests.support.components.rendered import SANITIZE, UNITS, planned, program_of, rendered, run
+from tests.support.components.rendered import SANITIZE, planned, program_of, rendered, run
 from tests.support.ids import without_id
 from tests.support.paths import ROOT
 
@@ -39,11 +39,8 @@ def verbose(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return rendered(tmp_path_factory.mktemp("verbose"), BARE + "logging: [{to: console, level: debug}]\n")
 
 
-def unit(out: Path, name: str, folder: Path, *flags: str) -> str:
-    program = folder / "unit"
-    sources = sorted((out / "src").rglob("*.c"))
-    run("gcc", *SANITIZE, *flags, f"-I{out / 'include'}", UNITS / name, *sources, "-o", program)
-    return run(program)
+def unit(out: Path, name: str, *flags: str) -> str:
+    return run(program_of(out, name, by=("gcc", (*SANITIZE, *flags))))
 
 
 @pytest.mark.system
@@ -54,14 +51,14 @@ def test_formats_are_those_of_the_c_library(verbose: Path) -> None:
 @pytest.mark.system
 def test_floating_point_where_it_is_selected(tmp_path: Path) -> None:
     out = rendered(tmp_path, BARE + "logging: console\ncomponents: [+logging_float]\n")
-    assert int(unit(out, "unit_log_float.c", tmp_path, "-O1").split()[0]) > 90_000
+    assert int(unit(out, "unit_log_float.c", "-O1").split()[0]) > 90_000
 
 
 @pytest.mark.system
 def test_wide_characters_where_they_are_selected(tmp_path: Path) -> None:
     """Against vsnprintf in a locale of UTF-8."""
     out = rendered(tmp_path, BARE + "logging: console\ncomponents: [+logging_wide]\n")
-    assert int(unit(out, "unit_log_wide.c", tmp_path).split()[0]) > 700
+    assert int(unit(out, "unit_log_wide.c").split()[0]) > 700
 
 
 def test_an_image_has_floating_point_only_where_it_is_selected(verbose: Path, tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from select import select
 
 import pytest
 
-from tests.support.components.rendered import UNITS, rendered, run
+from tests.support.components.rendered import program_of, rendered
 from tests.support.patience import seconds
 from tests.support.runtime.harness import SANITIZER
 from tests.support.runtime.reading_agent import ReadingAgent
@@ -31,7 +31,7 @@ nodes:
     executors: [{{name: a, handles: [beat]}}, {{name: b, handles: [pulse]}}]
 tasks: [{{name: first, executor: a}}, {{name: second, executor: b}}]
 """
-FLAGS = ("-std=gnu99", "-g", "-O0", "-fsanitize=thread", "-pthread", f"-iquote{UNITS}")
+FLAGS = ("-g", "-O0", "-fsanitize=thread", "-pthread")
 
 
 def serve(agent: ReadingAgent, served: socket.socket) -> None:
@@ -59,8 +59,6 @@ def test_tasks_share_clocks_and_timers(tmp_path: Path) -> None:
         served.bind(("127.0.0.1", 0))
         threading.Thread(target=serve, args=(ReadingAgent(), served), daemon=True).start()
         out = rendered(tmp_path, APPLICATION.format(port=served.getsockname()[1]))
-        sources = sorted((out / "src").rglob("*.c"))
-        program = out / "unit"
-        run(SANITIZER, *FLAGS, f"-I{out / 'include'}", *sources, UNITS / "task_clock.c", "-o", program)
+        program = program_of(out, "task_clock.c", by=(SANITIZER, FLAGS))
         done = subprocess.run([program], capture_output=True, text=True, timeout=seconds(120), check=False)
     assert (done.returncode, done.stderr) == (0, "")

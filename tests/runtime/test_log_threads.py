@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.components.rendered import UNITS, rendered, run
+from tests.support.components.rendered import program_of, rendered
 from tests.support.patience import seconds
 
 APPLICATION = """\
@@ -24,10 +24,8 @@ TURNS, TASKS = 2000, (1, 2)
 @pytest.mark.system
 def test_tasks_log_while_levels_change(tmp_path: Path) -> None:
     out = rendered(tmp_path, APPLICATION)
-    program, printed = tmp_path / "unit", tmp_path / "printed"
-    sources = sorted((out / "src").rglob("*.c"))
-    flags = ("-std=gnu99", "-g", "-O1", "-fsanitize=thread", f"-I{out / 'include'}")
-    run("gcc", *flags, UNITS / "log_threads.c", *sources, "-pthread", "-o", program)
+    printed = tmp_path / "printed"
+    program = program_of(out, "log_threads.c", by=("gcc", ("-g", "-O1", "-fsanitize=thread", "-pthread")))
     with printed.open("w") as lines:
         done = subprocess.run(
             [program],

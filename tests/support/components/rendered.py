@@ -34,13 +34,19 @@ def rendered(folder: Path, text: str) -> Path:
     return out
 
 
-def program_of(out: Path, source: str, without: Collection[str] = (), more: tuple[str, ...] = ()) -> Path:
+def program_of(
+    out: Path,
+    source: str,
+    without: Collection[str] = (),
+    more: tuple[str, ...] = (),
+    by: tuple[str, tuple[str, ...]] | None = None,
+) -> Path:
     """Compile a C file of tests/runtime/c with all sources of an output folder (names in `without`: left out).
 
-    `more` are flags of the compiler.
+    `more` are flags of the compiler; `by`: another compiler than the one that takes least time, with its flags.
     """
     sources = [path for path in sorted((out / "src").rglob("*.c")) if path.name not in without]
-    compiler, flags = quick()
+    compiler, flags = by or quick()
     flags = (*flags, "-std=gnu99", "-Wno-error", *more)
     objects = compile_merged(Tree(out, ()), sources, [UNITS / source], compiler, flags)
     return link(objects, compiler, flags, out / Path(source).stem)

@@ -12,6 +12,7 @@ from tests.support.agent.observer import Observer
 from tests.support.e2e.images import C_FILES, POOLS, run
 from tests.support.e2e.live import Live
 from tests.support.patience import deadline
+from tests.support.runtime.harness import SANITIZE, SANITIZER, Tree, compile_merged
 
 KEY = 0x77
 PSK, OTHER = bytes(range(32)).hex(), bytes(range(1, 33)).hex()
@@ -39,24 +40,12 @@ def sealed_program(folder: Path, transport: str, *flags: str, agent: str | None 
     config, out, program = folder / "microros.yaml", folder / "out", folder / "live"
     config.write_text(_APPLICATION.replace("{transport}", transport))
     compiler.generate(compiler.Options(config=config, interface_paths=(shipped_folder(),), agent=agent), out)
-    sources = [str(out / name) for name in (out / "sources.txt").read_text(encoding="utf-8").split()]
-    own = [str(C_FILES / name) for name in ("live.c", "seal_key.c")]
-    done = run(
-        [
-            *("gcc", "-O0", "-g", "-std=c99", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"),
-            *(
-                "-DLIVE_PING",
-                *flags,
-                f"-I{out / 'include'}",
-                *own,
-                *sources,
-                "-lmbedcrypto",
-                "-o",
-                str(program),
-            ),
-        ],
-        timeout_s=240,
-    )
+    sources = [out / name for name in (out / "sources.txt").read_text(encoding="utf-8").split()]
+    own = [C_FILES / name for name in ("live.c", "seal_key.c")]
+    all_flags = (*SANITIZE, "-std=c99", "-Wno-error", "-DLIVE_PING", *flags)
+    objects = compile_merged(Tree(out, ()), sources, own, SANITIZER, all_flags)
+    command = [SANITIZER, *SANITIZE, *map(str, objects), "-lmbedcrypto", "-o", str(program)]
+    done = run(command, timeout_s=240)
     assert done.returncode == 0, done.stderr
     return program
 
