@@ -27,7 +27,7 @@ from tests.support.agent.tcp_link import TcpLink
 from tests.support.free_ports import free_port
 from tests.support.paths import ROOT
 from tests.support.patience import seconds
-from tests.support.slices import spread_rows
+from tests.support.slices import first, spread_rows
 
 pytestmark = pytest.mark.builds
 
@@ -37,7 +37,7 @@ ALL = ("udp4", "--port", "0", "udp6", "--port", "0", "tcp4", "--port", "0", "tcp
 
 
 @pytest.mark.ros
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", first([signal.SIGINT, signal.SIGTERM]))
 def test_clients_of_every_transport_are_in_the_graph_and_leave_it(number: int, tmp_path: Path) -> None:
     link = tmp_path / "board"
     with running_agent(DOMAIN, "--link", str(link), transport=ALL) as agent, observing(DOMAIN) as observer:

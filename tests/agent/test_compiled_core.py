@@ -249,7 +249,16 @@ def test_it_passes_the_tests_of_the_core_in_python(tree: Path, tmp_path: Path) -
     # Without a separate folder, pytest would delete what earlier runs of the whole suite have left: for minutes.
     separate = ("--basetemp", str(tmp_path / "inner"))
     tested = subprocess.run(
-        [sys.executable, "-m", "pytest", "-q", "-m", "not long and not system and not variant", *separate, *modules],
+        [
+            sys.executable,
+            "-m",
+            "pytest",
+            "-q",
+            "-m",
+            "not long and not system and not variant",
+            *separate,
+            *modules,
+        ],
         cwd=tree,
         capture_output=True,
         text=True,

@@ -46,7 +46,11 @@ transport: {transport}
 
 @pytest.mark.parametrize(
     ("choice", "transport"),
-    [("+sleep_cycles", "{type: udp}"), ("+discovery", "{type: udp}"), ("+sleep_cycles", "{type: serial}")],
+    [
+        pytest.param("+sleep_cycles", "{type: udp}", marks=pytest.mark.variant),
+        ("+discovery", "{type: udp}"),
+        ("+sleep_cycles", "{type: serial}"),
+    ],
 )
 def test_no_name_of_a_file_clashes_with_that_of_another(choice: str, transport: str, tmp_path: Path) -> None:
     config = tmp_path / "microros.yaml"

@@ -141,8 +141,15 @@ def lines_of(tmp_path: Path, text: str, more: tuple[str, ...] = ()) -> tuple[int
     return int(done.stdout), done.stderr, agent
 
 
-@pytest.mark.parametrize("text", [LOGS, LOGS + WITH_TASK], ids=["threads", "tasks"])
-@pytest.mark.parametrize("more", [(), ("-fsanitize=thread",)], ids=["plain", "tsan"])
+@pytest.mark.parametrize(
+    ("text", "more"),
+    [
+        pytest.param(LOGS, (), id="plain-threads"),
+        pytest.param(LOGS + WITH_TASK, (), id="plain-tasks", marks=pytest.mark.variant),
+        pytest.param(LOGS, ("-fsanitize=thread",), id="tsan-threads", marks=pytest.mark.variant),
+        pytest.param(LOGS + WITH_TASK, ("-fsanitize=thread",), id="tsan-tasks"),
+    ],
+)
 def test_a_node_that_logs_sleeps_until_a_line_is_to_be_sent(
     tmp_path: Path, text: str, more: tuple[str, ...]
 ) -> None:
@@ -156,7 +163,13 @@ def test_a_node_that_logs_sleeps_until_a_line_is_to_be_sent(
             assert b"writer %d round %d\0" % (writer, number) in bodies
 
 
-@pytest.mark.parametrize("text", [CONSOLE, CONSOLE + WITH_TASK], ids=["threads", "tasks"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        pytest.param(CONSOLE, id="threads", marks=pytest.mark.variant),
+        pytest.param(CONSOLE + WITH_TASK, id="tasks"),
+    ],
+)
 def test_a_console_that_is_full_is_tried_each_second_until_it_takes_the_report(
     tmp_path: Path, text: str
 ) -> None:

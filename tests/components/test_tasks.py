@@ -166,8 +166,15 @@ def test_a_task_is_stopped_and_started_again_while_the_others_run(tmp_path: Path
 
 
 @pytest.mark.system
-@pytest.mark.parametrize("flags", [SANITIZE, THREAD_SANITIZER], ids=["memory", "threads"])
-@pytest.mark.parametrize("source", ["task_threads.c", "task_restart.c"])
+@pytest.mark.parametrize(
+    ("source", "flags"),
+    [
+        pytest.param("task_threads.c", THREAD_SANITIZER, id="threads-threads"),
+        pytest.param("task_threads.c", SANITIZE, id="threads-memory", marks=pytest.mark.variant),
+        pytest.param("task_restart.c", THREAD_SANITIZER, id="restart-threads"),
+        pytest.param("task_restart.c", SANITIZE, id="restart-memory"),
+    ],
+)
 def test_tasks_do_not_race(tmp_path: Path, source: str, flags: tuple[str, ...]) -> None:
     out = rendered(tmp_path, HEAD + NODES + OTHER + THREADS)
     sources = sorted((out / "src").rglob("*.c"))

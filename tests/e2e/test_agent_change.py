@@ -160,6 +160,7 @@ def test_killed_and_stopped_agents(images: Images, observer: Observer, domain: i
         change_twice(live, counted, lambda index: agent_at(stack, domain, ports[index]))
 
 
+@pytest.mark.variant
 def test_killed_and_stopped_agents_of_serial_lines(
     images: Images, observer: Observer, domain: int, tmp_path: Path
 ) -> None:
@@ -200,6 +201,7 @@ def test_the_first_line_is_missing(images: Images, observer: Observer, domain: i
         live.ok("close")
 
 
+@pytest.mark.variant
 def test_both_are_away_and_one_returns_over_ipv6(images: Images, observer: Observer, domain: int) -> None:
     ports = free_ports(2, socket.AF_INET6, socket.SOCK_STREAM)
     topic = "/agents_ipv6"

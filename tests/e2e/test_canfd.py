@@ -150,6 +150,7 @@ def test_a_bus_that_goes_away_and_returns(observer: Observer, domain: int, talke
     check_count(samples["/gone"], counted["reconnects"])
 
 
+@pytest.mark.variant
 def test_an_agent_that_restarts(observer: Observer, domain: int, bus: CanBus, talker: Path) -> None:
     """The client opens a session with the next agent, and goes on in its order."""
     options, where = ("--domain", str(domain)), ("canfd", "--device", bus.device)

@@ -62,6 +62,7 @@ def test_nothing_is_lost_over_a_bad_network(
     over_udp(images, observer, agent, relay, 400, 60)
 
 
+@pytest.mark.variant
 @pytest.mark.system
 def test_nothing_is_lost_over_6lowpan(images: Images, observer: Observer, domain: int) -> None:
     """IPv6 with datagrams of at most 80 bytes, as frames of IEEE 802.15.4 hold them (D1.4, 4.9.1), and with loss."""

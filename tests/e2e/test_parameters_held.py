@@ -218,6 +218,7 @@ def replaced(program: Path, relay: Relay, domain: int, folder: Path, *script: st
             until(lambda: values(peer, "motor.steps"), [30])
 
 
+@pytest.mark.variant
 @pytest.mark.system
 def test_a_short_script_instead_of_the_server(
     program: Path, relay: Relay, domain: int, tmp_path: Path

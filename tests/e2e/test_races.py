@@ -122,7 +122,7 @@ class Running:
         pytest.param("udp", THREADS, id="udp-threads"),
         pytest.param("tcp", THREADS, id="tcp-threads", marks=pytest.mark.variant),
         pytest.param("udp", MEMORY, id="udp-memory", marks=pytest.mark.variant),
-        pytest.param("tcp", MEMORY, id="tcp-memory"),
+        pytest.param("tcp", MEMORY, id="tcp-memory", marks=pytest.mark.variant),
     ],
 )
 def test_no_two_tasks_race(tmp_path: Path, domain: int, name: str, flags: tuple[str, ...]) -> None:

@@ -98,7 +98,11 @@ def test_a_client_calls_rclpy(
 
 @pytest.mark.system
 @pytest.mark.parametrize(
-    "ways", [("reference", "preconfigured"), ("preconfigured", "reference")], ids="-".join
+    "ways",
+    [
+        pytest.param(("reference", "preconfigured"), id="reference-preconfigured"),
+        pytest.param(("preconfigured", "reference"), id="preconfigured-reference", marks=pytest.mark.variant),
+    ],
 )
 def test_the_agent_holds_them(
     images: Images, relay: Relay, observer: Observer, domain: int, tmp_path: Path, ways: tuple[str, str]

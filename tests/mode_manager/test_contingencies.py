@@ -19,6 +19,7 @@ from tests.support.mode_manager.arm import start
 from tests.support.mode_manager.device import Device, alive
 from tests.support.mode_manager.world import Node, World
 from tests.support.modes.models import changed, model_of
+from tests.support.slices import first
 
 CELL = """\
 cell:
@@ -265,7 +266,7 @@ def test_the_proof_and_the_simulation_leave_it_alone() -> None:
     assert Status("active", "SAFE") == active("SAFE")
 
 
-@pytest.mark.parametrize("first", ["active.SAFE", "active.FAST", "inactive", "unconfigured"])
+@pytest.mark.parametrize("first", first(["active.SAFE", "active.FAST", "inactive", "unconfigured"]))
 def test_the_proof_and_the_simulation_end_alike(first: str) -> None:
     """After every sequence of three changes by others: a reaction is over in the target, and after a reset."""
     model, found = model_of(CELL), dict[str, str]()

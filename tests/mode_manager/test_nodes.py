@@ -119,6 +119,7 @@ def test_a_manager_that_is_killed_and_one_that_takes_over(stack: ExitStack, doma
     assert asking.rows["arm"].target == "active.GENTLE"
 
 
+@pytest.mark.variant
 @pytest.mark.system
 def test_two_managers_of_one_hierarchy(stack: ExitStack, domain: int) -> None:
     """The lower one manages the base with its nodes in a namespace; the upper one uses it by its services."""

@@ -21,6 +21,7 @@ from tests.support.parameter_server.asking import Asking, alive
 from tests.support.parameter_server.board import Board
 from tests.support.patience import seconds
 from tests.support.ros.running import Running, running
+from tests.support.slices import first
 
 READY = "parameter server ready: /microros_parameters"
 
@@ -163,7 +164,7 @@ def wait(condition: Callable[[], bool], limit_s: float, servers: list[Running]) 
 
 
 @pytest.mark.ros
-@pytest.mark.parametrize("module", ["tests.support.parameter_server.of_agent", "microros_gen"])
+@pytest.mark.parametrize("module", first(["microros_gen", "tests.support.parameter_server.of_agent"]))
 def test_two_that_start_at_the_same_time(module: str, domain: int, tmp_path: Path) -> None:
     """One of them serves a node; when it is killed, the other one does, and the board keeps its value."""
     board = Board(time.monotonic)

@@ -121,7 +121,7 @@ def _text(plan: RuntimePlan, folder: Path) -> int:
     [
         ("serial", "either", 544),
         ("custom", "on", 860),
-        ("custom", "off", 280),
+        pytest.param("custom", "off", 280, marks=pytest.mark.variant),
     ],
 )
 def test_size_with_udp(transport: str, framing: str, most: int, tmp_path: Path) -> None:

@@ -61,6 +61,7 @@ def replay(everything: Generated, replayed: tuple[Path, int], program: list[str 
     assert count > 8 * 200
 
 
+@pytest.mark.variant
 @pytest.mark.system
 def test_32_bit_reads_the_same(everything: Generated, replayed: tuple[Path, int], tmp_path: Path) -> None:
     probe = tmp_path / "probe.c"

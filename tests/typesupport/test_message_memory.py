@@ -78,7 +78,7 @@ def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.system
-@pytest.mark.parametrize("variant", only({"gcc", "gcc -m32"}, VARIANTS))
+@pytest.mark.parametrize("variant", only({"gcc"}, VARIANTS))
 def test_what_sources_do_with_messages(out: Path, variant: str) -> None:
     """Initialize, assign, copy, create, the utilities, buffers and an application's allocator: line by line in C."""
     command = VARIANTS[variant]
