@@ -259,7 +259,9 @@ def test_limits_ages_requests_and_times(tmp_path: Path) -> None:
 
 @pytest.mark.system
 @pytest.mark.parametrize("compiler_name", ["gcc", "clang"])
-@pytest.mark.parametrize("flags", [(), ("-m32",)], ids=["64", "32"])
+@pytest.mark.parametrize(
+    "flags", [pytest.param((), id="64"), pytest.param(("-m32",), id="32", marks=pytest.mark.variant)]
+)
 def test_it_compiles_without_a_warning(tmp_path: Path, compiler_name: str, flags: tuple[str, ...]) -> None:
     out = rendered(tmp_path, f"{MODES}logging: rosout\n{CHECKS}")
     warnings = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Werror")

@@ -13,9 +13,10 @@ from microros_gen.interfaces.find import shipped_folder
 from microros_gen.toolchain.toolchain import WARNINGS
 from tests.support.patience import seconds
 from tests.support.profile_with_diagnostics import ENTITIES
+from tests.support.slices import only
 
 
-@pytest.mark.parametrize("entities", ENTITIES)
+@pytest.mark.parametrize("entities", only({"binary", "reference"}, ENTITIES))
 def test_the_profile_alone_has_a_service_and_a_managed_publisher(tmp_path: Path, entities: str) -> None:
     """Its node has a state, a service of the program, and a publisher that the state silences."""
     config = tmp_path / "microros.yaml"

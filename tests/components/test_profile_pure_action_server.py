@@ -15,6 +15,7 @@ from microros_gen.toolchain.toolchain import WARNINGS
 from tests.support.components.rendered import planned
 from tests.support.patience import seconds
 from tests.support.profile_with_diagnostics import ENTITIES
+from tests.support.slices import only
 
 FIBONACCI = "example_interfaces/action/Fibonacci"
 NODE = """\
@@ -31,7 +32,7 @@ def received(folder: Path, text: str) -> list[list[int]]:
     return [sizes[:2], sizes[4::3]]  # the responses to a goal and to its cancellation are before each result
 
 
-@pytest.mark.parametrize("entities", ENTITIES)
+@pytest.mark.parametrize("entities", only({"binary", "reference"}, ENTITIES))
 def test_the_profile_alone_is_a_fibonacci_server(tmp_path: Path, entities: str) -> None:
     config = tmp_path / "microros.yaml"
     config.write_text(f"version: 1\nprofiles: [pure_action_server]\nentities: {entities}\n", encoding="utf-8")

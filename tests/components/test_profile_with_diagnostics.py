@@ -13,6 +13,7 @@ from microros_gen.interfaces.find import shipped_folder
 from microros_gen.toolchain.toolchain import WARNINGS
 from tests.support.patience import seconds
 from tests.support.profile_with_diagnostics import APPLICATION, ENTITIES
+from tests.support.slices import only
 
 
 def compile_example(out: Path) -> None:
@@ -45,7 +46,7 @@ def with_nothing_else(tmp_path: Path, *lines: str) -> str:
     return next((out / "examples").rglob("main.c")).read_text()
 
 
-@pytest.mark.parametrize("entities", ENTITIES)
+@pytest.mark.parametrize("entities", only({"binary", "reference"}, ENTITIES))
 def test_the_profile_alone_has_all_three(tmp_path: Path, entities: str) -> None:
     example = with_nothing_else(tmp_path, f"entities: {entities}")
     assert "device_parameters_declare(&node_parameters)" in example
@@ -58,7 +59,7 @@ def test_another_writer_needs_no_function_of_the_example(tmp_path: Path) -> None
     assert "on_log" not in with_nothing_else(tmp_path, "logging: console")
 
 
-@pytest.mark.parametrize("entities", ENTITIES)
+@pytest.mark.parametrize("entities", only({"binary", "reference"}, ENTITIES))
 def test_the_example_has_parameters_log_messages_and_diagnostics(tmp_path: Path, entities: str) -> None:
     config = tmp_path / "microros.yaml"
     config.write_text(APPLICATION.format(entities=entities))

@@ -98,6 +98,7 @@ def test_changes(program: Path, agent: object, domain: int) -> None:
             assert time.monotonic() < end
 
 
+@pytest.mark.variant
 @pytest.mark.system
 def test_an_agent_that_restarts(program: Path, relay: Relay, domain: int) -> None:
     with graph_peer(domain) as peer:

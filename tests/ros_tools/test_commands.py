@@ -219,7 +219,7 @@ def test_a_topic_that_does_not_exist_is_waited_for_until_an_interrupt(arm: Runni
 
 def test_topics_are_recorded(arm: Running, tmp_path: Path) -> None:
     path = tmp_path / "x.mcap"
-    done = call("topic", "record", "--regex", "^/(count|imu)$", "-o", str(path), "-d", str(seconds(5)))
+    done = call("topic", "record", "--regex", "^/(count|imu)$", "-o", str(path), "-d", "5")
     assert done.status == 0, done.err
     with AnyReader([path]) as reader:
         numbers = [

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.examples import examples
 from tests.support.typesupport.build import DECODING, WARNINGS, Generated, run, unity
 from tests.support.typesupport.replay import FUZZ, REPLAY, write_bodies, write_program, write_seeds
 
@@ -141,12 +142,13 @@ def fuzz(program: Path, corpus: Path, *options: str) -> None:
 
 
 @pytest.mark.system
+@pytest.mark.examples
 def test_whatever_the_bytes_nothing_is_out_of_bounds(
     everything: Generated, fuzzer: Path, tmp_path: Path
 ) -> None:
     """A slice of the long run: the same first bytes and the same changes each time."""
     write_seeds(everything, tmp_path / "corpus")
-    fuzz(fuzzer, tmp_path / "corpus", f"-runs={FUZZ_RUNS}", "-seed=1")
+    fuzz(fuzzer, tmp_path / "corpus", f"-runs={examples(FUZZ_RUNS)}", "-seed=1")
 
 
 @pytest.mark.long
