@@ -63,12 +63,32 @@ SYSTEM = (
 )
 """Pages whose commands start compilers and servers, of which quick_start.md and the tests of these parts have the
 shorter sibling."""
+SIBLINGS = {
+    "tutorial/host.md": "quick_start.md",
+    "howto/teensy.md": "howto/arduino.md",
+    "howto/platformio.md": "howto/arduino.md",
+    "howto/nuttx.md": "howto/zephyr.md",
+    "howto/esp_idf.md": "howto/zephyr.md",
+    "howto/pico.md": "howto/stm32cube.md",
+    "howto/transforms.md": "howto/executor.md",
+}
+"""Pages that CI leaves to `make system`: it has the sibling, with the same commands for another board or part."""
 
 
 def pages_that_run() -> list[Any]:
     names = [name for name in PAGES if name not in ELSEWHERE and runs(name)]
     marks = {**dict.fromkeys(LONG, pytest.mark.long), **dict.fromkeys(SYSTEM, pytest.mark.system)}
+    marks |= dict.fromkeys(SIBLINGS, pytest.mark.variant)
     return [pytest.param(name, marks=marks.get(name, ())) for name in names]
+
+
+def test_the_sibling_of_each_page_is_in_ci() -> None:
+    wanted = {
+        param.values[0]
+        for param in pages_that_run()
+        if not {"variant", "long"} & {m.name for m in param.marks}
+    }
+    assert set(SIBLINGS.values()) <= wanted
 
 
 def runs(name: str) -> bool:

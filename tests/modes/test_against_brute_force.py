@@ -103,7 +103,7 @@ def all_levels(plain: PlainModel) -> Iterator[dict[str, dict[str, str]]]:
         yield dict(zip(sorted(wanted), chosen, strict=True))
 
 
-@settings(max_examples=examples(400), deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(400, part=10), deadline=None, suppress_health_check=list(HealthCheck))
 @given(diagnosed_models())
 def test_the_proof_finds_exactly_the_oscillations_with_diagnostics(plain: PlainModel) -> None:
     """Each combination of levels of all statuses with each of failures, of models with one or two such nodes."""
@@ -121,14 +121,14 @@ def outside_levels() -> Iterator[dict[str, dict[str, str]]]:
         yield {f"hardware {hardware}": {name: next(each) for name in names} for hardware in HARDWARE}
 
 
-@settings(max_examples=examples(150, 15), deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(150, 15, part=10), deadline=None, suppress_health_check=list(HealthCheck))
 @given(outside_models(systems=1))
 def test_the_proof_finds_exactly_the_oscillations_with_what_is_no_part(plain: PlainModel) -> None:
     assume(len(plain.nodes) < 3 and any(r.wanted for s in plain.systems.values() for r in s.rules))
     check_oscillations(plain, outside_levels)
 
 
-@settings(max_examples=examples(60, 10), deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(60, 6, part=10), deadline=None, suppress_health_check=list(HealthCheck))
 @given(outside_models())
 def test_the_proof_finds_exactly_the_oscillations_where_two_systems_see_what_is_no_part(
     plain: PlainModel,

@@ -17,12 +17,15 @@ EXAMPLES = "MICROROS_TEST_EXAMPLES"
 LEAST, LEAST_FEW = 25, 5
 
 
-def examples(full: int, least: int | None = None) -> int:
-    """Return how many examples a test draws that names `full` of them; never fewer than `least` where it names some."""
+def examples(full: int, least: int | None = None, part: int = 5) -> int:
+    """Return how many examples a test draws that names `full` of them; never fewer than `least` where it names some.
+
+    `part`: what `make test` draws is one of so many; more than 5 for examples that take seconds.
+    """
     wanted = os.environ.get(EXAMPLES)
     if wanted == "all":
         return full
-    share, smallest = (full // 30, LEAST_FEW) if wanted == "few" else (full // 5, LEAST)
+    share, smallest = (full // 30, LEAST_FEW) if wanted == "few" else (full // part, LEAST)
     return min(full, max(smallest if least is None else least, share))
 
 
