@@ -14,6 +14,7 @@ import pytest
 
 from tests.support.agent.process import UDP, environment, own_domain, running_agent
 from tests.support.patience import deadline, seconds
+from tests.support.slices import first
 
 pytestmark = [pytest.mark.ros, pytest.mark.system]
 
@@ -65,7 +66,7 @@ def test_a_reload_during_the_start_is_done_when_the_agent_serves(
         assert agent.stop() == 0
 
 
-@pytest.mark.parametrize("number", ["SIGTERM", "SIGINT"])
+@pytest.mark.parametrize("number", first(["SIGTERM", "SIGINT"]))
 @pytest.mark.parametrize(("module", "function", "workers"), PLACES)
 def test_a_stop_during_the_start_ends_the_agent_in_order(
     policy: str, tmp_path: Path, module: str, function: str, workers: str, number: str

@@ -21,6 +21,7 @@ from microros_gen.selection.find_profiles import load_builtin_profiles
 from tests.support.command_line import Runner
 from tests.support.environments import clean_environ
 from tests.support.patience import deadline
+from tests.support.slices import spread
 
 NOT_NEEDED = (
     *("lark", "elftools", "squarify", "rclpy", "asyncio", "jsonschema", "microros_gen.agent.core"),
@@ -119,7 +120,7 @@ def test_other_arguments() -> None:
     assert offered("size", "x", "--format", "") == ["table", "json", "html"]
 
 
-@pytest.mark.parametrize("words", LINES, ids=" ".join)
+@pytest.mark.parametrize("words", spread(LINES), ids=" ".join)
 def test_a_press_of_tab_imports_little(words: tuple[str, ...]) -> None:
     environment = clean_environ(
         COMP_WORDS=" ".join(("microros-gen", *(w for w in words if w))),

@@ -151,9 +151,20 @@ def test_a_constant_before_the_first_module_of_an_idl_file(folder: Path) -> None
     assert "the constant 'X' is in no module" in "\n".join(without_id(d.headline()) for d in diagnostics)
 
 
+AIMS = ("pipe", "/dev/zero", "large")
+PLACES = ("p/msg/A.msg", "microros.yaml", "own.yaml", "board.yaml", "p/package.xml")
+"""Every place with a pipe and the first one with each aim in CI: one function opens all of them."""
+
+
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are FIFOs on POSIX alone")
-@pytest.mark.parametrize("aim", ["pipe", "/dev/zero", "large"])
-@pytest.mark.parametrize("place", ["p/msg/A.msg", "microros.yaml", "own.yaml", "board.yaml", "p/package.xml"])
+@pytest.mark.parametrize(
+    ("place", "aim"),
+    [
+        *((PLACES[0], aim) for aim in AIMS),
+        *((place, AIMS[0]) for place in PLACES[1:]),
+        *(pytest.param(place, aim, marks=pytest.mark.variant) for place in PLACES[1:] for aim in AIMS[1:]),
+    ],
+)
 def test_only_regular_files_of_a_bounded_size_are_read(folder: Path, aim: str, place: str) -> None:
     """In a separate process, which a time-out ends if it waits."""
     (folder / "p/msg").mkdir(parents=True)

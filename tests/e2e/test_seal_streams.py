@@ -112,6 +112,7 @@ def test_tcp_and_restarts_of_both_sides(
                 again.ok("close")
 
 
+@pytest.mark.variant
 def test_tcp_says_that_a_key_is_refused(
     tcp_agent: AgentProcess, tcp_program: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
