@@ -226,11 +226,8 @@ def test_a_rule_of_two_equal_numbers_keeps_both(run: Runner, folder: Path) -> No
 
 
 @pytest.mark.system
-def test_advice_about_memory_is_exact_and_the_largest_saving_is_first(
-    run: Runner, folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_advice_about_memory_is_exact_and_the_largest_saving_is_first(run: Runner, folder: Path) -> None:
     """What each line promises is what a build takes less with it pasted; keys that exist are replaced."""
-    monkeypatch.setenv("CFLAGS", "-O0")  # of the static memory that counts here, it changes nothing
     text = HEAD.replace("tf2_msgs/msg/TFMessage", "tf2_msgs/msg/TFMessage, queue: 4")
     text += 'limits:\n  "*": {string: 32, sequence: 16}\nerrors: text\n'
 

@@ -13,6 +13,7 @@ import sysconfig
 from pathlib import Path
 
 from microros_gen.interfaces.find import shipped_folder
+from tests.support.runtime.merged import merged, text_of
 
 PREFIX = Path(sys.prefix)
 """Of the wheels."""
@@ -65,12 +66,21 @@ def python_messages(package: str, dependencies: tuple[str, ...], folder: Path) -
         (folder / f"lib{package}__{kind}.so").symlink_to(module)
 
 
+def _units(folder: Path) -> list[Path]:
+    """Return the sources, those in C as few files that include them: most of their time goes into headers of Python."""
+    units = []
+    for number, parts in enumerate(merged(sorted(folder.rglob("*.c")))):
+        units.append(folder / f"unit{number}.c")
+        units[-1].write_text(text_of(parts))
+    return [*units, *sorted(folder.rglob("*.cpp"))]
+
+
 def _compile(folder: Path, module: Path, libraries: tuple[str, ...]) -> None:
     """Link every source below `folder` as one module."""
     import numpy
 
     headers = PREFIX / "include"
-    generated = [path for path in folder.iterdir() if path.name != module.parent.name]
+    generated = [path for path in folder.iterdir() if path.is_dir() and path.name != module.parent.name]
     places = (
         *generated,
         sysconfig.get_path("include"),
@@ -80,7 +90,7 @@ def _compile(folder: Path, module: Path, libraries: tuple[str, ...]) -> None:
     )
     included = [f"-I{place}" for place in places]
     objects = []
-    for source in sorted((*folder.rglob("*.c"), *folder.rglob("*.cpp"))):
+    for source in _units(folder):
         output = source.with_name(f"{source.name}.o")
         compiler = ["g++", "-std=c++17"] if source.suffix == ".cpp" else ["gcc"]
         command = [*compiler, "-O0", "-fPIC", "-w", *included, "-c", str(source), "-o", str(output)]
