@@ -38,7 +38,13 @@ nodes:
 
 
 @pytest.mark.system
-@pytest.mark.parametrize("kind", ["", ", kind: rtos"], ids=["clock", "rtos"])
+@pytest.mark.parametrize(
+    "kind",
+    [
+        pytest.param("", id="clock"),
+        pytest.param(", kind: rtos", id="rtos", marks=pytest.mark.variant),
+    ],
+)
 def test_a_timer_publishes_under_the_executor(builds: Builds, kind: str) -> None:
     built = builds.build(NAME, APPLICATION % kind)
     image = builds.application(built, "ticker.c")

@@ -11,7 +11,7 @@ import pytest
 
 from tests.support.firmware.board import BOARDS, C_FILES, Builds, Built, build, check, need
 from tests.support.firmware.unneeded import NOT_NEEDED
-from tests.support.slices import only, spread_rows
+from tests.support.slices import first, only, spread_rows
 
 POOL = "version: 1\nprofiles: [pure_sender]\ninterfaces: [std_msgs/msg/Int32]\n"
 # What a C library has for input and output, memory, its own start-up and its state between calls.
@@ -22,7 +22,7 @@ CMSIS = re.compile(
 
 
 @pytest.mark.system
-@pytest.mark.parametrize("name", ["cortex-m0plus", "cortex-m4"])
+@pytest.mark.parametrize("name", first(["cortex-m0plus", "cortex-m4"]))
 def test_a_target_without_memory_has_the_library_alone(tmp_path: Path, name: str) -> None:
     need(name)
     done = build(tmp_path, name)

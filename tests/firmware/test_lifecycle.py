@@ -27,7 +27,7 @@ SIZES_OF_ENTITIES = {"xml": (20_432, 4_268), "reference": (19_476, 3_140), "prec
 
 @pytest.mark.system
 @pytest.mark.ros
-@pytest.mark.parametrize("entities", only({"binary", "preconfigured"}, ["binary", *SIZES_OF_ENTITIES]))
+@pytest.mark.parametrize("entities", only({"binary"}, ["binary", *SIZES_OF_ENTITIES]))
 def test_rclpy_drives_it(builds: Builds, domain: int, entities: str) -> None:
     """The states, callbacks and lists are those of rclpy's node; the whole graph comes in fragments over the line."""
     need(NAME, emulator=True)
@@ -70,7 +70,7 @@ def test_rclpy_drives_it(builds: Builds, domain: int, entities: str) -> None:
 
 
 @pytest.mark.system
-@pytest.mark.parametrize(("name", "limits"), beyond(SIZES, {"qemu-mps2-an505"}))
+@pytest.mark.parametrize(("name", "limits"), beyond(SIZES, {"qemu-mps2-an505"}, {"qemu-microbit"}))
 def test_its_size(builds: Builds, name: str, limits: tuple[int, int, int]) -> None:
     """Five services, a publisher, executor, over a serial line."""
     need(name)
@@ -82,7 +82,9 @@ def test_its_size(builds: Builds, name: str, limits: tuple[int, int, int]) -> No
 
 
 @pytest.mark.system
-@pytest.mark.parametrize(("entities", "limits"), SIZES_OF_ENTITIES.items(), ids=SIZES_OF_ENTITIES)
+@pytest.mark.parametrize(
+    ("entities", "limits"), beyond(SIZES_OF_ENTITIES, (), {"xml", "preconfigured"}), ids=SIZES_OF_ENTITIES
+)
 def test_its_size_by_entities(builds: Builds, entities: str, limits: tuple[int, int]) -> None:
     need(NAME)
     built = builds.build(NAME, f"{APPLICATION}entities: {entities}\n")

@@ -18,7 +18,7 @@ NAME = "qemu-mps2-an386"
         ("Int32", "serial", 0.09),
         pytest.param("Pose", "serial", 0.05, marks=pytest.mark.variant),
         pytest.param("Int32", "udp", 0.30, marks=pytest.mark.variant),
-        ("Pose", "udp", 0.29),
+        pytest.param("Pose", "udp", 0.29, marks=pytest.mark.variant),
     ],
 )
 def test_its_instructions(builds: Builds, message: str, transport: str, most: float) -> None:

@@ -84,7 +84,7 @@ def test_rclpy_sets_what_the_firmware_uses(builds: Builds, domain: int, flags: t
 
 
 @pytest.mark.system
-@pytest.mark.parametrize("name", beyond(list(SIZES), {"qemu-mps2-an505"}))
+@pytest.mark.parametrize("name", beyond(list(SIZES), {"qemu-mps2-an505"}, {"qemu-microbit"}))
 def test_its_size(builds: Builds, name: str) -> None:
     """Four declared parameters, six services, executor, over a serial line."""
     need(name)

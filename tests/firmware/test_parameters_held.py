@@ -103,7 +103,7 @@ def test_board_and_agent_restart(builds: Builds, domain: int, tmp_path: Path) ->
 @pytest.mark.parametrize(
     ("name", "flash", "ram", "stack"),
     [
-        ("qemu-microbit", 24_148, 3_592, 1_028),
+        pytest.param("qemu-microbit", 24_148, 3_592, 1_028, marks=pytest.mark.variant),
         (NAME, 22_348, 3_592, 1_172),
         pytest.param("qemu-mps2-an505", 22_396, 3_592, 1_176, marks=pytest.mark.long),
     ],

@@ -118,7 +118,10 @@ def test_a_queue_of_bytes_takes_what_it_is_given(builds: Builds) -> None:
 
 
 @pytest.mark.system
-@pytest.mark.parametrize(("line", "loaned"), [("udp, best effort", True), ("udp, reliable", False)])
+@pytest.mark.parametrize(
+    ("line", "loaned"),
+    [("udp, best effort", True), pytest.param("udp, reliable", False, marks=pytest.mark.variant)],
+)
 def test_size_counts_a_slot_in_the_input_buffer_once(builds: Builds, line: str, loaned: bool) -> None:
     """Samples that wait there take no memory of the subscription."""
     need(CORTEX_M4)

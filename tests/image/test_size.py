@@ -306,7 +306,7 @@ def of_board(tmp_path_factory: pytest.TempPathFactory) -> Measured:
 @pytest.mark.system
 @pytest.mark.parametrize(
     ("board", "words"),
-    [("qemu-mps2-an386", 27), ("qemu-mps2-an385", 9)],
+    [("qemu-mps2-an386", 27), pytest.param("qemu-mps2-an385", 9, marks=pytest.mark.variant)],
     ids=["with floating-point unit", "without"],
 )
 def test_a_board_starts_at_reset_and_counts_its_interrupts(

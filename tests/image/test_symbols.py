@@ -25,9 +25,17 @@ pytestmark = [
 TreeOf = Callable[[str], Tree]
 
 
+IN_CI = ("pool", "client-xml-code-rtos-timers-threads")
+"""Those of FIRST that `make check` has: the smallest, and the one that differs most from it."""
+
+
 def _marks(name: str) -> list[pytest.MarkDecorator]:
     """`make test` looks at symbols in tests/runtime, of the C components without a generated application."""
-    return [pytest.mark.system if name in FIRST else pytest.mark.long if name in ALSO else pytest.mark.lint]
+    if name in IN_CI:
+        return [pytest.mark.system]
+    if name in FIRST:
+        return [pytest.mark.system, pytest.mark.variant]
+    return [pytest.mark.long if name in ALSO else pytest.mark.lint]
 
 
 HEAP_AND_STDIO = re.compile(

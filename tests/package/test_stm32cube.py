@@ -273,7 +273,7 @@ def counted(observer: Observer, transport: Sequence[str], domain: int) -> list[i
 @pytest.mark.ros
 @pytest.mark.builds
 @pytest.mark.system
-@pytest.mark.parametrize("transport", ["usb_cdc", "udp"])
+@pytest.mark.parametrize("transport", ["usb_cdc", pytest.param("udp", marks=pytest.mark.variant)])
 def test_the_example_reaches_ros_over_usb_and_udp(transport: str, tmp_path: Path) -> None:
     """Before the agent is there, with it, and with the next one.
 
@@ -291,11 +291,18 @@ def test_the_example_reaches_ros_over_usb_and_udp(transport: str, tmp_path: Path
 
 @pytest.mark.builds
 @pytest.mark.system
+@pytest.mark.variant  # of a project of `init`, below
 def test_cmake_builds_the_same_project(tmp_path: Path) -> None:
     place = project(tmp_path / "project")
     succeed(place, "cmake", "-S", ".", "-B", "build", "-DMICROROS_TRANSPORT=it")
     succeed(place, "cmake", "--build", "build", "-j2")
     assert os.access(place / "build" / "project", os.X_OK)
+
+
+@pytest.mark.builds
+@pytest.mark.system
+def test_cmake_refuses_an_unknown_transport(tmp_path: Path) -> None:
+    place = project(tmp_path / "project")
     wrong = subprocess.run(
         ["cmake", "-S", ".", "-B", "other", "-DMICROROS_TRANSPORT=spi"],
         cwd=place,

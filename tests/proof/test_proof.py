@@ -17,10 +17,18 @@ from tests.support.paths import ROOT
 needs_frama_c = pytest.mark.skipif(not proofs.is_installed(), reason="no frama-c (Debian: frama-c-base)")
 QUICK = ("frame_byte", "encode")
 """Proofs of which `make test` has a run; `make system` has one of each."""
+SLOW = ("frame_line", "handlers", "sequence")
+"""Proofs that CI leaves to `make system`: the others go over the same kinds of code in less time."""
+
+
+def _marks_of(proof: Proof) -> list[pytest.MarkDecorator]:
+    if proof.name in QUICK:
+        return []
+    return [pytest.mark.system, *([pytest.mark.variant] if proof.name in SLOW else [])]
+
+
 SLICE = [
-    pytest.param(
-        proof, number, id=f"{proof.name}-{number}", marks=[] if proof.name in QUICK else [pytest.mark.system]
-    )
+    pytest.param(proof, number, id=f"{proof.name}-{number}", marks=_marks_of(proof))
     for proof in proofs.load()
     for number in proof.slice
 ]
@@ -95,7 +103,7 @@ MUTATIONS = {
 
 _MARKS: Mapping[str, list[pytest.MarkDecorator]] = {
     "size of a frame": [],
-    "piece of a sample": [pytest.mark.system],
+    "piece of a sample": [pytest.mark.system, pytest.mark.variant],
 }
 
 

@@ -33,7 +33,16 @@ def _later(*values: object) -> ParameterSet:
     return pytest.param(*values, marks=pytest.mark.variant)
 
 
-def beyond(values: Mapping[str, object] | Collection[str], long: Collection[str]) -> list[ParameterSet]:
-    """Return names, or rows of name and value: those of `long` for long runs, as what differs little from others."""
+def beyond(
+    values: Mapping[str, object] | Collection[str], long: Collection[str], later: Collection[str] = ()
+) -> list[ParameterSet]:
+    """Return names, or rows of name and value: those of `long` for long runs, as what differs little from others.
+
+    Those of `later` are for `make system`.
+    """
+
+    def marks(name: object) -> list[pytest.MarkDecorator]:
+        return [pytest.mark.long] if name in long else [pytest.mark.variant] if name in later else []
+
     rows = values.items() if isinstance(values, Mapping) else [(name,) for name in values]
-    return [pytest.param(*row, marks=[pytest.mark.long] if row[0] in long else [], id=row[0]) for row in rows]
+    return [pytest.param(*row, marks=marks(row[0]), id=row[0]) for row in rows]

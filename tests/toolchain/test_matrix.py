@@ -209,7 +209,11 @@ def test_a_project_of_the_user_takes_it_in_as_a_subdirectory(tree_of: TreeOf, tm
 @pytest.mark.system
 @pytest.mark.skipif(not has("arm-none-eabi-gcc"), reason="no arm-none-eabi-gcc")
 @pytest.mark.parametrize(
-    ("name", "cpu"), [("pool-none-drop-code-arena-device", "cortex-m0plus"), ("demo", "cortex-m4f")]
+    ("name", "cpu"),
+    [
+        pytest.param("pool-none-drop-code-arena-device", "cortex-m0plus", marks=pytest.mark.variant),
+        ("demo", "cortex-m4f"),
+    ],
 )
 def test_a_cortex_m_compiler_takes_all_but_the_posix_port(
     tree_of: TreeOf, tmp_path: Path, name: str, cpu: str
