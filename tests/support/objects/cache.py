@@ -19,7 +19,10 @@ from tests.support.paths import ROOT
 
 CACHE = ROOT / "build" / "objects"
 SOURCE = Path(__file__).with_name("cached.c")
-COMPILERS = ("gcc", "cc", "g++", "c++", "clang", "clang++", "arm-none-eabi-gcc", "riscv64-unknown-elf-gcc")
+COMPILERS = (
+    *("gcc", "cc", "g++", "c++", "clang", "clang++"),
+    *("arm-none-eabi-gcc", "riscv64-unknown-elf-gcc", "avr-gcc"),
+)
 KEPT_DAYS = 3
 STORE = "MICROROS_GEN_OBJECTS"
 """What tells `build` where its objects are; empty: in the cache folder of the user that a test makes up; or `off`."""
