@@ -115,8 +115,9 @@ endfunction()
     )
 
 
-def test_a_project_of_platformio_builds(run: Runner, folder: Path, tmp_path: Path) -> None:
-    """By `pio run`, for this computer; its sources are a sketch with its own message, and a header elsewhere."""
+@pytest.mark.parametrize("has_sources", first([True, False]))
+def test_a_project_of_platformio_builds(run: Runner, folder: Path, tmp_path: Path, has_sources: bool) -> None:
+    """By `pio run`, for this computer; sources of its own are a sketch with its own message, and a header elsewhere."""
     example = ROOT / "examples" / "platformio"
     sources = tmp_path / "old"
     shutil.copytree(example / "src", sources / "src")
@@ -124,18 +125,18 @@ def test_a_project_of_platformio_builds(run: Runner, folder: Path, tmp_path: Pat
     (sources / "include" / "gains.h").write_text("#define GAIN 3\n")
     (sources / "src" / "gain.cpp").write_text("#include <gains.h>\nint gain() { return GAIN; }\n")
     paths = ("--interface-path", str(example / "extra_packages"))
-    for options in ((), ("--from", str(sources), *paths)):
-        pio = Pio(tmp_path / f"pio{len(options)}")
-        pio.project.rmdir()
-        done = run("init", str(pio.project), "--platform", "platformio", *options)
-        assert done.status == 0, done.err
-        if options:
-            shutil.copytree(example / "extra_packages", pio.project / "extra_packages")
-        written = (pio.project / "platformio.ini").read_text()  # it names a board
-        start = written.index("board_microros_transport = serial")
-        pio.settings(*written[start:].splitlines(), arduino=True)
-        assert "Compiling" in "".join(pio.build())
-        assert pio.program.is_file()
+    options = ("--from", str(sources), *paths) if has_sources else ()
+    pio = Pio(tmp_path / "pio")
+    pio.project.rmdir()
+    done = run("init", str(pio.project), "--platform", "platformio", *options)
+    assert done.status == 0, done.err
+    if has_sources:
+        shutil.copytree(example / "extra_packages", pio.project / "extra_packages")
+    written = (pio.project / "platformio.ini").read_text()  # it names a board
+    start = written.index("board_microros_transport = serial")
+    pio.settings(*written[start:].splitlines(), arduino=True)
+    assert "Compiling" in "".join(pio.build())
+    assert pio.program.is_file()
 
 
 @pytest.mark.parametrize("sources", first(["echo", ""]))
