@@ -20,6 +20,7 @@ SIZE = (20_960, 3_120, 1_360)
 """Flash, RAM without the stack, worst stack, on the Cortex-M4."""
 
 
+@pytest.mark.variant  # of tests/e2e/test_action_client.py, on a board
 @pytest.mark.system
 @pytest.mark.ros
 def test_goals_are_sent_to_rclpy(builds: Builds, domain: int) -> None:

@@ -23,6 +23,7 @@ SIZE = (22_500, 3_040, 1_264)
 """Flash, RAM without the stack, worst stack, on the Cortex-M4."""
 
 
+@pytest.mark.variant  # of tests/e2e/test_action_server.py, on a board
 @pytest.mark.system
 @pytest.mark.ros
 def test_rclpy_sends_goals(builds: Builds, domain: int) -> None:

@@ -75,6 +75,7 @@ def agent_at(stack: ExitStack, domain: int, port: int) -> AgentProcess:
     return stack.enter_context(running_agent(domain, *options, transport=("udp4", "--port", str(port))))
 
 
+@pytest.mark.variant  # of tests/e2e/test_agent_list.py and test_agent_change.py, on a board
 @pytest.mark.system
 @pytest.mark.ros
 def test_a_board_goes_on_with_the_other_agent(builds: Builds, observer: Observer, domain: int) -> None:

@@ -218,6 +218,7 @@ def test_a_budget_of_the_stack(tmp_path: Path) -> None:
     assert re.search(r"worst stack from main with 3 interrupt handler\(s\) on top: [0-9]+ bytes", done.stderr)
 
 
+@pytest.mark.variant  # of tests/package/test_arduino.py: a service on a Mega
 @pytest.mark.ros
 def test_a_server_of_set_bool(builds: Builds, observer: Observer, domain: int) -> None:
     """A Mega answers requests; the stack stays below its bound."""

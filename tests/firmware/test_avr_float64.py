@@ -72,6 +72,7 @@ def test_every_kind_of_number(builds: Builds) -> None:
     assert answers == [expected(pattern) for pattern in patterns]
 
 
+@pytest.mark.variant  # of tests/package/test_arduino.py: the same type on a Mega
 @pytest.mark.ros
 def test_messages_of_both_directions(builds: Builds, observer: Observer, domain: int) -> None:
     """An Uno receives geometry_msgs/Twist and sends sensor_msgs/Temperature."""

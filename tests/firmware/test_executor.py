@@ -61,6 +61,7 @@ def test_a_timer_publishes_under_the_executor(builds: Builds, kind: str) -> None
     assert proven // 4 < touched <= proven
 
 
+@pytest.mark.variant  # of tests/runtime/test_executor.py (unit_executor_changes.c), on a board
 @pytest.mark.system
 def test_handles_of_every_kind_are_added_and_removed(builds: Builds) -> None:
     """Two executors, local topics and a local service, without an agent; the clock wraps meanwhile."""

@@ -41,6 +41,7 @@ def seen_by_rclpy(peer: LineProcess) -> list[int]:
     ]
 
 
+@pytest.mark.variant  # of tests/e2e/test_graph.py, on a board
 @pytest.mark.system
 @pytest.mark.ros
 @pytest.mark.parametrize("component", first(["graph", "graph_topic"]))

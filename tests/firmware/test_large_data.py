@@ -48,6 +48,7 @@ def image(size: int) -> dict[str, object]:
     }
 
 
+@pytest.mark.variant  # of tests/e2e/test_large.py, on a board
 @pytest.mark.ros
 def test_a_board_mirrors_images_larger_than_its_buffers(
     builds: Builds, observer: Observer, domain: int

@@ -32,6 +32,7 @@ def wait_for(running: Board, *expected: int) -> None:
         time.sleep(0.1)
 
 
+@pytest.mark.variant  # of tests/e2e/test_qos_events.py and test_transforms.py, on a board
 @pytest.mark.system
 @pytest.mark.ros
 def test_events_and_transforms_of_a_board(builds: Builds, observer: Observer, domain: int) -> None:

@@ -47,7 +47,10 @@ def changed(peer: ParameterPeer, count: int) -> list[Any]:
 
 @pytest.mark.system
 @pytest.mark.ros
-@pytest.mark.parametrize("flags", [(), ADDED], ids=["declared", "added"])
+@pytest.mark.parametrize(
+    "flags",
+    [pytest.param((), id="declared"), pytest.param(ADDED, id="added", marks=pytest.mark.variant)],
+)
 def test_rclpy_sets_what_the_firmware_uses(builds: Builds, domain: int, flags: tuple[str, ...]) -> None:
     built = builds.merged(NAME, APPLICATION)
     need(NAME, emulator=True)

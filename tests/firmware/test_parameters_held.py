@@ -67,6 +67,7 @@ def steps_of(running: Board) -> int:
     return running.words("parameters_report")[0]
 
 
+@pytest.mark.variant  # of tests/e2e/test_parameters_held.py, on a board
 @pytest.mark.system
 @pytest.mark.ros
 def test_board_and_agent_restart(builds: Builds, domain: int, tmp_path: Path) -> None:

@@ -68,6 +68,7 @@ def report(running: Board) -> dict[str, int]:
     return dict(zip(WORDS, running.words("peer_report", len(WORDS)), strict=True))
 
 
+@pytest.mark.variant  # of tests/runtime/test_peer_services.py, on two boards
 @pytest.mark.system
 def test_each_request_is_executed_once_on_a_bad_line(images: tuple[Image, Image]) -> None:
     with (

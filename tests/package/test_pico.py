@@ -42,6 +42,7 @@ target_link_libraries(publisher microros)
 """
 
 
+@pytest.mark.variant  # of tests/package/test_projects.py: the same program in a project of `init`
 @pytest.mark.ros
 @pytest.mark.builds
 @pytest.mark.system

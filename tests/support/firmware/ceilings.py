@@ -7,6 +7,7 @@ import json
 import re
 import subprocess
 from collections.abc import Iterator
+from functools import cache
 from typing import Any
 
 from tests.support.firmware.board import BOARDS, Builds, target
@@ -38,6 +39,7 @@ def compiler_of(name: str) -> str:
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
 
 
+@cache
 def measure(builds: Builds, name: str, sender: Sender) -> dict[str, int]:
     """Return the figures of one sender on one board; they repeat exactly with one compiler."""
     built = builds.build(name, sender.application)
