@@ -25,6 +25,7 @@ SIZES = {
 SIZES_OF_ENTITIES = {"xml": (20_432, 4_268), "reference": (19_476, 3_140), "preconfigured": (17_916, 3_012)}
 
 
+@pytest.mark.variant  # of tests/e2e/test_lifecycle.py; test_modes.py drives a board, too
 @pytest.mark.system
 @pytest.mark.ros
 @pytest.mark.parametrize("entities", only({"binary"}, ["binary", *SIZES_OF_ENTITIES]))

@@ -59,6 +59,7 @@ def has_all(running: Board) -> bool:
     return seen["published"] == seen["sure last"] == LAST
 
 
+@pytest.mark.variant  # of tests/runtime/test_peer.py and test_peer_lines.py, on two boards
 @pytest.mark.system
 def test_over_a_bad_line_and_after_a_restart(images: tuple[Image, Image]) -> None:
     with (

@@ -54,6 +54,7 @@ def image(folder: Path, name: str) -> Path:
     return elf
 
 
+@pytest.mark.variant  # of tests/runtime/test_shared_memory.py, on two boards
 @pytest.mark.system
 def test_two_cores(tmp_path: Path) -> None:
     need("qemu-mps2-an505", emulator=True)

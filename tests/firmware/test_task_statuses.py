@@ -44,6 +44,7 @@ def reported(observer: Observer, task: str, overruns: int) -> dict[str, Any]:
         time.sleep(0.02)
 
 
+@pytest.mark.variant  # of tests/e2e/test_diagnosis_tasks.py, on a board
 @pytest.mark.system
 @pytest.mark.ros
 def test_each_task_of_a_board_has_a_status(tmp_path: Path, domain: int, observer: Observer) -> None:

@@ -17,7 +17,7 @@ from tests.support.paths import ROOT
 needs_frama_c = pytest.mark.skipif(not proofs.is_installed(), reason="no frama-c (Debian: frama-c-base)")
 QUICK = ("frame_byte", "encode")
 """Proofs of which `make test` has a run; `make system` has one of each."""
-SLOW = ("frame_line", "handlers", "sequence")
+SLOW = ("fragments", "frame_line", "handlers", "sequence")
 """Proofs that CI leaves to `make system`: the others go over the same kinds of code in less time."""
 
 

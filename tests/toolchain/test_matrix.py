@@ -195,6 +195,7 @@ int main()
 """
 
 
+@pytest.mark.variant  # of tests/package/test_cmake.py: add_subdirectory
 @pytest.mark.system
 @pytest.mark.skipif(not has("cmake") or not has("g++"), reason="no cmake or no C++ compiler")
 def test_a_project_of_the_user_takes_it_in_as_a_subdirectory(tree_of: TreeOf, tmp_path: Path) -> None:
