@@ -4,11 +4,16 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
 
 import pytest
 
+from microros_gen.image.elf import Elf
+from microros_gen.image.folder import read_folder
+from microros_gen.image.lock_holds import TaskHold, task_holds
+from microros_gen.image.report import measure_folder
 from tests.support.firmware.board import C_FILES
-from tests.support.firmware.tasks import built_tasks, holds_of
+from tests.support.firmware.tasks import built_tasks
 
 APPLICATION = """\
 version: 1
@@ -42,6 +47,12 @@ HOLDING = {
 }
 
 
+def of_control(rows: Sequence[TaskHold]) -> Mapping[str, int]:
+    """Return the instructions of each hold of the task `control`, of several of a function the longest."""
+    (control,) = (row for row in rows if row.name == "control")
+    return {hold.function: hold.length.count for hold in reversed(control.holds)}
+
+
 @pytest.mark.system
 def test_services_actions_parameters_and_timers_have_a_bound(
     tmp_path_factory: pytest.TempPathFactory,
@@ -50,17 +61,16 @@ def test_services_actions_parameters_and_timers_have_a_bound(
     built = built_tasks(home, application=APPLICATION)
     (example,) = (built.out / "examples").glob("*/main.c")
     image = built.link(C_FILES / "linked_tasks.c", home / "services.elf", "-include", str(example))
-    rows = holds_of(built, image)
-    assert all(row["open"] == [] and row["instructions"] > 1000 for row in rows.values()), rows
-    first = {hold["function"]: hold["instructions"] for hold in reversed(rows["control"]["holds"])}
+    elf = Elf(image)
+    report = measure_folder(read_folder(built.out, image), elf)
+    rows = task_holds(report, elf, port=0)
+    assert all(row.open == () and (row.instructions or 0) > 1000 for row in rows), rows
+    first = of_control(rows)
     assert set(first) >= HOLDING, sorted(first)
     header = built.out / "include" / "microros_config.h"
     text, changed = re.subn(r"(#define MICROROS_REQUESTS_MAX) \d+u", r"\1 400u", header.read_text())
     assert changed == 1, "the outstanding requests of all clients"
     header.write_text(text)
-    more = {
-        hold["function"]: hold["instructions"]
-        for hold in reversed(holds_of(built, image)["control"]["holds"])
-    }
+    more = of_control(task_holds(report, elf, port=0))
     assert more["rclc_action_client_take"] > 10 * first["rclc_action_client_take"], "the comments are read"
     assert more["rcl_timer_call_with_info"] == first["rcl_timer_call_with_info"]
