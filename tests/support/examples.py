@@ -31,4 +31,9 @@ def examples(full: int, least: int | None = None, part: int = 5) -> int:
 
 def some(items: Sequence[Item], every: int = 4) -> Sequence[Item]:
     """Return one of `every` items, the first included; all of them where a test draws all examples."""
-    return items if os.environ.get(EXAMPLES) == "all" else items[::every]
+    return items if draws_all() else items[::every]
+
+
+def draws_all() -> bool:
+    """Return whether a test draws all examples, as in `make system`."""
+    return os.environ.get(EXAMPLES) == "all"
