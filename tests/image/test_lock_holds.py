@@ -4,11 +4,15 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+
+from microros_gen.cli import locks
+from microros_gen.image.folder import Folder
+from microros_gen.image.lock_holds import TaskHold
+from tests.support.command_line import Runner
 
 APPLICATION = """\
 version: 1
@@ -26,21 +30,31 @@ tasks:
 """
 
 
-def run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    call = [sys.executable, "-m", "microros_gen", *arguments]
-    return subprocess.run(call, cwd=folder, text=True, capture_output=True, check=False)
+@pytest.fixture
+def analysed_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let two calls of `locks` in this process share the analysis of the one image."""
+    found: list[Sequence[TaskHold]] = []
+    measured = locks._measured
+
+    def once(image: Folder, port: int | None) -> Sequence[TaskHold]:
+        if not found:
+            found.append(measured(image, port))
+        return found[0]
+
+    monkeypatch.setattr(locks, "_measured", once)
 
 
 @pytest.mark.system
-def test_what_a_shared_library_has_is_no_bound(tmp_path: Path) -> None:
-    (tmp_path / "microros.yaml").write_text(APPLICATION, encoding="utf-8")
-    assert run(tmp_path, "build", "-o", "out").returncode == 0
-    done = run(tmp_path, "locks", "out", "--format", "json")
-    assert done.returncode == 0, "no task has `lock: auto`"
-    assert done.stderr.count("[MG-9874]") == 1
-    assert done.stderr.startswith("microros.yaml:11:5: warning: how long a task holds the lock has no bound")
-    assert "  - {name: control, executor: motor, rate: 1 kHz}\n" in done.stderr
-    rows = {row["task"]: row for row in json.loads(done.stdout)["tasks"]}
+@pytest.mark.usefixtures("analysed_once")
+def test_what_a_shared_library_has_is_no_bound(folder: Path, run: Runner) -> None:
+    (folder / "microros.yaml").write_text(APPLICATION, encoding="utf-8")
+    assert run("build", "-o", "out").status == 0
+    done = run("locks", "out", "--format", "json")
+    assert done.status == 0, "no task has `lock: auto`"
+    assert done.err.count("[MG-9874]") == 1
+    assert done.err.startswith("microros.yaml:11:5: warning: how long a task holds the lock has no bound")
+    assert "  - {name: control, executor: motor, rate: 1 kHz}\n" in done.err
+    rows = {row["task"]: row for row in json.loads(done.out)["tasks"]}
     assert all(row["instructions"] is None for row in rows.values())
     named = rows["control"]["open"]
     assert "memcpy: in a shared library, whose code is not in the image" in named
@@ -49,5 +63,5 @@ def test_what_a_shared_library_has_is_no_bound(tmp_path: Path) -> None:
     assert 1 < bounds["task_count"] < 200, "nothing of a library is called within it"
     timers = [hold for hold in rows["control"]["holds"] if hold["function"] == "rcl_timer_call_with_info"]
     assert timers[0]["instructions"] > 500, "its loops have bounds, and it calls nothing of a library"
-    table = run(tmp_path, "locks", "out").stdout
+    table = run("locks", "out").out
     assert "more (--format json)" in table

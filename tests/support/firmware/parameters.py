@@ -123,13 +123,15 @@ def cost(builds: Builds, name: str, kind: str, messages: bool) -> tuple[float, f
         _of_types(builds, name, lines, messages),
         _of_types(builds, name, [*lines, *more], messages),
     )
-    return (after.flash - before.flash) / MORE, (after.size.ram - before.size.ram) / MORE
+    flash = after.text + after.data - before.text - before.data
+    return flash / MORE, (after.ram - before.ram) / MORE
 
 
-def _of_types(builds: Builds, name: str, lines: list[str], messages: bool) -> Taken:
+def _of_types(builds: Builds, name: str, lines: list[str], messages: bool) -> Sections:
     head, _, _ = APPLICATION.partition("      - ")
     text = "\n".join([head.rstrip(), *lines]) + "\n"
-    return taken(builds, name, (), text + ("" if messages else FOUR))
+    built = builds.build(name, text + ("" if messages else FOUR))
+    return image_sections(built, builds.application(built, "parameters.c"))
 
 
 def _line(name: str, kind: str) -> str:
