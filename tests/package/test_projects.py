@@ -117,7 +117,7 @@ endfunction()
 
 @pytest.mark.parametrize("has_sources", first([True, False]))
 def test_a_project_of_platformio_builds(run: Runner, folder: Path, tmp_path: Path, has_sources: bool) -> None:
-    """By `pio run`, for this computer; sources of its own are a sketch with its own message, and a header elsewhere."""
+    """By `pio run`, for this computer; with a sketch that has its message, and a header elsewhere; or without."""
     example = ROOT / "examples" / "platformio"
     sources = tmp_path / "old"
     shutil.copytree(example / "src", sources / "src")
