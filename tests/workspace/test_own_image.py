@@ -43,6 +43,12 @@ def sized(project: Project, *words: str | Path) -> Any:
     return data
 
 
+@pytest.fixture(scope="module")
+def whole(project: Project) -> Any:
+    """What `size` says of the build folder as it is after the first build."""
+    return sized(project, project.build_folder)
+
+
 def totals(program: str, image: Path) -> dict[str, int]:
     """Return what the tool chain's own `size` says."""
     line = subprocess.run([program, "-B", image], capture_output=True, text=True, check=True).stdout
@@ -54,9 +60,8 @@ def owners(data: Mapping[str, Any], group: str) -> dict[str, int]:
     return {o["name"]: o["flash"] for o in data["owners"] if o["group"] == group}
 
 
-def test_size_of_a_build_folder_is_that_of_its_own_image(project: Project) -> None:
-    image = project.build_folder / "app"
-    data = sized(project, project.build_folder)
+def test_size_of_a_build_folder_is_that_of_its_own_image(project: Project, whole: Any) -> None:
+    image, data = project.build_folder / "app", whole
     assert data["image"] == str(image)
     assert data["totals"] == totals("size", image)
     assert {"publish", "session", "timers", "support"} <= set(owners(data, "component"))
@@ -70,8 +75,8 @@ def test_size_of_a_build_folder_is_that_of_its_own_image(project: Project) -> No
 
 
 @pytest.mark.system
-def test_its_stack_counts_the_callbacks_of_the_application(project: Project) -> None:
-    stack = sized(project, project.build_folder)["stack"]
+def test_its_stack_counts_the_callbacks_of_the_application(whole: Any) -> None:
+    stack = whole["stack"]
     assert stack["known"]
     chain = [link["function"] for link in stack["main"]["chain"]]
     assert chain[0] == "main"
@@ -80,33 +85,28 @@ def test_its_stack_counts_the_callbacks_of_the_application(project: Project) -> 
 
 
 @pytest.mark.system
-def test_the_output_folder_in_it_and_its_image_are_the_same(project: Project) -> None:
-    whole = sized(project, project.build_folder)
+def test_the_output_folder_in_it_and_its_image_are_the_same(project: Project, whole: Any) -> None:
     assert sized(project, project.out) == whole
     assert sized(project, project.build_folder, "--image", project.build_folder / "app") == whole
 
 
 @pytest.mark.system
-def test_a_page_with_its_treemaps(project: Project) -> None:
-    text = tool(project, "size", project.build_folder, "--format", "html").stdout
+def test_the_commands_of_the_page(project: Project) -> None:
+    """All but `run`, which is below. One writes a page with treemaps."""
+    (block,) = re.findall(r"^```console\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
+    lines = [line.removeprefix("$ microros-gen ").split() for line in block.splitlines()]
+    assert [words[0] for words in lines] == ["size", "size", "explain", "run"]
+    for words in lines[:-1]:
+        tool(project, *(project.build_folder if word == "build/app" else word for word in words))
+    text = (project.source / "size.html").read_text()
+    assert len(text) > 10_000
     assert "<title>Sizes of " in text
     assert re.search(r"<title>app\.c\.o \(application\): \d+ bytes</title>", text)
     assert re.search(r"<title>publish \(component\): \d+ bytes</title>", text)
 
 
 @pytest.mark.system
-def test_the_commands_of_the_page(project: Project) -> None:
-    """All but `run`, which is below."""
-    (block,) = re.findall(r"^```console\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
-    lines = [line.removeprefix("$ microros-gen ").split() for line in block.splitlines()]
-    assert [words[0] for words in lines] == ["size", "size", "explain", "run"]
-    for words in lines[:-1]:
-        tool(project, *(project.build_folder if word == "build/app" else word for word in words))
-    assert (project.source / "size.html").stat().st_size > 10_000
-
-
-@pytest.mark.system
-def test_explain_names_the_way_from_its_main(project: Project) -> None:
+def test_explain_names_the_way_from_its_main(project: Project, whole: Any) -> None:
     output = json.loads(
         tool(project, "explain", project.build_folder, "rcl_publish", "--format", "json").stdout
     )
@@ -114,14 +114,13 @@ def test_explain_names_the_way_from_its_main(project: Project) -> None:
     assert output["chain"][0] == "main"
     assert output["place"].startswith("src/publish/rcl_publisher.c:")
     own = json.loads(tool(project, "explain", project.build_folder, "app.c", "--format", "json").stdout)
-    assert own["flash"] == owners(sized(project, project.build_folder), "application")["app.c.o"]
+    assert own["flash"] == owners(whole, "application")["app.c.o"]
     assert "publish" in {part["name"] for part in own["holds"]}
 
 
 @pytest.mark.system
-def test_without_a_map_symbols_tell(project: Project) -> None:
-    image = project.build_folder / "app"
-    mapped = sized(project, project.build_folder)
+def test_without_a_map_symbols_tell(project: Project, whole: Any) -> None:
+    image, mapped = project.build_folder / "app", whole
     linker_map = image.with_suffix(".map")
     hidden = linker_map.rename(linker_map.with_suffix(".hidden"))
     try:
