@@ -560,9 +560,9 @@ def covered(trees: Sequence[Tree]) -> set[str]:
     return {s.removeprefix("src/") for tree in trees for s in tree.sources if s.startswith("src/")}
 
 
-def run(command: Sequence[str], folder: Path) -> subprocess.CompletedProcess[str]:
-    """Run `command` in `folder`, whatever it returns."""
-    return subprocess.run(list(command), cwd=folder, text=True, capture_output=True, check=False)
+def run(command: Sequence[str], folder: Path, given: str = "") -> subprocess.CompletedProcess[str]:
+    """Run `command` in `folder` with the input `given`, whatever it returns."""
+    return subprocess.run(list(command), cwd=folder, input=given, text=True, capture_output=True, check=False)
 
 
 @dataclass(frozen=True)
@@ -640,24 +640,32 @@ def keys(sources: Sequence[tuple[Tree, str]]) -> list[str]:
 
 
 def analyze(tool: str, each: Sequence[Unit], check: Callable[[Unit], str]) -> dict[str, str]:
+    """Return what `check` says of each different unit, by key."""
+    return analyze_together(tool, each, lambda group: [check(unit) for unit in group], 1)
+
+
+def analyze_together(
+    tool: str, each: Sequence[Unit], check: Callable[[Sequence[Unit]], Sequence[str]], size: int
+) -> dict[str, str]:
     """Return what `check` says of each different unit, by key; answers are kept in build/quality.
 
-    `tool` names the check, its version and its rules: another name, another answer.
+    `check` gets up to `size` units without an answer. `tool` names the check, its version and its rules: another
+    name, another answer.
     """
     folder = CACHE / hashlib.sha256(tool.encode()).hexdigest()[:16]
     folder.mkdir(parents=True, exist_ok=True)
-
-    def answer(unit: Unit) -> str:
-        kept = folder / unit.key
-        if kept.is_file():
-            return kept.read_text(encoding="utf-8")
-        text = check(unit)
-        fresh = kept.with_suffix(f".{unit.tree.name}")
-        fresh.write_text(text, encoding="utf-8")
-        fresh.replace(kept)
-        return text
-
     different = {unit.key: unit for unit in reversed(each)}
+    missing = [unit for key, unit in different.items() if not (folder / key).is_file()]
+    number = -(-len(missing) // size)
+    # Neighbours take similarly long, so no group has them together.
+    groups = [missing[at::number] for at in range(number)]
+
+    def answer(group: Sequence[Unit]) -> None:
+        for unit, text in zip(group, check(group), strict=True):
+            fresh = folder / f"{unit.key}.{unit.tree.name}"
+            fresh.write_text(text, encoding="utf-8")
+            fresh.replace(folder / unit.key)
+
     with ThreadPoolExecutor(WORKERS) as pool:
-        texts = pool.map(answer, different.values())
-        return dict(zip(different, texts, strict=True))
+        list(pool.map(answer, groups))
+    return {key: (folder / key).read_text(encoding="utf-8") for key in different}

@@ -20,13 +20,16 @@ from pathlib import Path
 import yaml
 
 from tests.support.paths import ROOT, TESTS
-from tests.support.quality.corpus import Tree, Unit, analyze, configuration_flags, run
+from tests.support.quality import misra_addon
+from tests.support.quality.corpus import Tree, Unit, analyze_together, configuration_flags, run
 
 DEVIATIONS = TESTS / "quality" / "misra-deviations.yaml"
 PAGE = ROOT / "docs" / "verification" / "quality.md"
 OPTIONS = ("--std=c99", "--platform=unix32", "-U__cplusplus", "-Iinclude")
 BEGIN, END = "<!-- misra: begin -->\n", "<!-- misra: end -->\n"
 SEPARATOR = "\n--\n"
+TOGETHER = 20
+"""Files that one process of the addon reads."""
 
 # Categories of MISRA C:2012; every rule that is in neither is required.
 MANDATORY = frozenset(
@@ -104,15 +107,21 @@ def checked_rules(addon: Path) -> tuple[list[str], list[str]]:
     return [r for r, by in rows if by == "Addon"], [r for r, by in rows if by == "Cppcheck"]
 
 
-def _check(unit: Unit, addon: Path) -> str:
-    """Return the findings in one file, a line each, and what the addon wants to know of the whole program."""
-    tree = unit.tree.out
-    dumped = run(["cppcheck", "-q", *OPTIONS, *configuration_flags(unit), "--dump", unit.source], tree)
-    assert dumped.returncode == 0, dumped.stderr
-    reported = run([sys.executable, str(addon), "--cli", f"{unit.source}.dump"], tree)
-    assert reported.returncode in (0, 1), f"{unit.source}: {reported.stderr}"
-    whole = (tree / f"{unit.source}.ctu-info").read_text(encoding="utf-8")
-    return reported.stdout + SEPARATOR + whole
+def _check(group: Sequence[Unit], addon: Path) -> list[str]:
+    """Return the findings in each file, a line each, and what the addon wants to know of the whole program."""
+    for unit in group:
+        command = ["cppcheck", "-q", *OPTIONS, *configuration_flags(unit), "--dump", unit.source]
+        dumped = run(command, unit.tree.out)
+        assert dumped.returncode == 0, dumped.stderr
+    places = json.dumps([(str(unit.tree.out), f"{unit.source}.dump") for unit in group])
+    reported = run([sys.executable, "-m", misra_addon.__name__, str(addon)], ROOT, places)
+    assert reported.returncode == 0, reported.stderr
+    found = zip(group, json.loads(reported.stdout), strict=True)
+    return [findings + SEPARATOR + _summary(unit) for unit, findings in found]
+
+
+def _summary(unit: Unit) -> str:
+    return (unit.tree.out / f"{unit.source}.ctu-info").read_text(encoding="utf-8")
 
 
 def _findings(text: str) -> set[tuple[str, str, int, int]]:
@@ -149,7 +158,8 @@ def check(trees: Sequence[Tree], every: Sequence[Unit], is_whole: bool = True) -
     """
     addon = find_addon()
     assert addon is not None, "cppcheck is not installed, or without its addons"
-    answers = analyze(f"misra {tool_version()} {OPTIONS}", every, lambda unit: _check(unit, addon))
+    tool = f"misra {tool_version()} {OPTIONS}"
+    answers = analyze_together(tool, every, lambda group: _check(group, addon), TOGETHER)
     places: Places = Counter()
     for tree in trees:
         parts = [answers[unit.key].split(SEPARATOR) for unit in every if unit.tree == tree]
