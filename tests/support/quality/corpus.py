@@ -560,9 +560,11 @@ def covered(trees: Sequence[Tree]) -> set[str]:
     return {s.removeprefix("src/") for tree in trees for s in tree.sources if s.startswith("src/")}
 
 
-def run(command: Sequence[str], folder: Path, given: str = "") -> subprocess.CompletedProcess[str]:
-    """Run `command` in `folder` with the input `given`, whatever it returns."""
-    return subprocess.run(list(command), cwd=folder, input=given, text=True, capture_output=True, check=False)
+def run(command: Sequence[str], folder: Path, standard_input: str = "") -> subprocess.CompletedProcess[str]:
+    """Run `command` in `folder` with `standard_input`, whatever it returns."""
+    return subprocess.run(
+        list(command), cwd=folder, input=standard_input, text=True, capture_output=True, check=False
+    )
 
 
 @dataclass(frozen=True)
@@ -657,7 +659,7 @@ def analyze_together(
     different = {unit.key: unit for unit in reversed(each)}
     missing = [unit for key, unit in different.items() if not (folder / key).is_file()]
     number = -(-len(missing) // size)
-    # Neighbours take similarly long, so no group has them together.
+    # Neighbors take similarly long, so no group has them together.
     groups = [missing[at::number] for at in range(number)]
 
     def answer(group: Sequence[Unit]) -> None:

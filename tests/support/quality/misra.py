@@ -114,7 +114,8 @@ def _check(group: Sequence[Unit], addon: Path) -> list[str]:
         dumped = run(command, unit.tree.out)
         assert dumped.returncode == 0, dumped.stderr
     places = json.dumps([(str(unit.tree.out), f"{unit.source}.dump") for unit in group])
-    reported = run([sys.executable, "-m", misra_addon.__name__, str(addon)], ROOT, places)
+    python = ["env", f"PYTHONPATH={addon.parent}", sys.executable]
+    reported = run([*python, "-m", misra_addon.__name__], ROOT, places)
     assert reported.returncode == 0, reported.stderr
     found = zip(group, json.loads(reported.stdout), strict=True)
     return [findings + SEPARATOR + _summary(unit) for unit, findings in found]
