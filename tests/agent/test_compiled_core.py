@@ -247,18 +247,9 @@ def test_it_passes_the_tests_of_the_core_in_python(tree: Path, tmp_path: Path) -
     assert answer.stdout == "compiled\n"
     modules = [f"tests/agent/{name}.py" for name in MODULES]
     # Without a separate folder, pytest would delete what earlier runs of the whole suite have left: for minutes.
-    separate = ("--basetemp", str(tmp_path / "inner"))
+    options = ("-m", "not long and not system and not variant", "--basetemp", str(tmp_path / "inner"))
     tested = subprocess.run(
-        [
-            sys.executable,
-            "-m",
-            "pytest",
-            "-q",
-            "-m",
-            "not long and not system and not variant",
-            *separate,
-            *modules,
-        ],
+        [sys.executable, "-m", "pytest", "-q", *options, *modules],
         cwd=tree,
         capture_output=True,
         text=True,

@@ -34,7 +34,7 @@ from tests.support.paths import ROOT
 from tests.support.patience import deadline, seconds
 from tests.support.quality.corpus import APPLICATIONS
 from tests.support.runtime.reading_agent import ReadingAgent
-from tests.support.slices import spread_rows
+from tests.support.slices import first, spread_rows
 
 FLASH, RAM = 32 * 1024, 2048
 ROOM = {UNO: (FLASH, RAM), MEGA: (256 * 1024, 8192)}
@@ -117,7 +117,7 @@ def test_a_stack_without_room_is_an_error(tmp_path: Path) -> None:
 
 
 @pytest.mark.system
-@pytest.mark.parametrize("name", [UNO, pytest.param(MEGA, marks=pytest.mark.variant)])
+@pytest.mark.parametrize("name", first([UNO, MEGA]))
 @pytest.mark.parametrize(
     "application",
     [

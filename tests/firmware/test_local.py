@@ -7,6 +7,7 @@ import pytest
 
 from tests.support.firmware.board import Builds, need
 from tests.support.firmware.local import way
+from tests.support.slices import spread_rows
 
 NAME = "qemu-mps2-an386"
 
@@ -14,12 +15,9 @@ NAME = "qemu-mps2-an386"
 @pytest.mark.system
 @pytest.mark.parametrize(
     ("message", "transport", "most"),
-    [
-        ("Int32", "serial", 0.09),
-        pytest.param("Pose", "serial", 0.05, marks=pytest.mark.variant),
-        pytest.param("Int32", "udp", 0.30, marks=pytest.mark.variant),
-        pytest.param("Pose", "udp", 0.29, marks=pytest.mark.variant),
-    ],
+    spread_rows(
+        [("Int32", "serial", 0.09), ("Pose", "serial", 0.05), ("Int32", "udp", 0.30), ("Pose", "udp", 0.29)]
+    ),
 )
 def test_its_instructions(builds: Builds, message: str, transport: str, most: float) -> None:
     """Goal: a tenth of the way over the agent; met on a serial line, not over UDP, where that way is shortest."""

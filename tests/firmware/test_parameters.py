@@ -13,7 +13,7 @@ from tests.support.firmware.board import Builds, board, need
 from tests.support.firmware.parameters import ADDED, APPLICATION, cost, taken, work
 from tests.support.firmware.running import started
 from tests.support.patience import deadline
-from tests.support.slices import beyond, only
+from tests.support.slices import beyond, first, only
 
 NAME = "qemu-mps2-an386"
 DEVICE = "/arm/device"
@@ -47,10 +47,7 @@ def changed(peer: ParameterPeer, count: int) -> list[Any]:
 
 @pytest.mark.system
 @pytest.mark.ros
-@pytest.mark.parametrize(
-    "flags",
-    [pytest.param((), id="declared"), pytest.param(ADDED, id="added", marks=pytest.mark.variant)],
-)
+@pytest.mark.parametrize("flags", first([(), ADDED]), ids=["declared", "added"])
 def test_rclpy_sets_what_the_firmware_uses(builds: Builds, domain: int, flags: tuple[str, ...]) -> None:
     built = builds.merged(NAME, APPLICATION)
     need(NAME, emulator=True)

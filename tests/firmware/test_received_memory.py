@@ -12,7 +12,7 @@ import pytest
 
 from tests.support.firmware.board import Builds, Built, need
 from tests.support.firmware.footprint import image_sections
-from tests.support.slices import first
+from tests.support.slices import first, spread_rows
 
 CORTEX_M4 = "qemu-mps2-an386"
 GOAL = 2.5
@@ -119,8 +119,7 @@ def test_a_queue_of_bytes_takes_what_it_is_given(builds: Builds) -> None:
 
 @pytest.mark.system
 @pytest.mark.parametrize(
-    ("line", "loaned"),
-    [("udp, best effort", True), pytest.param("udp, reliable", False, marks=pytest.mark.variant)],
+    ("line", "loaned"), spread_rows([("udp, best effort", True), ("udp, reliable", False)])
 )
 def test_size_counts_a_slot_in_the_input_buffer_once(builds: Builds, line: str, loaned: bool) -> None:
     """Samples that wait there take no memory of the subscription."""

@@ -15,6 +15,7 @@ from tests.support.slices import first
 
 TEXT_FLAG = "-DMEASURED_TEXTS"
 FULL = "string: 40, sequence: 8"
+SMALLER = ("string: 40, sequence: 4", "string: 20, sequence: 8", "string: 20, sequence: 4")
 CLOSE = 3
 """How far above the fullest message its bound may be: each copy supposes the worst addresses."""
 NAMES = ("control", "worker", "session")
@@ -62,7 +63,7 @@ def test_no_hold_with_texts_and_sequences_is_longer_than_the_call_graph_says(
 
 
 @pytest.mark.system
-@pytest.mark.parametrize("limits", first(["string: 40, sequence: 4", "string: 20, sequence: 8"]))
+@pytest.mark.parametrize("limits", first(SMALLER))
 def test_the_bound_grows_with_the_limits(held: Mapping[str, Any], tmp_path: Path, limits: str) -> None:
     smaller = built_tasks(tmp_path, application=TEXTS.replace(FULL, limits))
     image = smaller.link(C_FILES / "measured_tasks.c", tmp_path / "texts.elf", TEXT_FLAG)

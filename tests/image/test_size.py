@@ -35,7 +35,7 @@ from microros_gen.toolchain.toolchain import find_toolchain
 from tests.support.firmware.board import shared_builds
 from tests.support.image.size_images import APPLICATION, BOARDS, PROBE, build, tool
 from tests.support.matrix import has
-from tests.support.slices import first
+from tests.support.slices import first, spread_rows
 
 pytestmark = [
     pytest.mark.skipif(not has("gcc") or not has("size"), reason="no gcc or no size"),
@@ -306,7 +306,7 @@ def of_board(tmp_path_factory: pytest.TempPathFactory) -> Measured:
 @pytest.mark.system
 @pytest.mark.parametrize(
     ("board", "words"),
-    [("qemu-mps2-an386", 27), pytest.param("qemu-mps2-an385", 9, marks=pytest.mark.variant)],
+    spread_rows([("qemu-mps2-an386", 27), ("qemu-mps2-an385", 9)]),
     ids=["with floating-point unit", "without"],
 )
 def test_a_board_starts_at_reset_and_counts_its_interrupts(

@@ -266,12 +266,12 @@ def test_the_proof_and_the_simulation_leave_it_alone() -> None:
     assert Status("active", "SAFE") == active("SAFE")
 
 
-@pytest.mark.parametrize("first", first(["active.SAFE", "active.FAST", "inactive", "unconfigured"]))
-def test_the_proof_and_the_simulation_end_alike(first: str) -> None:
+@pytest.mark.parametrize("changed_to", first(["active.SAFE", "active.FAST", "inactive", "unconfigured"]))
+def test_the_proof_and_the_simulation_end_alike(changed_to: str) -> None:
     """After every sequence of three changes by others: a reaction is over in the target, and after a reset."""
     model, found = model_of(CELL), dict[str, str]()
     statuses = [active("SAFE"), active("FAST"), Status("inactive"), Status("unconfigured")]
-    for changes in product([s for s in statuses if str(s) == first], statuses, statuses):
+    for changes in product([s for s in statuses if str(s) == changed_to], statuses, statuses):
         manager = Manager(model)
         list(manager.request("cell", RUN))
         for status in changes:

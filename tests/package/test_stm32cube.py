@@ -273,7 +273,7 @@ def counted(observer: Observer, transport: Sequence[str], domain: int) -> list[i
 @pytest.mark.ros
 @pytest.mark.builds
 @pytest.mark.system
-@pytest.mark.parametrize("transport", ["usb_cdc", pytest.param("udp", marks=pytest.mark.variant)])
+@pytest.mark.parametrize("transport", first(["usb_cdc", "udp"]))
 def test_the_example_reaches_ros_over_usb_and_udp(transport: str, tmp_path: Path) -> None:
     """Before the agent is there, with it, and with the next one.
 

@@ -23,7 +23,7 @@ from tests.support.runtime.harness import (
     link,
     render,
 )
-from tests.support.slices import only
+from tests.support.slices import only, spread_rows
 
 UNWARNED = ("-Os", "-Wno-error")
 """Warnings of gcc that inline what is in other files are no matter of symbols."""
@@ -285,9 +285,7 @@ ARM = ("-mcpu=cortex-m4", "-mthumb", "-Os")
 
 @pytest.mark.system
 @pytest.mark.skipif(not shutil.which("arm-none-eabi-gcc"), reason="no cross compiler")
-@pytest.mark.parametrize(
-    ("error_text_size", "most"), [(160, 9700), pytest.param(0, 8300, marks=pytest.mark.variant)]
-)
+@pytest.mark.parametrize(("error_text_size", "most"), spread_rows([(160, 9700), (0, 8300)]))
 def test_size_on_a_cortex_m4(error_text_size: int, most: int, tmp_path: Path) -> None:
     """Of the library in a pure sender, without a port: two publishers, memcpy and memset of newlib included."""
     plan = changed(

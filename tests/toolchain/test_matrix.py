@@ -11,7 +11,7 @@ import pytest
 from microros_gen.toolchain.toolchain import WARNINGS
 from tests.support.matrix import ALSO, VARIANTS, Tree, check, compile_tree, has
 from tests.support.paths import ROOT
-from tests.support.slices import spread
+from tests.support.slices import spread, spread_rows
 
 pytestmark = pytest.mark.builds
 
@@ -211,10 +211,7 @@ def test_a_project_of_the_user_takes_it_in_as_a_subdirectory(tree_of: TreeOf, tm
 @pytest.mark.skipif(not has("arm-none-eabi-gcc"), reason="no arm-none-eabi-gcc")
 @pytest.mark.parametrize(
     ("name", "cpu"),
-    [
-        pytest.param("pool-none-drop-code-arena-device", "cortex-m0plus", marks=pytest.mark.variant),
-        ("demo", "cortex-m4f"),
-    ],
+    spread_rows([("demo", "cortex-m4f"), ("pool-none-drop-code-arena-device", "cortex-m0plus")]),
 )
 def test_a_cortex_m_compiler_takes_all_but_the_posix_port(
     tree_of: TreeOf, tmp_path: Path, name: str, cpu: str
