@@ -60,6 +60,14 @@ SYSTEM = (
     *("howto/transforms.md", "howto/ros_tools.md"),
     *("howto/component.md", "howto/lifecycle.md", "howto/logging.md", "howto/migrate.md", "howto/modes.md"),
     *("howto/node_modes.md", "howto/parameter_server.md", "howto/port.md", "howto/profile.md"),
+    *(
+        "howto/arduino.md",
+        "howto/interface.md",
+        "howto/local_delivery.md",
+        "howto/package.md",
+        "howto/seal.md",
+    ),
+    *("howto/selftest.md", "howto/stm32cube.md", "howto/zephyr.md"),
 )
 """Pages whose commands start compilers and servers, of which quick_start.md and the tests of these parts have the
 shorter sibling."""

@@ -295,6 +295,7 @@ def test_levels_of_what_one_system_sees_leave_nothing_open(tmp_path: Path) -> No
     assert [d.id for d in report.diagnostics] == ["MG-8844"]
 
 
+@pytest.mark.system
 def test_too_many_levels_of_what_both_see_leave_such_a_cycle_open(tmp_path: Path) -> None:
     upper = more_rules("too", "active.LIT", "lamp, inactive")
     report = checked(tmp_path, changed(LOWER, "      on: {", upper + "      on: {"))

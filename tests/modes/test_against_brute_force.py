@@ -8,6 +8,7 @@ from dataclasses import replace
 from fnmatch import fnmatchcase
 from itertools import combinations, pairwise, product
 
+import pytest
 from hypothesis import HealthCheck, assume, example, given, settings
 from hypothesis import strategies as st
 
@@ -121,6 +122,7 @@ def outside_levels() -> Iterator[dict[str, dict[str, str]]]:
         yield {f"hardware {hardware}": {name: next(each) for name in names} for hardware in HARDWARE}
 
 
+@pytest.mark.system
 @settings(max_examples=examples(150, 15, part=10), deadline=None, suppress_health_check=list(HealthCheck))
 @given(outside_models(systems=1))
 def test_the_proof_finds_exactly_the_oscillations_with_what_is_no_part(plain: PlainModel) -> None:
@@ -128,6 +130,7 @@ def test_the_proof_finds_exactly_the_oscillations_with_what_is_no_part(plain: Pl
     check_oscillations(plain, outside_levels)
 
 
+@pytest.mark.system
 @settings(max_examples=examples(60, 6, part=10), deadline=None, suppress_health_check=list(HealthCheck))
 @given(outside_models())
 def test_the_proof_finds_exactly_the_oscillations_where_two_systems_see_what_is_no_part(

@@ -169,6 +169,7 @@ def test_the_examples_fit_a_mega(sketchbook: Path, name: str) -> None:
     assert sketch.flash <= 32 * 1024
 
 
+@pytest.mark.system
 @pytest.mark.ros
 @pytest.mark.builds
 def test_a_mega_answers(sketchbook: Path, observer: Observer, domain: int) -> None:

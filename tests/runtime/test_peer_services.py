@@ -153,6 +153,7 @@ def test_a_server_that_restarts(programs: tuple[Path, Path], relay: Relay) -> No
             assert client.counts()[1] == 2
 
 
+@pytest.mark.system
 def test_the_reply_to_a_client_that_has_restarted_is_dropped(
     programs: tuple[Path, Path], relay: Relay
 ) -> None:

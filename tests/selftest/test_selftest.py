@@ -484,6 +484,7 @@ def test_a_connection_that_is_refused(outputs: Path) -> None:
     check_faults(program, TCP_FAULTS)
 
 
+@pytest.mark.system
 def test_multicast(outputs: Path) -> None:
     text = f"{HEAD.replace('pure_reader', 'ad_hoc_discoverable_sender, pure_reader')}{SMALL}"
     out = generated(outputs / "multicast", text)
@@ -492,6 +493,7 @@ def test_multicast(outputs: Path) -> None:
     check_faults(program, MULTICAST_FAULTS)
 
 
+@pytest.mark.system
 def test_a_controller_that_is_looped(outputs: Path) -> None:
     with CanBus(outputs / "bus") as bus:
         out = generated(
@@ -507,6 +509,7 @@ def test_a_controller_that_is_looped(outputs: Path) -> None:
     assert (word, why.startswith("seen no controller expected the controller 'unix:")) == ("FAIL", True)
 
 
+@pytest.mark.system
 def test_a_bus_that_is_removed_and_returns(outputs: Path) -> None:
     with CanBus(outputs / "bus2") as bus:
         text = f"{HEAD}transport: {{type: canfd, id: 0x7f, device: '{bus.device}'}}\n{SMALL}"
@@ -519,6 +522,7 @@ def test_a_bus_that_is_removed_and_returns(outputs: Path) -> None:
         check_faults(program, CAN_LINK_FAULTS)
 
 
+@pytest.mark.system
 def test_storage_is_tested_where_a_slot_is_free(outputs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     parameters = SMALL.replace("name: device,", "name: device, parameters: [{name: on, type: bool}],")
     out = generated(outputs / "storage", f"{HEAD}components: [+parameter_storage]\n{parameters}")
@@ -588,6 +592,7 @@ def test_the_ports_to_boards_pass(outputs: Path, name: str) -> None:
     }
 
 
+@pytest.mark.system
 def test_the_checks_of_a_board_fail(outputs: Path) -> None:
     name = "qemu-mps2-an386"
     for fault, wanted in BOARD_FAULTS.items():
