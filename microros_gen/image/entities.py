@@ -73,10 +73,7 @@ _CLIENT = "xrce_client_t"
 _MEMBERS = {
     "reliable": "reliable stream",
     "reliable_input": "input stream",
-    "input": INPUT_BUFFER,
     "latest": INPUT_BUFFER,
-    "slots": "queues",
-    "queues": "queues",
     "requests": "requests under way",
 }
 

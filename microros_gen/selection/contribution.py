@@ -90,7 +90,7 @@ HOOK_POINTS: Mapping[str, HookPoint] = MappingProxyType(
 )
 """Where components hook in; docs/architecture.md says when each is called."""
 
-STATE_SECTIONS = ("first", "streams", "input_streams", "parts", "tables", "queues", "services", "input")
+STATE_SECTIONS = ("first", "streams", "input_streams", "parts", "tables", "queues", "services")
 HANDLE_SECTIONS = ("handle", "handle_callbacks", "handle_data", "goal_handle", "wait_set")
 TRANSPORT_SECTIONS = ("transport", "line")
 """Sections of members of the client, of a handle of the executor or of a goal, of a wait set, and of the transport."""
@@ -129,7 +129,7 @@ class HookHeader(Conditional):
 class State(Conditional):
     """A member of the client (microros/xrce_client.h), as C declares it: `uint8_t creation[MICROROS_CREATION_SIZE]`.
 
-    In the section `retained` it is an object with this name, which `header` declares.
+    In the section `retained` it is a variable with this name, which `header` declares.
 
     `clocks` are its fields that hold a moment of port_time_ms; of an array those of each element.
     """

@@ -135,6 +135,8 @@ class Moments:
 
     member: Member
     fields: tuple[str, ...]
+    owner: str
+    """What precedes its name in C: `client->`, or nothing for a variable."""
 
     @property
     def elements(self) -> str:
@@ -203,7 +205,7 @@ def contributed(components: Iterable[Component], values: Values) -> Contributed:
         retained_headers=tuple(
             sorted({s.header for s in states if s.header and s.section in RETAINED_SECTIONS})
         ),
-        moments=tuple(Moments(_member(s), s.clocks) for s in states if s.clocks),
+        moments=tuple(Moments(_member(s), s.clocks, _owner(s)) for s in states if s.clocks),
         kept=tuple(k for p in parts for k in p.kept if holds(k)),
         output={name: _output(name, outputs) for name in OUTPUT_FUNCTIONS},
         errors=errors,
@@ -255,6 +257,10 @@ def _steps(hooks: Iterable[Hook]) -> Iterator[Block]:
 
 def _member(state: State) -> Member:
     return Member(state.declaration, state.comment)
+
+
+def _owner(state: State) -> str:
+    return "" if state.section in RETAINED_SECTIONS else "client->"
 
 
 def _members(states: Iterable[State]) -> tuple[Member, ...]:

@@ -4,7 +4,6 @@
 #include "microros/error.h"
 #include "microros/lock.h"
 #include "microros/port.h"
-#include "microros/rmw_client.h"
 #include "microros/rmw_discovery.h"
 #include "microros/rmw_inquiry.h"
 #include "microros/rmw_transport.h"
@@ -63,7 +62,7 @@ rmw_ret_t rmw_discovery_find(rmw_uxrce_transport_params_t * params, uint32_t tim
   params->agent_address[0] = '\0';
   params->agent_port[0] = '\0';
   while (!found && port_time_ms() - start < timeout_ms) {
-    if (xrce_discovery_search(rmw_client_instance(), &search, port_time_ms())) {
+    if (xrce_discovery_search(&search, port_time_ms())) {
       found = discovery_try_next(&search, params);
     } else {
       microros_pause();

@@ -8,14 +8,10 @@
 #include "microros/rmw_subscription.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_loan.h"
+#include "microros/xrce_queue_memory.h"
 #include "microros/xrce_read.h"
 
 #include <string.h>
-
-/* Slots are multiples of four bytes, and so is the position of their storage: numbers of 8 bytes are off by 4 at most.
- * AVR aligns nothing. */
-CDR_STATIC_ASSERT(
-  rmw_loan_assert_queues_are_aligned, (offsetof(xrce_client_t, queues) % 4u == 0u) || (sizeof(void *) == 2u));
 
 static bool loan_is_little_endian_here(void)
 {
@@ -40,8 +36,8 @@ bool rmw_loan_is_possible(const rmw_subscription_t * subscription)
 static rmw_ret_t loan_decode(
   const xrce_endpoint_t * endpoint, const xrce_sample_t * sample, const rmw_loan_t * loan)
 {
-  uint8_t * queues = endpoint->client->queues;
-  uint8_t * body = &queues[(size_t)(sample->data - queues)];
+  /* A multiple of four: numbers of 8 bytes are off by 4 at most. */
+  uint8_t * body = xrce_queue_at((uint32_t)(sample->data - xrce_queue_at(0)));
   const bool swap = sample->big_endian == loan_is_little_endian_here();
   cdr_fault_t fault; /* set if the body is refused */
 

@@ -50,9 +50,8 @@ typedef struct xrce_discovery_t {
 bool xrce_discovery_step(xrce_client_t * client, uint32_t now);
 
 /* Sends the request when it is due and processes answers. Returns whether an untried locator exists. Uses
- * the input buffer of `client` during the call, if that is free; `discovery` need not belong to the
- * client. */
-bool xrce_discovery_search(xrce_client_t * client, xrce_discovery_t * discovery, uint32_t now);
+ * the input buffer during the call, if that is free; `discovery` need not belong to the client. */
+bool xrce_discovery_search(xrce_discovery_t * discovery, uint32_t now);
 
 /* Takes the next locator: writes its address to `host` as text, and returns its port. One must exist. */
 uint16_t xrce_discovery_take(xrce_discovery_t * discovery);

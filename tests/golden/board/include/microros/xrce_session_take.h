@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "microros/xrce_client.h"
+#include "microros/xrce_input.h"
 #include "microros/xrce_routes.h"
 #include "microros/xrce_turn_bytes.h"
 #include "microros/xrce_wire.h"
@@ -32,7 +33,7 @@ static inline bool session_take_message(
 static inline bool xrce_session_take(xrce_client_t * client, uint32_t now)
 {
   xrce_session_t * session = &client->session;
-  const int32_t size = xrce_transport_receive(&session->transport, client->input, MICROROS_INPUT_SIZE);
+  const int32_t size = xrce_transport_receive(&session->transport, xrce_input, MICROROS_INPUT_SIZE);
 
   if (size == 0) {
     return false;
@@ -42,7 +43,7 @@ static inline bool xrce_session_take(xrce_client_t * client, uint32_t now)
     return true;
   }
   ++session->statistics.received;
-  if (size < 0 || !session_take_message(client, client->input, (size_t)size, now)) {
+  if (size < 0 || !session_take_message(client, xrce_input, (size_t)size, now)) {
     ++session->statistics.malformed;
   }
   return true;

@@ -4,11 +4,14 @@
 #include "microros/lock.h"
 #include "microros/port.h"
 #include "microros/xrce_client.h"
+#include "microros/xrce_input.h"
 #include "microros/xrce_routes.h"
 #include "microros/xrce_session_take.h"
 #include "microros/xrce_wire.h"
 
 #include <string.h>
+
+uint8_t xrce_input[MICROROS_INPUT_BUFFER_SIZE];
 
 /* Whether the client has properties (0: none), then their names and values: strings, each aligned to four
  * bytes of the message. */

@@ -5,6 +5,7 @@
 #include "microros/port.h"
 #include "microros/rmw_client.h"
 #include "microros/xrce_client.h"
+#include "microros/xrce_input.h"
 #include "microros/xrce_wire.h"
 
 /* The agent's INFO has 36 bytes; anything longer than this is not an INFO. */
@@ -37,7 +38,7 @@ static void inquiry_send(xrce_transport_t * transport)
 static bool inquiry_attempt(xrce_transport_t * transport, uint32_t timeout_ms)
 {
   const uint32_t start = port_time_ms();
-  uint8_t * input = rmw_client_instance()->input; /* unused without a session */
+  uint8_t * input = xrce_input;
 
   inquiry_send(transport);
   for (;;) {

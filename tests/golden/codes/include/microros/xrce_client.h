@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A client: the state declared by the selected components, in storage sized by the plan. One session with
- * one agent. Except for handles of nodes and endpoints and the messages of the output streams (variables of
- * the streams' sources) this is the library's only state. Small members that loops go over precede the
- * session: their offsets have short instructions.
+ * A client: the state declared by the selected components. One session with one agent. The library's other
+ * state are handles of nodes and endpoints, and what the plan sizes by messages, as variables of the sources
+ * that use it: the input buffer, the samples of queues, the messages of output streams. Small members that
+ * loops go over precede the session: their offsets have short instructions.
  */
 #ifndef MICROROS_XRCE_CLIENT_H
 #define MICROROS_XRCE_CLIENT_H
@@ -27,7 +27,6 @@ struct xrce_client_t {
   uint32_t close_timeout_ms;
   xrce_participant_t participants[MICROROS_NODES_MAX];
   xrce_endpoint_t endpoints[XRCE_ENDPOINTS];
-  uint8_t input[MICROROS_INPUT_BUFFER_SIZE]; /* last: unused between pumps, except for a sample at its end */
 };
 
 #endif /* MICROROS_XRCE_CLIENT_H */

@@ -2,10 +2,14 @@
 /* The queues: rings of slots of one size each. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_loan.h"
+#include "microros/xrce_queue_memory.h"
 #include "microros/xrce_read.h"
 #include "microros/xrce_turn_bytes.h"
 
 #include <string.h>
+
+xrce_slot_t xrce_queue_slots[MICROROS_QUEUE_SLOTS];
+uint32_t xrce_queue_words[XRCE_QUEUE_WORDS];
 
 static xrce_receiver_t * queue_of(const xrce_endpoint_t * endpoint)
 {
@@ -41,22 +45,22 @@ static bool queue_make_room(
   return true;
 }
 
-static uint8_t * queue_bytes(xrce_client_t * client, const xrce_queue_t * queue, uint8_t slot)
+static uint8_t * queue_bytes(const xrce_queue_t * queue, uint8_t slot)
 {
-  return &client->queues[queue->offset + (uint32_t)slot * queue->slot_size];
+  return xrce_queue_at(queue->offset + (uint32_t)slot * queue->slot_size);
 }
 
 uint8_t * xrce_read_free_slot(xrce_client_t * client, const xrce_receiver_t * receiver)
 {
   const xrce_queue_t * queue = xrce_read_queue(client, receiver);
 
-  return queue_bytes(client, queue, queue_slot(receiver, queue, receiver->count));
+  return queue_bytes(queue, queue_slot(receiver, queue, receiver->count));
 }
 
 void xrce_read_fill(xrce_client_t * client, xrce_receiver_t * receiver, const xrce_sample_t * sample)
 {
   const xrce_queue_t * queue = xrce_read_queue(client, receiver);
-  xrce_slot_t * slot = &client->slots[queue->first + queue_slot(receiver, queue, receiver->count)];
+  xrce_slot_t * slot = &xrce_queue_slots[queue->first + queue_slot(receiver, queue, receiver->count)];
 
   slot->arrived_ms = sample->arrived_ms;
   slot->size = sample->size;
@@ -85,12 +89,12 @@ bool xrce_read_peek(const xrce_endpoint_t * endpoint, xrce_sample_t * sample)
   xrce_client_t * client = endpoint->client;
   const xrce_receiver_t * receiver = queue_of(endpoint);
   const xrce_queue_t * queue = xrce_read_queue(client, receiver);
-  const xrce_slot_t * slot = &client->slots[queue->first + receiver->head];
+  const xrce_slot_t * slot = &xrce_queue_slots[queue->first + receiver->head];
 
   if (receiver->count == 0u || xrce_loan_is_out(client, receiver)) {
     return false;
   }
-  sample->data = queue_bytes(client, queue, receiver->head);
+  sample->data = queue_bytes(queue, receiver->head);
   sample->arrived_ms = slot->arrived_ms;
   sample->size = slot->size;
   sample->big_endian = slot->big_endian;

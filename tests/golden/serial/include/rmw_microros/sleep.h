@@ -35,7 +35,7 @@ typedef struct rmw_uros_retained_t {
   uint32_t check; /* CRC-32 of all following members */
   uint32_t size;
   char plan[RMW_UROS_RETAINED_PLAN];
-  uint8_t client[offsetof(struct xrce_client_t, input)];
+  uint8_t client[sizeof(struct xrce_client_t)];
   xrce_reliable_slots_t xrce_reliable_slots;
 } rmw_uros_retained_t;
 

@@ -10,7 +10,7 @@
 /* The agent's INFO has 36 bytes; anything longer than this is not an INFO. */
 enum { INPUT_SIZE = 40 };
 
-/* An open session may keep part of a message in its input buffer. */
+/* Of its own: an open session may keep part of a message in its input buffer. */
 static uint8_t inquiry_input[INPUT_SIZE];
 
 /* Without a session other tasks could only open one, maybe over this line: they have to wait. */

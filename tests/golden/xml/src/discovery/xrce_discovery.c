@@ -2,6 +2,7 @@
 #include "microros/xrce_discovery.h"
 
 #include "microros/xrce_client.h"
+#include "microros/xrce_input.h"
 #include "microros/xrce_wire.h"
 
 #include <string.h>
@@ -77,9 +78,9 @@ static void discovery_request(xrce_discovery_t * discovery, uint32_t now)
   discovery->due_ms = now + xrce_session_pause(now - discovery->since_ms);
 }
 
-bool xrce_discovery_search(xrce_client_t * client, xrce_discovery_t * discovery, uint32_t now)
+bool xrce_discovery_search(xrce_discovery_t * discovery, uint32_t now)
 {
-  uint8_t * answer = client->input; /* the input buffer is unused without a session */
+  uint8_t * answer = xrce_input; /* the input buffer is unused without a session */
   uint8_t sender[PORT_MULTICAST_ADDRESS];
 
   if (discovery->next == discovery->count) {
@@ -134,7 +135,7 @@ bool xrce_discovery_step(xrce_client_t * client, uint32_t now)
     discovery->trying = false;
     discovery->due_ms = now;
   }
-  if (xrce_discovery_search(client, discovery, now)) {
+  if (xrce_discovery_search(discovery, now)) {
     discovery_try(client, now);
     return true;
   }
