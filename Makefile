@@ -30,7 +30,7 @@ lint: $(VENV)/dev.stamp
 	@$(BIN)/python -m tests.tools.run_suite lint
 
 misra: $(VENV)/dev.stamp
-	@$(BIN)/python -m tests.tools.misra
+	@$(BIN)/python -m tests.tools.misra $(FILES)
 
 proof: $(VENV)/dev.stamp
 	@$(PYTHON) tests/tools/system_packages.py

@@ -12,7 +12,7 @@ import pytest
 
 from microros_gen.selection.find_components import load_catalogue
 from tests.support.paths import ROOT
-from tests.support.quality import misra
+from tests.support.quality import analyzer, misra
 from tests.support.quality.corpus import (
     Tree,
     Unit,
@@ -154,11 +154,11 @@ def test_clang_tidy(all_units: list[Unit]) -> None:
         )
         lengths = ["--checks=-readability-function-cognitive-complexity,-readability-function-size"]
         options = ["--quiet", f"--config-file={TIDY}", *(lengths if is_generated else [])]
-        flags = ["-std=c99", "-Iinclude", *width_flags(unit)]
+        flags = ["-std=c99", "-Iinclude", *width_flags(unit), *analyzer.limit(analyzer.NODES)]
         done = run(["clang-tidy", *options, unit.source, "--", *flags], unit.tree.out)
         return done.stdout + done.stderr if done.returncode else ""
 
-    name = f"clang-tidy, ports 32 bit, long generated functions {version} {TIDY.read_text(encoding='utf-8')}"
+    name = f"clang-tidy, {analyzer.NODES} nodes, long generated {version} {TIDY.read_text(encoding='utf-8')}"
     assert complaints(analyze(name, all_units, check)) == ""
 
 

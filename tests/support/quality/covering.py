@@ -53,17 +53,41 @@ def covering_units(trees: Sequence[Tree]) -> list[Unit]:
 
 def conditions(tree: Tree, source: str) -> set[tuple[str, str]]:
     """Return the conditions of the preprocessor in a file and in the headers of the tree that it includes, by file."""
-    found: set[tuple[str, str]] = set()
-    left, read = [tree.out / source], set[Path]()
+    return {(path, line) for path, text in included(tree, source).items() for line in _conditions(text)}
+
+
+def known_headers(every: Sequence[Unit]) -> list[list[str]]:
+    """Return for each file the headers that another one has read with the same text.
+
+    A header with conditions counts as another one where the numbers of the plan differ. What is read in every
+    configuration reads each of its headers, too.
+    """
+    seen: set[tuple[str, str, str]] = set()
+    known: dict[int, list[str]] = {}
+    for at, unit in sorted(enumerate(every), key=lambda place: not place[1].in_every_configuration):
+        texts = included(unit.tree, unit.source)
+        plan = (unit.tree.out / "include" / "microros_config.h").read_text(encoding="utf-8")
+        del texts[unit.source]
+        read = {path: (path, text, plan if _conditions(text) else "") for path, text in texts.items()}
+        known[at] = (
+            [] if unit.in_every_configuration else sorted(p for p, same in read.items() if same in seen)
+        )
+        seen |= set(read.values())
+    return [known[at] for at in range(len(every))]
+
+
+def included(tree: Tree, source: str) -> dict[str, str]:
+    """Return the texts of a file and of the headers of the tree that it includes, by path."""
+    found: dict[str, str] = {}
+    left = [tree.out / source]
     while left:
         path = left.pop()
-        if path in read or not path.is_file():
+        name = path.relative_to(tree.out).as_posix()
+        if name in found or not path.is_file():
             continue
-        read.add(path)
-        text = path.read_text(encoding="utf-8")
-        found |= {(path.relative_to(tree.out).as_posix(), line) for line in _conditions(text)}
-        for name in _INCLUDED.findall(text):
-            left += [path.parent / name, tree.out / "include" / name]
+        found[name] = path.read_text(encoding="utf-8")
+        for header in _INCLUDED.findall(found[name]):
+            left += [path.parent / header, tree.out / "include" / header]
     return found
 
 

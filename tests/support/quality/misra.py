@@ -7,13 +7,14 @@ finding a line, because without the texts of the rules all findings have one mes
 
 from __future__ import annotations
 
+import hashlib
 import json
 import re
 import shutil
 import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from pathlib import Path
 
@@ -22,6 +23,7 @@ import yaml
 from tests.support.paths import ROOT, TESTS
 from tests.support.quality import misra_addon
 from tests.support.quality.corpus import Tree, Unit, analyze_together, configuration_flags, run
+from tests.support.quality.covering import known_headers
 
 DEVIATIONS = TESTS / "quality" / "misra-deviations.yaml"
 PAGE = ROOT / "docs" / "verification" / "quality.md"
@@ -107,13 +109,16 @@ def checked_rules(addon: Path) -> tuple[list[str], list[str]]:
     return [r for r, by in rows if by == "Addon"], [r for r, by in rows if by == "Cppcheck"]
 
 
-def _check(group: Sequence[Unit], addon: Path) -> list[str]:
-    """Return the findings in each file, a line each, and what the addon wants to know of the whole program."""
+def _check(group: Sequence[Unit], addon: Path, known: Mapping[str, Sequence[str]]) -> list[str]:
+    """Return the findings in each file, a line each, and what the addon wants to know of the whole program.
+
+    `known`: by the key of a file, headers whose findings others have.
+    """
     for unit in group:
         command = ["cppcheck", "-q", *OPTIONS, *configuration_flags(unit), "--dump", unit.source]
         dumped = run(command, unit.tree.out)
         assert dumped.returncode == 0, dumped.stderr
-    places = json.dumps([(str(unit.tree.out), f"{unit.source}.dump") for unit in group])
+    places = json.dumps([(str(unit.tree.out), f"{unit.source}.dump", known.get(unit.key)) for unit in group])
     python = ["env", f"PYTHONPATH={addon.parent}", sys.executable]
     reported = run([*python, "-m", misra_addon.__name__], ROOT, places)
     assert reported.returncode == 0, reported.stderr
@@ -122,10 +127,15 @@ def _check(group: Sequence[Unit], addon: Path) -> list[str]:
 
 
 def _summary(unit: Unit) -> str:
-    return (unit.tree.out / f"{unit.source}.ctu-info").read_text(encoding="utf-8")
+    path = unit.tree.out / f"{unit.source}.ctu-info"
+    return path.read_text(encoding="utf-8") if path.is_file() else ""
 
 
-def _findings(text: str) -> set[tuple[str, str, int, int]]:
+Finding = tuple[str, str, int, int]
+"""Rule, file, line, column."""
+
+
+def _findings(text: str) -> set[Finding]:
     lines = (json.loads(line) for line in text.splitlines() if line.startswith("{"))
     return {(f["errorId"].removeprefix("c2012-"), f["file"], f["linenr"], f["column"]) for f in lines}
 
@@ -151,16 +161,41 @@ def _whole_program(tree: Tree, summaries: Sequence[str], addon: Path) -> str:
     return reported.stdout
 
 
+def _key(unit: Unit, known: Sequence[str]) -> str:
+    return hashlib.sha256("\0".join([unit.key, *known]).encode()).hexdigest()
+
+
+def _addon() -> Path:
+    addon = find_addon()
+    assert addon is not None, "cppcheck is not installed, or without its addons"
+    return addon
+
+
+def _answers(every: Sequence[Unit], known: Mapping[str, Sequence[str]]) -> dict[str, str]:
+    addon, tool = _addon(), f"misra {tool_version()} {OPTIONS}"
+    return analyze_together(tool, every, lambda group: _check(group, addon, known), TOGETHER)
+
+
+def findings_of(every: Sequence[Unit]) -> set[Finding]:
+    """Return the findings in each file and in its headers, without the rules about all files of a program."""
+    return set[Finding]().union(
+        *(_findings(text.split(SEPARATOR)[0]) for text in _answers(every, {}).values())
+    )
+
+
 def check(trees: Sequence[Tree], every: Sequence[Unit], is_whole: bool = True) -> Places:
     """Return what the addon finds in `trees`, whose files are `every`.
 
     `is_whole`: with the rules about all files of a program together. Without them where `every` has only some files
-    of a tree: they are no program.
+    of a tree: they are no program, and a header that several of them include is read for one.
     """
-    addon = find_addon()
-    assert addon is not None, "cppcheck is not installed, or without its addons"
-    tool = f"misra {tool_version()} {OPTIONS}"
-    answers = analyze_together(tool, every, lambda group: _check(group, addon), TOGETHER)
+    addon = _addon()
+    known: dict[str, list[str]] = {}
+    if not is_whole:
+        headers = known_headers(every)
+        every = [replace(unit, key=_key(unit, names)) for unit, names in zip(every, headers, strict=True)]
+        known = {unit.key: names for unit, names in zip(every, headers, strict=True)}
+    answers = _answers(every, known)
     places: Places = Counter()
     for tree in trees:
         parts = [answers[unit.key].split(SEPARATOR) for unit in every if unit.tree == tree]
