@@ -22,7 +22,10 @@ _TYPES = ("microros_gen", "templates", "types")
 
 def pattern_of(path: Path) -> re.Pattern[str]:
     """Return what the file or template `path` is called in a tree; raises ValueError for what is in no tree."""
-    parts = path.resolve().relative_to(ROOT).parts
+    if not path.is_file():
+        raise ValueError(f"{path}: no such file")
+    full = path.resolve()
+    parts = full.relative_to(ROOT).parts if full.is_relative_to(ROOT) else full.parts
     name = parts[-1].removesuffix(".j2")
     if parts[:2] == _COMPONENTS and len(parts) > 4 and parts[3] in ("src", "include"):
         folder = [*parts[3:4], *parts[2:3]] if parts[3] == "src" else parts[3:4]
