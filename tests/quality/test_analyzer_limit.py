@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The limit of clang's analyzer costs no finding: it has come to each block that it ever reaches before."""
+"""The limit of clang's analyzer costs no finding: half of it is enough to reach the same blocks."""
 
 from __future__ import annotations
 
