@@ -39,7 +39,7 @@ def marked(code: str) -> str:
 
 
 def reached(tree: Tree, source: str, nodes: int) -> set[str]:
-    """Return the places of the marks of `source` that the analyzer comes to with `nodes` for each function."""
+    """Return the lines with a mark in `source` that the analyzer comes to with `nodes` for each function."""
     copy = Path(source).with_suffix(".marked.c")
     text = marked((tree.out / source).read_text(encoding="utf-8"))
     (tree.out / copy).write_text(text, encoding="utf-8")
