@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 from types import MappingProxyType
 
@@ -29,6 +30,7 @@ from microros_gen.client.plan.service_limits import service_roots
 from microros_gen.client.plan.stream_budget import check_stream_budget
 from microros_gen.client.plan.streams import WRITE_DATA_OVERHEAD
 from microros_gen.client.plan.transport_sizes import DEFAULT_MTU
+from microros_gen.client.views.printed_with import printed_with
 from microros_gen.compiler.distribution import check_distribution
 from microros_gen.compiler.request import Request
 from microros_gen.diagnostics import Diagnostic, Diagnostics
@@ -157,7 +159,8 @@ def _check_interfaces_have_a_use(
 
 def plan_request(resolved: Resolved, diagnostics: Diagnostics) -> Planned:
     """Find the interfaces and plan sizes, names and entities. Raises UserError with all that is wrong."""
-    compile_also(template_names(c.component for c in resolved.selection.components))
+    selected = [c.component for c in resolved.selection.components]
+    compile_also(chain(template_names(selected), printed_with(component.name for component in selected)))
     planned = _planned(resolved, diagnostics)
 
     def other(application: Application) -> Project:

@@ -20,8 +20,25 @@ _PACKAGE = Path(__file__).resolve().parent.parent
 TEMPLATE_FOLDERS = (_PACKAGE / "templates", _PACKAGE / "components", _PACKAGE / "platform")
 """Where templates are found: `types/struct.h.j2`, `publish/src/rcl_publisher.c.j2`, `os/NAME/src/image.ld.j2`."""
 
-_COMMON = ("types", "project", "example")
-"""Folders of templates that nearly every project prints."""
+COMMON = (
+    "types/steps.j2",
+    "types/struct.h.j2",
+    "types/functions.h.j2",
+    "types/functions.c.j2",
+    "types/type_support.h.j2",
+    "types/type_support.c.j2",
+    "types/message.h.j2",
+    "example/main.c.j2",
+    "project/README.md.j2",
+    "project/CMakeLists.txt.j2",
+    "project/sources.txt.j2",
+    "project/unselected.h.j2",
+    "project/microros_image.cmake",
+)
+"""Templates that every project prints."""
+
+COMMON_COMPONENTS = ("base", "memory", "node", "qos", "session", "support")
+"""Components that nearly every project has."""
 
 
 def make_environment(folders: Sequence[Path] = TEMPLATE_FOLDERS) -> Environment:
@@ -75,12 +92,13 @@ def compile_also(names: Iterable[str]) -> None:
 
 def _compile_common(requested: Iterable[str]) -> Mapping[str, bytes]:
     environment = shared_environment()
-    common = (
-        f"{folder}/{path.name}"
-        for folder in _COMMON
-        for path in sorted((TEMPLATE_FOLDERS[0] / folder).iterdir())
+    components = TEMPLATE_FOLDERS[1]
+    likely = (
+        path.relative_to(components).as_posix()
+        for folder in COMMON_COMPONENTS
+        for path in sorted((components / folder).rglob("*.j2"))
     )
-    for name in chain(common, requested):
+    for name in chain(COMMON, likely, requested):
         with suppress(TemplateError):  # this process stops at what is wrong in it, if it uses the template
             environment.get_template(name)
     return _compiled_templates().known

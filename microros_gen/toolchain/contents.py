@@ -32,6 +32,7 @@ class Contents:
         self._bytes: dict[str, bytes | None] = {}
         self._digests: dict[str, str] = {}
         self._names: dict[str, frozenset[str]] = {}
+        self._of_files: dict[tuple[str, ...], str] = {}
 
     def of_file(self, name: str) -> str:
         """Return the digest of a file's bytes."""
@@ -44,6 +45,12 @@ class Contents:
 
     def of_files(self, files: Sequence[str]) -> str:
         """Return the digest of all relevant contents of `files`: of CONFIG, only the lines that the others use."""
+        key = tuple(files)
+        if key not in self._of_files:
+            self._of_files[key] = self._joined(files)
+        return self._of_files[key]
+
+    def _joined(self, files: Sequence[str]) -> str:
         others = [name for name in files if name != CONFIG]
         lines: tuple[str, ...] = ()
         if len(others) < len(files):

@@ -31,7 +31,7 @@ _NOT_KEPT = re.compile(
 # A processor has the next compiler while this program takes the result of the last one.
 _WAITING = 1
 _DEBUG = re.compile(r"-g(?!0$)")
-_TIME = re.compile(rb"\b__(DATE|TIME|TIMESTAMP)__\b")
+_TIMES = (b"__DATE__", b"__TIME__", b"__TIMESTAMP__")
 
 
 @dataclass(frozen=True)
@@ -137,7 +137,7 @@ class Objects:
         found = self._timed.get(name)
         if found is None:
             content = self._contents.read(name) or b""
-            found = self._timed[name] = b"__" in content and _TIME.search(content) is not None
+            found = self._timed[name] = any(time in content for time in _TIMES)
         return found
 
     def _made(self, unit: Unit, ending: str) -> Path:

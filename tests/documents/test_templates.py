@@ -12,7 +12,9 @@ from pathlib import Path
 
 import pytest
 
+from microros_gen import compiler
 from microros_gen.documents.ahead import compute_ahead
+from microros_gen.documents.templates import COMMON, COMMON_COMPONENTS, shared_environment
 
 GENERATE = ("-m", "microros_gen", "generate", "--profile", "pure_sender", "-o", "out")
 
@@ -36,7 +38,8 @@ def test_a_run_without_a_cache_leaves_what_the_next_one_takes(tmp_path: Path) ->
     assert kept.read_bytes() == compiled
 
 
-def test_the_second_process_compiles_what_the_selected_components_print(tmp_path: Path) -> None:
+@pytest.mark.parametrize("profile", ["pure_sender", "pure_action_server"])
+def test_the_second_process_compiles_what_the_selected_components_print(profile: str, tmp_path: Path) -> None:
     """The first one compiles nothing that it uses itself: every template that it looks up is known by then."""
     if compute_ahead(of_process) is None:
         pytest.skip("one processor, or no fork")
@@ -47,13 +50,27 @@ def test_the_second_process_compiles_what_the_selected_components_print(tmp_path
         "    compiled.append(arguments[1])\n"
         "    return compile(self, *arguments, **named)\n"
         "Environment.compile = counted\n"
-        "try: main(['generate', '--profile', 'pure_sender', '-o', 'out'])\n"
+        f"try: main(['generate', '--profile', '{profile}', '-o', 'out'])\n"
         "except SystemExit: print(compiled)\n"
     )
     environment = {**os.environ, "XDG_CACHE_HOME": str(tmp_path / "cache")}
     command = [sys.executable, "-c", program]
     done = subprocess.run(command, cwd=tmp_path, env=environment, check=True, capture_output=True, text=True)
     assert done.stdout.splitlines()[-1] == "[]", done.stdout
+
+
+def test_the_second_process_begins_with_what_every_project_prints() -> None:
+    """What only some projects print would delay the others: the first process waits for the second one."""
+    printed: list[frozenset[str]] = []
+    for profile in ("pure_sender", "pure_reader"):
+        planned = compiler.plan(compiler.resolve(compiler.read(compiler.Options(profiles=(profile,)))))
+        shared_environment.cache_clear()
+        compiler.render(planned)
+        cache = shared_environment().cache
+        assert cache is not None
+        printed.append(frozenset(template.name or "" for template in cache.values()))
+    assert [sorted(frozenset(COMMON) - names) for names in printed] == [[], []]
+    assert all(set(COMMON_COMPONENTS) <= {name.split("/")[0] for name in names} for names in printed)
 
 
 def test_a_process_computes(capfd: pytest.CaptureFixture[str]) -> None:
