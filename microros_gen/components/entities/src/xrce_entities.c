@@ -168,10 +168,9 @@ static uint8_t * entities_put_object(
 
   room[KIND_AT] = kind;
   xrce_put_le16(&room[PADDING_AT], 0);
-  xrce_put_le16(&room[LENGTH_AT + 2], 0); /* below 64 KiB, since a message is */
   end = xrce_describe(client, place, kind, blob, &room[FORMAT_AT]);
   size = xrce_size_between(blob, end);
-  xrce_put_le16(&room[LENGTH_AT], size);
+  xrce_put_le32(&room[LENGTH_AT], size);
   return entities_put_owner(client, place, kind, end, (size & 1u) != 0u);
 }
 
@@ -292,6 +291,9 @@ void xrce_entities_on_status(xrce_client_t * client, const uint8_t * submessage,
   } else if (payload[4] <= XRCE_STATUS_OK_MATCHED) {
     ++state->level;
     entities->refusals = 0;
+    if (entities_is_one(entities) && state->level == xrce_place_complete(entities->cursor)) {
+      entities->pending = XRCE_PENDING_NONE;
+    }
   } else {
     entities_refuse(client, payload[4], now);
   }

@@ -19,8 +19,7 @@ static const char reply_topic[] = "Reply";
 /* Writes the length of the string between these two, its NUL included, in front of it. */
 static void service_count(uint8_t * begin, const uint8_t * end)
 {
-  xrce_put_le16(&begin[-SERVICE_LENGTH], xrce_size_between(begin, end));
-  xrce_put_le16(&begin[2 - SERVICE_LENGTH], 0);
+  xrce_put_le32(&begin[-SERVICE_LENGTH], xrce_size_between(begin, end));
 }
 
 /*
@@ -31,10 +30,7 @@ static uint8_t * service_next(uint8_t * blob, uint8_t * begin, uint8_t * end, ui
   const size_t at = ((size_t)xrce_size_between(blob, end) + present + 3u) & ~(size_t)3u;
 
   service_count(begin, end);
-  end[0] = present;
-  end[1] = 0; /* of these, what is no padding is in the length that follows */
-  end[2] = 0;
-  end[3] = 0;
+  xrce_put_le32(end, present); /* what is neither this nor padding is in the length that follows */
   return &blob[at + (size_t)SERVICE_LENGTH];
 }
 

@@ -38,8 +38,7 @@ static uint8_t * service_put_string(
   }
   end = xrce_describe_text(&end[repeated->size], last);
   *end++ = 0;
-  xrce_put_le16(&begin[0], xrce_size_between(&begin[SERVICE_LENGTH], end));
-  xrce_put_le16(&begin[2], 0);
+  xrce_put_le32(begin, xrce_size_between(&begin[SERVICE_LENGTH], end));
   return end;
 }
 

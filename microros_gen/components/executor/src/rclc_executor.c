@@ -57,12 +57,13 @@ static rclc_executor_handle_t * executor_take(const rclc_executor_t * executor)
     return NULL;
   }
   place->owner = executor;
-  /* All at once, as rclc_executor_handle_init leaves one. */
-  (void)memset(place->handles, 0, sizeof(place->handles));
-  for (size_t i = 0; i < MICROROS_HANDLES_MAX; ++i) {
-    place->handles[i].type = RCLC_NONE;
-    place->handles[i].invocation = ON_NEW_DATA;
-    place->handles[i].index = MICROROS_HANDLES_MAX;
+  /* As rclc_executor_handle_init leaves one. */
+  (void)memset(place->handles, 0, sizeof(place->handles[0]));
+  place->handles[0].type = RCLC_NONE;
+  place->handles[0].invocation = ON_NEW_DATA;
+  place->handles[0].index = MICROROS_HANDLES_MAX;
+  for (size_t i = 1; i < MICROROS_HANDLES_MAX; ++i) {
+    place->handles[i] = place->handles[0];
   }
   return place->handles;
 }

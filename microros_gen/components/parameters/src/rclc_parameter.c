@@ -30,7 +30,7 @@ rcl_ret_t rclc_add_parameter(
   if (!rclc_parameter_holds((uint32_t)type)) {
     return rclc_parameter_refuse(RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("no type of a value"));
   }
-  if (!rclc_parameter_may_add(parameter_server, &name, &result)) {
+  if (!rclc_parameter_may_add(parameter_server, name.data, parameter_server->count, &result)) {
     return result;
   }
   place = rclc_parameter_create(parameter_server, &name, (uint8_t)type);

@@ -31,19 +31,20 @@ static rcl_ret_t declare_value(
   return RCL_RET_OK;
 }
 
-static rcl_ret_t declare_one(rclc_parameter_server_t * server, const rclc_parameter_declared_t * declared)
+/* Those that are declared have different names; `others` are those of the program. */
+static rcl_ret_t declare_one(
+  rclc_parameter_server_t * server, const rclc_parameter_declared_t * declared, size_t others)
 {
-  const parameter_text_t name = rclc_parameter_text(declared->about.name);
+  const char * name = declared->about.name;
   rclc_parameter_place_t * place;
   rcl_ret_t result = RCL_RET_OK;
 
-  if (!rclc_parameter_may_add(server, &name, &result)) {
+  if (!rclc_parameter_may_add(server, name, others, &result)) {
     return result;
   }
   if (server->low_mem_mode && declared->about.texts != NULL) {
     return rclc_parameter_refuse(
-      RCLC_PARAMETER_UNSUPORTED_ON_LOW_MEM, name.data,
-      MICROROS_ERROR_WORDS("no descriptions in low-memory mode"));
+      RCLC_PARAMETER_UNSUPORTED_ON_LOW_MEM, name, MICROROS_ERROR_WORDS("no descriptions in low-memory mode"));
   }
   place = rclc_parameter_place(server, &declared->about, declared->type);
   place->read_only = declared->read_only;
@@ -59,12 +60,14 @@ rcl_ret_t rclc_parameter_declare(
   rclc_parameter_server_t * server, const rclc_parameter_declared_t * declared, size_t count)
 {
   rcl_ret_t result = RCL_RET_OK;
+  size_t others;
 
   if (server == NULL) {
     return rclc_parameter_refuse_argument();
   }
+  others = server->count;
   for (size_t i = 0; i < count && result == RCL_RET_OK; ++i) {
-    result = declare_one(server, &declared[i]);
+    result = declare_one(server, &declared[i], others);
   }
   rclc_parameter_publish(server); /* all of them in one event */
   return result;

@@ -52,21 +52,28 @@ rclc_parameter_place_t * rclc_parameter_look_to_change(
   return rclc_parameter_look(server, name, result);
 }
 
+static bool look_finds(const rclc_parameter_server_t * server, const char * name)
+{
+  const parameter_text_t text = rclc_parameter_text(name);
+
+  return rclc_parameter_find(server, &text) != NULL;
+}
+
 bool rclc_parameter_may_add(
-  const rclc_parameter_server_t * server, const parameter_text_t * name, rcl_ret_t * result)
+  const rclc_parameter_server_t * server, const char * name, size_t others, rcl_ret_t * result)
 {
   if (server->on_callback) {
-    *result = look_refuse_callback(name->data);
+    *result = look_refuse_callback(name);
     return false;
   }
-  if (rclc_parameter_find(server, name) != NULL) {
-    *result = rclc_parameter_refuse(RCL_RET_ERROR, name->data, MICROROS_ERROR_WORDS("added already"));
+  if (others != 0u && look_finds(server, name)) {
+    *result = rclc_parameter_refuse(RCL_RET_ERROR, name, MICROROS_ERROR_WORDS("added already"));
     return false;
   }
   if (server->count == server->max_params) {
     const uint32_t count = (uint32_t)server->count;
 
-    microros_error_set(microros_error_parameters_full, name->data, NULL, count, count + 1u);
+    microros_error_set(microros_error_parameters_full, name, NULL, count, count + 1u);
     *result = RCL_RET_ERROR;
     return false;
   }

@@ -71,8 +71,7 @@ static rcl_ret_t server_open(rclc_parameter_server_t * server, const rcl_node_t 
       return result;
     }
 #if !MICROROS_PARAMETERS_HELD
-    rmw_parameters_answer_large(
-      rcl_service_get_rmw_handle(&server->services[i]), (uint8_t)RMW_PARAMETERS_BEGINNING);
+    rmw_parameters_answer_large(server->services[i].impl, (uint8_t)RMW_PARAMETERS_BEGINNING);
 #endif
   }
 #if MICROROS_PARAMETERS_HELD

@@ -33,27 +33,29 @@ static void value_out_rest(const parameter_out_t * out, const rclc_parameter_pla
   (void)out;
   (void)place;
   if (to != NULL) {
-    (void)memset(&to[VALUE_NUMBERS], 0, VALUE_REST);
     to[VALUE_NUMBERS] = 1;
   }
 }
 #endif
 
+/* All of it is cleared at once, since all but one member is zero and a call of memset costs more than its bytes. */
 void rclc_parameter_out_value(parameter_out_t * out, const rclc_parameter_place_t * place)
 {
   const uint8_t type = place->type;
-  const bool truth = type == (uint8_t)RCLC_PARAMETER_BOOL && place->value.bool_value;
-  static const rclc_parameter_scalar_t zero = {.integer_value = 0}; /* in all 8 bytes */
-  uint8_t * to = rclc_parameter_out_take(out, 1u, 2u);
+  const uint32_t numbers = cdr_aligned(out->position + 2u, 8u) - out->position;
+  const uint32_t size = numbers + (uint32_t)VALUE_NUMBERS + (uint32_t)VALUE_REST;
+  uint8_t * to = rclc_parameter_out_take(out, 1u, size);
 
   if (to != NULL) {
+    (void)memset(to, 0, (size_t)size);
     to[0] = type;
-    to[1] = truth ? 1u : 0u;
-  }
-  to = rclc_parameter_out_take(out, 8u, (uint32_t)VALUE_NUMBERS + (uint32_t)VALUE_REST);
-  if (to != NULL) {
-    cdr_put_8(&to[0], type == (uint8_t)RCLC_PARAMETER_INT ? &place->value : &zero);
-    cdr_put_8(&to[8], type == (uint8_t)RCLC_PARAMETER_DOUBLE ? &place->value : &zero);
+    to[1] = type == (uint8_t)RCLC_PARAMETER_BOOL && place->value.bool_value ? 1u : 0u;
+    to = &to[numbers];
+    if (type == (uint8_t)RCLC_PARAMETER_INT) {
+      cdr_put_8(&to[0], &place->value);
+    } else if (type == (uint8_t)RCLC_PARAMETER_DOUBLE) {
+      cdr_put_8(&to[8], &place->value);
+    }
   }
   value_out_rest(out, place, to);
 }

@@ -12,12 +12,9 @@ enum {
   READ_OBJECT_AT = 10,
   STREAM_AT = 12,
   READ_FORMAT_AT = 13,
-  READ_FILTERED_AT = 14,
   CONTROLLED_AT = 15,
   SAMPLES_AT = 16,
-  ELAPSED_AT = 18,
   BYTES_AT = 20,
-  PACE_AT = 22,
   READ_DATA_MESSAGE = 24,
   READ_STATUS_SIZE = 6
 };
@@ -86,13 +83,10 @@ static void read_send(xrce_client_t * client, uint32_t now)
     message[STREAM_AT] = read_is_reliable(client, reading->receiver) ? (uint8_t)XRCE_STREAM_RELIABLE
                                                                      : (uint8_t)XRCE_STREAM_BEST_EFFORT;
   }
-  message[READ_FORMAT_AT] = 0; /* that of XRCE_READ_FORMATS, without a content filter */
-  message[READ_FILTERED_AT] = 0;
+  xrce_put_le16(&message[READ_FORMAT_AT], 0); /* that of XRCE_READ_FORMATS, without a content filter */
   message[CONTROLLED_AT] = 1;
-  xrce_put_le16(&message[SAMPLES_AT], reading->samples); /* limited by nothing else */
-  xrce_put_le16(&message[ELAPSED_AT], 0);
-  xrce_put_le16(&message[BYTES_AT], 0);
-  xrce_put_le16(&message[PACE_AT], 0);
+  xrce_put_le32(&message[SAMPLES_AT], reading->samples); /* limited by nothing else: elapsed time 0, */
+  xrce_put_le32(&message[BYTES_AT], 0);                  /* and bytes and pace 0 */
   reading->due_ms = now + xrce_session_short_pause(now - reading->requested_ms);
   (void)xrce_session_send(&client->session, message, sizeof(message)); /* a lost message is repeated */
 }
@@ -236,8 +230,11 @@ void xrce_read_on_status(xrce_client_t * client, const uint8_t * submessage, siz
   if (reading->outstanding && request == reading->request) {
     read_arrived(reading);
   }
+  if (payload[4] <= XRCE_STATUS_OK_MATCHED) {
+    return; /* as nearly always, and mostly of a CREATE */
+  }
   receiver = xrce_read_find(client, xrce_get_be16(&payload[2]));
-  if (receiver != NULL && request == receiver->request && payload[4] > XRCE_STATUS_OK_MATCHED) {
+  if (receiver != NULL && request == receiver->request) {
     receiver->status = payload[4];
     receiver->request = XRCE_REQUEST_NONE;
     receiver->granted = 0;

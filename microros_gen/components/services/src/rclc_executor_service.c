@@ -103,9 +103,7 @@ static rclc_executor_handle_t * service_add(
     handle->data = request_msg;
     handle->data_response_msg = response_msg;
     ++executor->info.number_of_services;
-    if (rcl_service_is_valid(service)) {
-      rmw_replier_bind(service->impl, request_msg, response_msg);
-    }
+    rmw_replier_bind(service->impl, request_msg, response_msg);
   }
   return handle;
 }

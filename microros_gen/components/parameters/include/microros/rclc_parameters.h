@@ -232,9 +232,11 @@ rclc_parameter_place_t * rclc_parameter_look(
 rclc_parameter_place_t * rclc_parameter_look_to_change(
   rclc_parameter_server_t * server, const char * name, rcl_ret_t * result);
 
-/* Returns whether a parameter of that name can be added; if not, *result has the error. */
+/*
+ * Returns whether a parameter of that name can be added; if not, *result has the error. Without `others` none of the
+ * server's parameters can have the name. */
 bool rclc_parameter_may_add(
-  const rclc_parameter_server_t * server, const parameter_text_t * name, rcl_ret_t * result);
+  const rclc_parameter_server_t * server, const char * name, size_t others, rcl_ret_t * result);
 
 /* Returns whether the place exists and has that type; for another type *result is `error`. */
 bool rclc_parameter_is(

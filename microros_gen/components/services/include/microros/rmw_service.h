@@ -87,7 +87,7 @@ rmw_ret_t rmw_requester_send(
 
 /* --- storage: a message without any buffer for strings and sequences gets that of its declaration --- */
 
-/* Either argument may be NULL. */
+/* Either message may be NULL. A service that is not open is left alone. */
 void rmw_replier_bind(const rmw_service_t * service, void * ros_request, void * ros_response);
 void rmw_requester_bind(const rmw_client_t * client, void * ros_response);
 

@@ -10,6 +10,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -106,6 +107,25 @@ static inline uint16_t xrce_object_index(uint16_t id)
   return (uint16_t)(id >> 4);
 }
 
+/*
+ * A processor that stores a number at any address does so at once: for ARM, compilers do not make one store of two bytes.
+ */
+#if defined(__ARM_FEATURE_UNALIGNED) && defined(__BYTE_ORDER__) && (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__)
+static inline void xrce_put_le16(uint8_t * at, uint16_t value)
+{
+  (void)memcpy(at, &value, sizeof(value));
+}
+
+static inline void xrce_put_be16(uint8_t * at, uint16_t value)
+{
+  xrce_put_le16(at, (uint16_t)(((uint32_t)value << 8) | ((uint32_t)value >> 8)));
+}
+
+static inline void xrce_put_le32(uint8_t * at, uint32_t value)
+{
+  (void)memcpy(at, &value, sizeof(value));
+}
+#else
 static inline void xrce_put_le16(uint8_t * at, uint16_t value)
 {
   at[0] = (uint8_t)(value & 0xffu);
@@ -117,6 +137,13 @@ static inline void xrce_put_be16(uint8_t * at, uint16_t value)
   at[0] = (uint8_t)(value >> 8);
   at[1] = (uint8_t)(value & 0xffu);
 }
+
+static inline void xrce_put_le32(uint8_t * at, uint32_t value)
+{
+  xrce_put_le16(&at[0], (uint16_t)(value & 0xffffu));
+  xrce_put_le16(&at[2], (uint16_t)(value >> 16));
+}
+#endif
 
 static inline uint16_t xrce_get_be16(const uint8_t * at)
 {

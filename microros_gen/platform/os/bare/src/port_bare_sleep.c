@@ -9,8 +9,11 @@ void port_sleep_ms(uint32_t duration_ms)
 {
   const uint32_t start = port_time_ms();
 
-  while (duration_ms != 0u && port_time_ms() - start <= duration_ms) {
+  if (duration_ms == 0u) {
+    return;
+  }
+  do {
     port_board_watchdog();
     port_bare_wait();
-  }
+  } while (port_time_ms() - start <= duration_ms);
 }
