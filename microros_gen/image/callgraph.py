@@ -16,9 +16,9 @@ from typing import Literal
 from microros_gen.image.attribution import Chunk
 from microros_gen.image.disassembly import Code, parse_disassembly
 from microros_gen.image.disassembly_avr import parse_avr
-from microros_gen.image.dwarf import source_places
 from microros_gen.image.elf import THUMB, Elf
 from microros_gen.image.folder import Folder
+from microros_gen.image.lines import Lines, source_places
 from microros_gen.image.pointers import Pointers, read_pointers
 from microros_gen.records import dataclass
 from microros_gen.toolchain.identity import CALL_GRAPH
@@ -109,7 +109,8 @@ def build_call_graph(folder: Folder, image: Elf, chunks: Iterable[Chunk]) -> Cal
         _add_code(nodes, code, _is_external(image, code))
     pointers = read_pointers(folder, image, functions)
     _add_compiled(folder, nodes, functions, frames, _constructors(image), pointers)
-    places = source_places(image, [at for code in disassembled for at in code.pointers])
+    pointing = [at for code in disassembled for at in code.pointers]
+    places = source_places(Lines(image), pointing) if pointing else {}
     for code in disassembled:
         for address in code.pointers:
             place = places.get(address, f"{address:#x}")

@@ -3,8 +3,7 @@
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import PurePosixPath
 from typing import Any, Literal
 
@@ -229,20 +228,6 @@ def _elements(die: Any, path: str, offset: int, depth: int) -> Iterator[Part]:
             yield from _parts(element, here, offset + index * size, depth + 1)
         else:
             yield Part(here, offset + index * size, size)
-
-
-def source_places(image: Elf, addresses: Collection[int]) -> Mapping[int, str]:
-    """Return `file:line` of each of these addresses of code, where the line table has it (DWARF 4, 6.2)."""
-    found: dict[int, str] = {}
-    for unit in image.dwarf.iter_CUs() if image.dwarf and addresses else ():
-        program = image.dwarf.line_program_for_CU(unit) if image.dwarf else None
-        states = [e.state for e in program.get_entries() if e.state is not None] if program else []
-        for here, after in itertools.pairwise(states):
-            within = () if here.end_sequence else range(here.address, after.address)
-            for address in addresses:
-                if address in within:
-                    found[address] = f"{file_name(unit, program, here.file)}:{here.line}"
-    return found
 
 
 def file_name(unit: Any, program: Any, index: int) -> str:

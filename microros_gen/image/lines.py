@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import itertools
 from bisect import bisect_right
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 
 from microros_gen.image.dwarf import file_name
 from microros_gen.image.elf import Elf
@@ -58,3 +58,9 @@ class Lines:
             return None
         end, file, line = self._found[self._begins[at]]
         return (file, line) if address < end else None
+
+
+def source_places(lines: Lines, addresses: Iterable[int]) -> Mapping[int, str]:
+    """Return `file:line` of each of these addresses of code, where the line table has it."""
+    found = ((address, lines.place(address)) for address in addresses)
+    return {address: f"{place[0]}:{place[1]}" for address, place in found if place is not None}

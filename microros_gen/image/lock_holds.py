@@ -14,14 +14,14 @@ from microros_gen.diagnostics.notes import notes_of
 from microros_gen.image.attribution import Chunk
 from microros_gen.image.callgraph import disassembly_text, reached
 from microros_gen.image.decoders import least_of
-from microros_gen.image.dwarf import read_units, source_places
+from microros_gen.image.dwarf import read_units
 from microros_gen.image.elf import Elf
 from microros_gen.image.flow import Flow, Step, read_flows
 from microros_gen.image.folder import Folder
 from microros_gen.image.guards import Written
 from microros_gen.image.holds import Hold, Holds, Rules
 from microros_gen.image.inlined import Inlined
-from microros_gen.image.lines import Lines
+from microros_gen.image.lines import Lines, source_places
 from microros_gen.image.paths import UNIT, Length, inner_parts, parts_of
 from microros_gen.image.pointers import read_pointers
 from microros_gen.image.report import SizeReport
@@ -88,7 +88,7 @@ class _Image:
         self._sources = Sources(_reader(folder), _headers(folder), _decoders(folder))
         self._samples = Samples(folder)
         self._sized = self._functions_with_size(_sized_names(folder))
-        self._targets = _targets(folder, image, self._functions, self.flows)
+        self._targets = _targets(folder, image, self._functions, self.flows, self._lines)
 
     def address(self, name: str) -> int | None:
         """Return the address of a function, or None if the image does not contain it."""
@@ -261,12 +261,12 @@ def _headers(folder: Folder) -> list[str]:
 
 
 def _targets(
-    folder: Folder, image: Elf, functions: Mapping[int, Chunk], flows: Mapping[int, Flow]
+    folder: Folder, image: Elf, functions: Mapping[int, Chunk], flows: Mapping[int, Flow], lines: Lines
 ) -> Mapping[int, frozenset[int]]:
     """Return where the calls through registers go, by their addresses; those that nobody knows are left out."""
     pointers = read_pointers(folder, image, functions)
     calls = [step.address for flow in flows.values() for step in flow.steps.values() if step.through]
-    places = source_places(image, calls)
+    places = source_places(lines, calls)
     found = ((at, reached(folder, place, functions, pointers)) for at, place in places.items())
     return {at: to for at, (member, to) in found if to is not None and member is not None}
 

@@ -79,8 +79,8 @@ class Length:
         """Return the length of one of `rounds.count` calls, which are all that there are in the scope of its total."""
         if rounds.total is None or rounds.open:
             return self
-        all_calls = repeated(self.count, self.shares, rounds.count, rounds.total)[rounds.total.scope]
-        return replace(self, shares={**self.shares, rounds.total.scope: all_calls})
+        all_calls = repeated(self.count, self.shares, rounds.count, rounds.total)
+        return replace(self, shares={**self.shares, **{s: all_calls[s] for s in rounds.total.scopes}})
 
     def times(self, rounds: Length, size: int) -> Length:
         """Return `rounds.count` rounds of this length, and those for each byte; `size`: the most bytes of a message.

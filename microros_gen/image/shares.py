@@ -18,9 +18,9 @@ HOLD = "a hold of the lock"
 
 @dataclass(frozen=True)
 class Total:
-    """Rounds that count together, as `key`: `most` in each call of the function `scope`, or in HOLD."""
+    """Rounds that count together, as `key`: `most` in each call of any function of `scopes`, or in HOLD."""
 
-    scope: str
+    scopes: tuple[str, ...]
     key: str
     most: int
 
@@ -61,8 +61,10 @@ def joined(counts: tuple[int, int], shares: tuple[Shares, Shares], join: Callabl
 def repeated(count: int, shares: Shares, rounds: int, total: Total | None) -> Shares:
     """Return those of so many rounds of a length, of which there are `total.most` in its scope."""
     found = {scope: Split(split.base * rounds, split.parts) for scope, split in shares.items()}
-    if total is not None:
-        split = shares.get(total.scope, Split(count, {}))
+    if total is None:
+        return found
+    for scope in total.scopes:
+        split = shares.get(scope, Split(count, {}))
         longest = max(split.base * total.most, split.parts.get(total.key, 0))
-        found[total.scope] = Split(0, {**split.parts, total.key: longest})
+        found[scope] = Split(0, {**split.parts, total.key: longest})
     return found

@@ -11,7 +11,7 @@ from microros_gen.image.paths import Length
 from microros_gen.image.rounds import Sources
 from microros_gen.image.shares import HOLD, Total
 
-TEXT = Total("format", "all loops", 100)
+TEXT = Total(("format",), "all loops", 100)
 
 
 def put(rounds: int, cost: int) -> Length:
@@ -29,7 +29,7 @@ def test_a_total_counts_once_in_its_scope_and_as_often_as_it_is_reached_outside(
 
 
 def test_a_total_that_differs_from_the_rounds_of_one_loop() -> None:
-    digits = Length(9).times(Length(22, total=Total("format", "digits", 200)), 0)
+    digits = Length(9).times(Length(22, total=Total(("format",), "digits", 200)), 0)
     assert digits.times(Length(50), 0).within("format").count == 200 * 9
     assert digits.within("format").count == 22 * 9, "one loop has no more rounds than its own number"
 
@@ -82,7 +82,7 @@ static void look(void)
 
 def test_comments_have_totals() -> None:
     sources = Sources(lambda name: SOURCE, [])
-    assert sources.rounds([("a.c", 6)]) == Length(22, total=Total("format", "a.c:5", 200))
-    assert sources.rounds([("a.c", 10)]) == Length(30, total=Total("format", "all loops", 30))
-    assert sources.all_calls("a.c", "look") == Length(4, total=Total(HOLD, "a.c:2", 4))
+    assert sources.rounds([("a.c", 6)]) == Length(22, total=Total(("format",), "a.c:5", 200))
+    assert sources.rounds([("a.c", 10)]) == Length(30, total=Total(("format",), "all loops", 30))
+    assert sources.all_calls("a.c", "look") == Length(4, total=Total((HOLD,), "a.c:2", 4))
     assert sources.all_calls("a.c", "other") == Length(1)

@@ -54,14 +54,13 @@ bool xrce_rosout_put(const uint8_t * body, uint32_t size)
   return true;
 }
 
-void rcl_logging_rosout_output_handler(
+void microros_rosout_publish(
   const rcutils_log_location_t * location, int severity, const char * name,
-  rcutils_time_point_value_t timestamp, const char * format, va_list * args)
+  rcutils_time_point_value_t timestamp, const char * text)
 {
   (void)timestamp;
-  (void)args;
   announced += location == NULL && severity == RCUTILS_LOG_SEVERITY_INFO && strcmp(name, "microros") == 0 &&
-                   format[0] == 'l' && !microros_ring_takes(RCUTILS_LOG_SEVERITY_FATAL)
+                   text[0] == 'l' && !microros_ring_takes(RCUTILS_LOG_SEVERITY_FATAL)
                  ? 1u
                  : 100u;
 }

@@ -4,7 +4,7 @@
 #include "microros/rcutils_format.h"
 #include "rcutils/logging.h"
 
-enum { MARK_SIZE = 3 };
+enum { MARK_SIZE = 3, UTF8_MORE = 3 }; /* bytes of a character after its first one */
 
 static rcutils_logging_counts_t format_counts;
 
@@ -36,8 +36,9 @@ void microros_format_end(microros_format_t * out)
   ++format_counts.truncated;
   microros_unlock();
   /* Not in the middle of a character of UTF-8, which ROS would refuse to read. */
-  /* at most MICROROS_LOG_LONGEST rounds */
-  while (out->used > marks && ((uint8_t)out->text[out->used - marks] & 0xc0u) == 0x80u) {
+  /* at most UTF8_MORE rounds */
+  for (uint32_t left = UTF8_MORE;
+       left != 0u && out->used > marks && ((uint8_t)out->text[out->used - marks] & 0xc0u) == 0x80u; --left) {
     --out->used;
   }
   for (size_t i = 1; i <= marks; ++i) { /* at most MARK_SIZE rounds */

@@ -41,3 +41,14 @@ void microros_format_time(microros_format_t * out, int64_t time)
   microros_format_put(out, '.');
   line_digits(out, nanoseconds, FRACTION_DIGITS);
 }
+
+void microros_format_begin(microros_format_t * out, int severity, const char * name, int64_t time)
+{
+  microros_format_put(out, '[');
+  microros_format_string(out, microros_format_level(severity));
+  microros_format_string(out, "] [");
+  microros_format_time(out, time);
+  microros_format_string(out, "] [");
+  microros_format_string(out, name);
+  microros_format_string(out, "]: ");
+}

@@ -3,6 +3,7 @@
 
 #include "microros/epoch.h"
 #include "microros/rcutils_console.h"
+#include "microros/rcutils_library_log.h"
 #include "microros/rcutils_rosout.h"
 #include "microros_config.h"
 
@@ -59,20 +60,60 @@ static void logging_call(
 }
 
 /* Without the writer `callback` its level is above all others, and a handler replaces the writers. */
+static bool logging_replaces(void)
+{
+  return (int)MICROROS_LOG_CALLBACK_LEVEL > RCUTILS_LOG_SEVERITY_FATAL;
+}
+
+static bool logging_is_called(int severity)
+{
+  return logging_handler != NULL && (logging_replaces() || severity >= (int)MICROROS_LOG_CALLBACK_LEVEL);
+}
+
+static bool logging_is_written(void)
+{
+  return logging_handler == NULL || !logging_replaces();
+}
+
 static void logging_write(
   const rcutils_log_location_t * location, int severity, const char * name, const char * format,
   va_list * args)
 {
   const rcutils_time_point_value_t timestamp = microros_epoch_known_ns();
   const char * const logger = name == NULL ? "" : name;
-  const bool replaces = (int)MICROROS_LOG_CALLBACK_LEVEL > RCUTILS_LOG_SEVERITY_FATAL;
 
-  if (logging_handler != NULL && (replaces || severity >= (int)MICROROS_LOG_CALLBACK_LEVEL)) {
+  if (logging_is_called(severity)) {
     logging_call(location, severity, logger, timestamp, format, args);
   }
-  if (logging_handler == NULL || !replaces) {
+  if (logging_is_written()) {
     logging_publish(location, severity, logger, timestamp, format, args);
     microros_console_log(severity, logger, timestamp, format, args);
+  }
+}
+
+/* As logging_call, with arguments. */
+static void logging_call_with(
+  const rcutils_log_location_t * location, int severity, const char * name,
+  rcutils_time_point_value_t timestamp, const char * format, ...)
+{
+  va_list args;
+
+  va_start(args, format);
+  logging_handler(location, severity, name, timestamp, format, &args);
+  va_end(args);
+}
+
+void microros_log_text(
+  const rcutils_log_location_t * location, int severity, const char * name, const char * text)
+{
+  const rcutils_time_point_value_t timestamp = microros_epoch_known_ns();
+
+  if (logging_is_called(severity)) {
+    logging_call_with(location, severity, name, timestamp, "%s", text);
+  }
+  if (logging_is_written()) {
+    microros_rosout_text(location, severity, name, timestamp, text);
+    microros_console_text(severity, name, timestamp, text);
   }
 }
 

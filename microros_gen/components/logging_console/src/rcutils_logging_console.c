@@ -13,18 +13,6 @@ enum { CONSOLE_REPORT_SIZE = 96, CONSOLE_AGAIN_MS = 1000 };
 
 static uint32_t console_unreported; /* dropped since the last line that was written */
 
-static void console_begin(
-  microros_format_t * out, int severity, const char * name, rcutils_time_point_value_t timestamp)
-{
-  microros_format_put(out, '[');
-  microros_format_string(out, microros_format_level(severity));
-  microros_format_string(out, "] [");
-  microros_format_time(out, timestamp);
-  microros_format_string(out, "] [");
-  microros_format_string(out, name);
-  microros_format_string(out, "]: ");
-}
-
 /* Ends the line, for which one character was kept. */
 static void console_end(microros_format_t * out)
 {
@@ -41,7 +29,7 @@ static void console_report_dropped(char * text, size_t size, rcutils_time_point_
   if (console_unreported == 0u) {
     return;
   }
-  console_begin(&out, RCUTILS_LOG_SEVERITY_WARN, "rcutils", timestamp);
+  microros_format_begin(&out, RCUTILS_LOG_SEVERITY_WARN, "rcutils", timestamp);
   microros_format_integer(&out, &number, console_unreported, false);
   microros_format_string(&out, " messages dropped");
   console_end(&out);
@@ -50,7 +38,7 @@ static void console_report_dropped(char * text, size_t size, rcutils_time_point_
   }
 }
 
-void microros_console_step(void)
+void microros_console_report(void)
 {
   if (console_unreported != 0u) {
     char text[CONSOLE_REPORT_SIZE];
@@ -110,7 +98,7 @@ void rcutils_logging_console_output_handler(
   if (!console_accepts(text, sizeof(text) - 1u, timestamp)) {
     return;
   }
-  console_begin(&out, severity, name == NULL ? "" : name, timestamp);
+  microros_format_begin(&out, severity, name == NULL ? "" : name, timestamp);
   microros_format_arguments(&out, format, args); /* without the lock: arguments may be of any length */
   console_end(&out);
   console_write(text, out.used + 1u);
@@ -122,4 +110,19 @@ void microros_console_log(
   if (severity >= (int)MICROROS_LOG_CONSOLE_LEVEL) {
     rcutils_logging_console_output_handler(NULL, severity, name, timestamp, format, args);
   }
+}
+
+void microros_console_text(
+  int severity, const char * name, rcutils_time_point_value_t timestamp, const char * text)
+{
+  char line[MICROROS_LOG_TEXT_SIZE];
+  microros_format_t out = {line, sizeof(line) - 1u, 0, false};
+
+  if (severity < (int)MICROROS_LOG_CONSOLE_LEVEL) {
+    return;
+  }
+  microros_format_begin(&out, severity, name, timestamp);
+  microros_format_string(&out, text);
+  console_end(&out);
+  console_write(line, out.used + 1u);
 }

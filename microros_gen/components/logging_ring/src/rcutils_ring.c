@@ -3,9 +3,9 @@
 
 #include "microros/epoch.h"
 #include "microros/rcutils_ring_hooks.h"
+#include "microros/rcutils_rosout.h"
 #include "microros/xrce_rosout.h"
 #include "microros_config.h"
-#include "rcl/logging_rosout.h"
 #include "rcl_interfaces/msg/log.h"
 
 #include <stddef.h>
@@ -168,10 +168,9 @@ static void ring_announce(void)
 {
   ring_is_announced = true;
   ring_is_announcing = true;
-  /* at most 1 calls */
-  rcl_logging_rosout_output_handler(
-    NULL, RCUTILS_LOG_SEVERITY_INFO, "microros", microros_epoch_known_ns(),
-    "lines from before the reset follow", NULL); /* a format without conversions reads no arguments */
+  microros_rosout_publish(/* at most 1 calls */
+                          NULL, RCUTILS_LOG_SEVERITY_INFO, "microros", microros_epoch_known_ns(),
+                          "lines from before the reset follow");
   ring_is_announcing = false;
 }
 

@@ -163,6 +163,19 @@ static void rosout_log(
   microros_unlock();
 }
 
+/* With the lock: the text is short. */
+static void rosout_log_text(
+  const rcutils_log_location_t * location, int severity, const char * name,
+  rcutils_time_point_value_t timestamp, const char * text, bool is_published)
+{
+  rosout_line_t line;
+
+  rosout_begin(&line, severity, name, timestamp);
+  rosout_text(&line, text, MICROROS_LOG_ROSOUT_TEXT);
+  rosout_end(&line, location);
+  rosout_keep(&line, severity, is_published);
+}
+
 void rcl_logging_rosout_output_handler(
   const rcutils_log_location_t * location, int severity, const char * name,
   rcutils_time_point_value_t timestamp, const char * format, va_list * args)
@@ -186,10 +199,35 @@ void microros_rosout_log(
   }
 }
 
-void microros_rosout_step(const xrce_client_t * client)
+void microros_rosout_publish(
+  const rcutils_log_location_t * location, int severity, const char * name,
+  rcutils_time_point_value_t timestamp, const char * text)
+{
+  rosout_log_text(location, severity, name, timestamp, text, true);
+}
+
+void microros_rosout_text(
+  const rcutils_log_location_t * location, int severity, const char * name,
+  rcutils_time_point_value_t timestamp, const char * text)
+{
+  if (severity >= (int)MICROROS_LOG_ROSOUT_LEVEL) {
+    microros_rosout_publish(location, severity, name, timestamp, text);
+  } else if (microros_ring_takes(severity)) {
+    rosout_log_text(location, severity, name, timestamp, text, false);
+  } else {
+    /* for neither */
+  }
+}
+
+void microros_rosout_report(void)
 {
   if (rosout_unreported != 0u) {
     rosout_report_dropped(microros_epoch_known_ns());
   }
+}
+
+void microros_rosout_step(const xrce_client_t * client)
+{
+  microros_rosout_report();
   xrce_rosout_send(client);
 }

@@ -6,10 +6,15 @@
 #include "microros/xrce_turn.h"
 #include "microros/xrce_wire.h"
 #include "microros/xrce_write.h"
+#include "rcl_interfaces/msg/log.h"
 
 #include <stddef.h>
 
-enum { LINE_HEADER = 2, BODY_OFFSET = XRCE_SUBMESSAGE_HEADER + XRCE_OBJECT_PREFIX };
+enum {
+  LINE_HEADER = 2,
+  LINE_MOST = rcl_interfaces__msg__Log__MAX_ENCODED_SIZE,
+  BODY_OFFSET = XRCE_SUBMESSAGE_HEADER + XRCE_OBJECT_PREFIX
+};
 
 /* A ring: each line is its size, high byte first, and the body. */
 static uint8_t rosout_lines[MICROROS_LOG_ROSOUT_SIZE];
@@ -24,13 +29,10 @@ static uint32_t rosout_at(uint32_t index)
   return index < room ? rosout_first + index : index - room;
 }
 
-static void rosout_append(const uint8_t * bytes, uint32_t size)
+static void rosout_append(uint8_t byte)
 {
-  /* at most MICROROS_LOG_ROSOUT_SIZE rounds in each microros_ring_step */
-  for (uint32_t i = 0; i < size; ++i) {
-    rosout_lines[rosout_at(rosout_used)] = bytes[i];
-    ++rosout_used;
-  }
+  rosout_lines[rosout_at(rosout_used)] = byte;
+  ++rosout_used;
 }
 
 static uint32_t rosout_line_size(void)
@@ -65,13 +67,15 @@ const xrce_client_t * xrce_rosout_client(void)
 
 bool xrce_rosout_put(const uint8_t * body, uint32_t size)
 {
-  const uint8_t header[LINE_HEADER] = {(uint8_t)(size >> 8), (uint8_t)(size & 0xffu)};
-
   if (LINE_HEADER + size > MICROROS_LOG_ROSOUT_SIZE - rosout_used) {
     return false;
   }
-  rosout_append(header, LINE_HEADER);
-  rosout_append(body, size);
+  rosout_append((uint8_t)(size >> 8));
+  rosout_append((uint8_t)(size & 0xffu));
+  /* at most LINE_MOST rounds, MICROROS_LOG_ROSOUT_SIZE in each microros_ring_step */
+  for (uint32_t i = 0; i < size; ++i) {
+    rosout_append(body[i]);
+  }
   rosout_notify();
   return true;
 }
@@ -90,7 +94,7 @@ static uint32_t rosout_move(uint8_t * room)
     room, XRCE_WRITE_DATA, XRCE_FLAG_LITTLE_ENDIAN, (uint16_t)((uint32_t)XRCE_OBJECT_PREFIX + size));
   xrce_put_be16(&room[4], XRCE_REQUEST_NONE);
   xrce_put_be16(&room[6], xrce_object_id(rosout_writer->index, XRCE_KIND_DATAWRITER));
-  /* at most MICROROS_LOG_ROSOUT_SIZE rounds in each xrce_rosout_send */
+  /* at most LINE_MOST rounds, MICROROS_LOG_ROSOUT_SIZE in each xrce_rosout_send */
   for (uint32_t i = 0; i < size; ++i) {
     room[(uint32_t)BODY_OFFSET + i] = rosout_lines[rosout_at(LINE_HEADER + i)];
   }

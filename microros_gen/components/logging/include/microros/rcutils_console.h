@@ -15,4 +15,17 @@ static inline void microros_console_log(
   (void)args;
 }
 
+static inline void microros_console_report(void)
+{
+}
+
+static inline void microros_console_text(
+  int severity, const char * name, rcutils_time_point_value_t timestamp, const char * text)
+{
+  (void)severity;
+  (void)name;
+  (void)timestamp;
+  (void)text;
+}
+
 #endif /* MICROROS_RCUTILS_CONSOLE_H */

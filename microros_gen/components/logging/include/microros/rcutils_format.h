@@ -55,6 +55,9 @@ const char * microros_format_level(int severity);
 /* Puts a time of day as seconds: 1700000000.123456789. */
 void microros_format_time(microros_format_t * out, int64_t time);
 
+/* Puts what is before the text of a line: `[INFO] [1700000000.123456789] [arm]: `. */
+void microros_format_begin(microros_format_t * out, int severity, const char * name, int64_t time);
+
 /* Returns the seconds of a time of day, 0 for one before 1970, and the nanoseconds after them. */
 uint64_t microros_format_seconds(int64_t time, uint32_t * nanoseconds);
 

@@ -17,4 +17,19 @@ static inline void microros_rosout_log(
   (void)args;
 }
 
+static inline void microros_rosout_report(void)
+{
+}
+
+static inline void microros_rosout_text(
+  const rcutils_log_location_t * location, int severity, const char * name,
+  rcutils_time_point_value_t timestamp, const char * text)
+{
+  (void)location;
+  (void)severity;
+  (void)name;
+  (void)timestamp;
+  (void)text;
+}
+
 #endif /* MICROROS_RCUTILS_ROSOUT_H */

@@ -9,10 +9,7 @@
 extern "C" {
 #endif
 
-/* Called in each pump: reports dropped messages as soon as the console takes a line, even if nothing more is logged. */
-void microros_console_step(void);
-
-/* Returns the time until it is to be called, at most `left`, milliseconds. Where several tasks call the library. */
+/* Returns the time until microros_console_report is to be called, at most `left`, milliseconds. Where several tasks call the library. */
 uint32_t microros_console_left(uint32_t left);
 
 #ifdef __cplusplus

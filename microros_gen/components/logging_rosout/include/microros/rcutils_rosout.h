@@ -10,4 +10,17 @@ void microros_rosout_log(
   const rcutils_log_location_t * location, int severity, const char * name,
   rcutils_time_point_value_t timestamp, const char * format, va_list * args);
 
+/* Says how many lines were dropped, if any were and this has room. With the lock. */
+void microros_rosout_report(void);
+
+/* Keeps a message whose text is ready, after microros_rosout_report: with the lock. */
+void microros_rosout_text(
+  const rcutils_log_location_t * location, int severity, const char * name,
+  rcutils_time_point_value_t timestamp, const char * text);
+
+/* Keeps it until it is sent, whatever its level. */
+void microros_rosout_publish(
+  const rcutils_log_location_t * location, int severity, const char * name,
+  rcutils_time_point_value_t timestamp, const char * text);
+
 #endif /* MICROROS_RCUTILS_ROSOUT_H */
