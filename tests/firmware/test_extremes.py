@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The worst that loops of the library can be given: each takes no more than its bound, and no bound is far above it."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from microros_gen.image.elf import Elf
+from microros_gen.image.folder import read_folder
+from microros_gen.image.lock_holds import longest_calls
+from microros_gen.image.report import measure_folder
+from tests.support.firmware.board import C_FILES, Builds
+from tests.support.firmware.footprint import EXIT
+from tests.support.firmware.instructions import trace_regions
+from tests.support.firmware.tasks import BOARD
+
+SOURCE = C_FILES / "measured_extremes.c"
+APPLICATION = """\
+version: 1
+profiles: [pure_sender, pure_reader]
+components: [+services]
+errors: code
+limits: {"*": {string: 32}}
+pools: {history: 8, input_history: 8}
+logging: [{to: rosout, level: info}, {to: ring, level: info, size: 1 KiB}]
+nodes:
+  - name: device
+    publishers: [{topic: count, type: std_msgs/msg/Int32}]
+    subscriptions: [{topic: heard, type: std_msgs/msg/String, qos: {reliability: reliable}}]
+    clients: [{name: off, type: std_srvs/srv/SetBool, queue: 8}]
+"""
+EXTREME = re.compile(r"^  EXTREME\(\s*(\w+),", re.MULTILINE)
+AROUND = 16
+"""Instructions of the program between the marks: the arguments, the call, and the ends of the marks."""
+CLOSE = 5
+"""How far above the longest call the bound of a function may be."""
+
+
+@pytest.mark.system
+def test_the_worst_input_takes_no_more_than_the_bound_and_not_far_less(
+    builds: Builds, tmp_path: Path
+) -> None:
+    built = builds.build(BOARD, APPLICATION)
+    image = built.link(SOURCE, tmp_path / "extremes.elf")
+    names = EXTREME.findall(SOURCE.read_text(encoding="utf-8"))
+    emulator = built.target.emulator
+    assert emulator is not None
+    command = [emulator.program, *emulator.arguments, *EXIT]
+    counted = [region.counted for region in trace_regions(command, image, ())][0::2]
+    bounds = longest_calls(measure_folder(read_folder(built.out, image)), Elf(image), names)
+    longest = dict[str, int]()
+    for name, measured in zip(names, counted, strict=True):
+        longest[name] = max(measured, longest.get(name, 0))
+    assert set(bounds) == set(longest)
+    for name, measured in longest.items():
+        bound = bounds[name]
+        assert bound.open == frozenset(), (name, bound.open)
+        assert measured <= bound.count + AROUND, (name, measured, bound.count)
+        assert bound.count <= CLOSE * measured, (name, measured, bound.count)
