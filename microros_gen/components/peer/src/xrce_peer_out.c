@@ -5,9 +5,9 @@
  * streams of the agent's session have their storage once in the image, so these are separate. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_peer.h"
-#include "microros/xrce_peer_alert.h"
 #include "microros/xrce_peer_find_note.h"
 #include "microros/xrce_peer_slots.h"
+#include "microros/xrce_turn.h"
 #include "microros/xrce_wire.h"
 
 enum { HEARTBEAT_MESSAGE = XRCE_MESSAGE_HEADER + XRCE_SUBMESSAGE_HEADER + XRCE_HEARTBEAT_SIZE };
@@ -106,7 +106,7 @@ bool xrce_peer_commit(xrce_client_t * client, uint8_t index, bool reliable, size
     peer_pause(peer, now);
   }
   if (is_blocked || !peer_send_unsent(client, index) || window == 0u) {
-    xrce_peer_alert(client);
+    xrce_turn_stored(client); /* a HEARTBEAT, or a message that is not sent yet, becomes due */
   }
   return true;
 }
