@@ -26,7 +26,7 @@ from microros_gen.image.decoders import Decoders
 from microros_gen.image.guards import OF_BODY, Guards, Written
 from microros_gen.image.paths import UNIT, Length, longer
 from microros_gen.image.shares import HOLD, Total
-from microros_gen.image.vague import circles, contradicted, line_at, loop_macros, without_directives
+from microros_gen.image.vague import NO_MACROS, Macros, circles, contradicted, line_at, without_directives
 from microros_gen.records import dataclass
 
 _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
@@ -68,8 +68,8 @@ class Loop:
 class Source:
     """A source file: its loops, and what its comments say."""
 
-    def __init__(self, text: str, macros: frozenset[str] = frozenset()) -> None:
-        """Take the text of a C file; `macros` of its headers are loops."""
+    def __init__(self, text: str, macros: Macros = NO_MACROS) -> None:
+        """Take the text of a C file, and the macros of its headers."""
         self._lines = text.splitlines()
         blank = _TEXT.sub(lambda m: " " * len(m[0]), _blanked(text))
         self.plain = blank
@@ -119,16 +119,15 @@ class Source:
         return next((line for line, name in self._functions if name == function), None)
 
 
-def _with_vague(text: str, loops: tuple[Loop, ...], macros: frozenset[str]) -> tuple[Loop, ...]:
+def _with_vague(text: str, loops: tuple[Loop, ...], macros: Macros) -> tuple[Loop, ...]:
     """Return the loops of a source, with `vague` where others share their lines or are not in the source."""
     back, firsts = tuple(circles(text)), [loop.first for loop in loops]
-    names = "|".join(sorted(macros | loop_macros(text)))
-    is_macro = re.compile(rf"\b(?:{names})\b") if names else None
+    known = macros.with_those([text])
     return tuple(
         replace(loop, vague=True)
         if firsts.count(loop.first) > 1
         or any(first <= loop.last and loop.first <= last for first, last in back)
-        or (is_macro is not None and is_macro.search(loop.head + loop.body))
+        or known.may_repeat(f"{loop.head};{loop.body}")
         else loop
         for loop in loops
     )
@@ -182,7 +181,7 @@ class Sources:
         `headers` have the constants of the output, `decoders` its generated functions that decode.
         """
         headers = [_blanked(text) for text in headers]
-        macros = frozenset(name for text in headers for name in loop_macros(text))
+        macros = NO_MACROS.with_those(headers)
         self._source = cache(lambda name: Source(read(name), macros))
         self._decoders = Decoders(_TEXT.sub(lambda m: " " * len(m[0]), _blanked(text)) for text in decoders)
         self._constants: dict[str, str] = {}

@@ -38,6 +38,7 @@ REFUSED = {
     "attack_strlen": UNKNOWN,
     "attack_strncat": UNKNOWN,
     "attack_macro": LOOP,
+    "attack_foreign_macro": LOOP,
     "attack_one_line": LOOP,
     "attack_goto": LOOP,
     "attack_goto_around": LOOP,

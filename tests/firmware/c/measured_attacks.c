@@ -11,6 +11,7 @@
 
 #include <limits.h>
 #include <string.h>
+#include <sys/queue.h>
 
 #define ROWS 3
 #define COLUMNS (ROWS + 4)
@@ -33,6 +34,12 @@ enum { FEW = 3, MANY = 100, NEXT };
 
 typedef void (*work_t)(void);
 
+struct link_t {
+  SLIST_ENTRY(link_t) next;
+};
+
+static SLIST_HEAD(, link_t) links = SLIST_HEAD_INITIALIZER(links);
+static struct link_t all_links[MANY];
 static volatile uint32_t sink;
 static volatile uint8_t bytes[256];
 static char text[256];
@@ -261,6 +268,18 @@ ATTACK void attack_macro(void)
   }
 }
 
+ATTACK void attack_foreign_macro(void)
+{
+  const struct link_t * link;
+
+  for (uint32_t i = 0; i < FEW; ++i) {
+    SLIST_FOREACH(link, &links, next)
+    {
+      ++sink;
+    }
+  }
+}
+
 /* clang-format off */
 ATTACK void attack_one_line(void)
 {
@@ -456,6 +475,9 @@ int main(void)
     (void)rclc_support_init(&support, 0, NULL, &allocator);
   }
   (void)memset(other, 'x', sizeof(other) - 1u);
+  for (uint32_t i = 0; i < (uint32_t)MANY; ++i) {
+    SLIST_INSERT_HEAD(&links, &all_links[i], next);
+  }
   fill(MANY, 2);
   MEASURE(sink = attack_nested());
   MEASURE(sink = attack_nested_while(bytes));
@@ -478,6 +500,7 @@ int main(void)
   MEASURE(sink = (uint32_t)attack_division(UINT64_MAX - sink, 0x100000003u));
   MEASURE(sink = attack_tail_call(0));
   MEASURE(attack_macro());
+  MEASURE(attack_foreign_macro());
   MEASURE(attack_one_line());
   MEASURE(attack_goto(200));
   MEASURE(attack_goto_around(200));
