@@ -32,7 +32,7 @@ CALLS = 16
 AROUND = 12
 """Instructions of the program between the marks: the arguments, the call, and the ends of the marks."""
 CLOSE = 10
-"""How far above the heaviest call the bound may be: each text counts as the longest one, each ring as full of empty lines."""
+"""How far above the heaviest call the bound may be: each text counts as the longest one, a ring as full of nothing."""
 HEAVY = 20_000
 """Instructions that five messages for two writers take at least."""
 
