@@ -53,13 +53,17 @@ CORE = (
     "workers/remote",
 )
 """What runs for each message, and the classes that it shares."""
+QUICK = f"{PACKAGE}/quick_calls"
+"""The calls that are written in C."""
 _CONFIGURATION = "[mypy]\nignore_missing_imports = True\ndisable_error_code = import-untyped\n"
 # Run with the copy of the sources as the working directory: mypyc names modules by their paths.
 _BUILD = """\
 import sys
 from mypyc.build import mypycify
-from setuptools import setup
+from setuptools import Extension, setup
+quick = sys.argv.pop(1)
 extensions = mypycify(["--config-file", "mypy.ini", *sys.argv[1:]], opt_level="2", debug_level="0")
+extensions.append(Extension(quick.replace("/", "."), [quick + ".c"]))
 setup(name="core", packages=[], ext_modules=extensions, script_args=["-q", "build_ext", "--build-lib", "built"])
 """
 
@@ -108,7 +112,11 @@ def compile_core(root: Path, folder: Path) -> dict[str, Path]:
     (folder / "mypy.ini").write_text(_CONFIGURATION, encoding="utf-8")
     modules = [f"{PACKAGE}/{name}.py" for name in CORE]
     done = subprocess.run(
-        [sys.executable, "-c", _BUILD, *modules], cwd=folder, capture_output=True, text=True, check=False
+        [sys.executable, "-c", _BUILD, QUICK, *modules],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=False,
     )
     if done.returncode != 0:
         raise SystemExit(f"{VARIABLE}: the agent's core cannot be compiled:\n{done.stdout}{done.stderr}")
@@ -119,5 +127,7 @@ def compile_core(root: Path, folder: Path) -> dict[str, Path]:
 def _all_but_python(folder: str, names: list[str]) -> set[str]:
     """Return the files to leave out of the copy."""
     return {
-        name for name in names if not name.endswith((".py", ".pyi")) and not (Path(folder) / name).is_dir()
+        name
+        for name in names
+        if not name.endswith((".py", ".pyi", ".c")) and not (Path(folder) / name).is_dir()
     }

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import os
 import time
 from collections import Counter
 from collections.abc import Callable, Mapping
@@ -74,6 +75,7 @@ class EventLog:
         """`worker`: number of the process in each line, if the agent has several."""
         self._worker: dict[str, Json] = {} if worker is None else {"worker": worker}
         self._out = out
+        self._descriptor = _descriptor_of(out)
         self._json = as_json
         self._limit = Level.INFO + verbosity
         self._clock = clock
@@ -196,9 +198,27 @@ class EventLog:
             self.on_warning(client, printable(text.format(**short)))
 
     def line(self, text: str) -> None:
-        """Write one line at once."""
+        """Write one line at once.
+
+        In one call of the system, if `out` has a descriptor: lines of several processes do not mix in a file then, nor
+        in a pipe up to PIPE_BUF (4,096 bytes). The buffers of Python would divide lines of more than 8 KiB.
+        """
         try:
-            self._out.write(text + "\n")
-            self._out.flush()
+            if self._descriptor < 0:
+                self._out.write(text + "\n")
+                self._out.flush()
+                return
+            rest = f"{text}\n".encode(self._out.encoding, "backslashreplace")
+            while rest:  # a signal or a full disk may end a call early
+                rest = rest[os.write(self._descriptor, rest) :]
         except (OSError, ValueError):
             self.counters["log_lost"] += 1
+
+
+def _descriptor_of(out: TextIO) -> int:
+    """Return the descriptor of a stream with nothing left to write; -1 if it has none."""
+    try:
+        out.flush()
+        return out.fileno()
+    except (OSError, ValueError, AttributeError):
+        return -1

@@ -100,8 +100,8 @@ class Libraries:
         self.introspection_identifier = _text_at(
             ctypes.PyDLL(f"lib{self.INTROSPECTION.decode()}.so"), self.INTROSPECTION
         )
-        self.service_handle_function = _address(runtime.get_service_typesupport_handle_function)
-        self.eventfd_write = _address(ctypes.PyDLL(None).eventfd_write)
+        self.service_handle_function = address_of(runtime.get_service_typesupport_handle_function)
+        self.eventfd_write = address_of(ctypes.PyDLL(None).eventfd_write)
         self.default_allocator = _function(self._utils, "rcutils_get_default_allocator", Allocator)
         self.free_message = _function(
             self._utils, "rcutils_uint8_array_fini", c_int, POINTER(SerializedMessage)
@@ -277,7 +277,8 @@ def _function(library: ctypes.PyDLL, name: str, result: Any, *arguments: Any) ->
     return found
 
 
-def _address(function: Any) -> int:
+def address_of(function: Any) -> int:
+    """Return the address of a C function."""
     return int(ctypes.cast(function, c_void_p).value or 0)
 
 

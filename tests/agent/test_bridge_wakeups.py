@@ -49,3 +49,36 @@ def test_a_reliable_sample_does_not_wake_the_thread_of_timers(
     assert woken < SAMPLES / 4 + 3 * elapsed / SUPPRESSION_S, (
         f"{woken} times for {SAMPLES} samples in {elapsed} s"
     )
+
+
+def test_samples_that_were_left_are_there_and_the_next_one_after_them_wakes(
+    bridged: Bridged, bridge_observer: Observer
+) -> None:
+    node = bridged.bridge.create_node("patient", bridged.domain)
+    reader = node.create_reader(Topic("rt/patient", "std_msgs::msg::dds_::Int32_"), Qos(depth=SAMPLES))
+    bridged.wait(lambda: len(bridge_observer.ask(do="endpoints", topic="/patient")) >= 1)
+
+    def publish(values: range) -> None:
+        ask = {"topic": "/patient", "type": "std_msgs/msg/Int32"}
+        bridge_observer.ask(do="publish", values=[{"data": value} for value in values], **ask)
+
+    def take() -> int:
+        taken = reader.take()
+        assert taken is not None
+        return int.from_bytes(taken[4:8], "little")
+
+    for round_ in range(3):
+        first = 10 * round_
+        publish(range(first, first + 4))
+        bridged.wait(lambda: reader.unread() >= 4)
+        assert take() == first
+        publish(range(first + 4, first + 6))
+        bridged.wait(lambda: reader.unread() >= 6)
+        assert [take() for _ in range(5)] == list(range(first + 1, first + 6))
+        assert reader.take() is None
+        publish(range(first + 6, first + 8))
+        received = bridged.take(reader, 2)
+        assert [int.from_bytes(each[4:8], "little") for each in received] == [first + 6, first + 7]
+        reader.unread()
+        assert reader.take() is None  # now it counts from 0
+    node.destroy()

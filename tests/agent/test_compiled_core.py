@@ -46,6 +46,9 @@ from tests.support.sharing import shared_by_processes
 SUITE = ("tests", "examples", "docs", "Makefile", ".clang-format")
 """What the tests read, besides the sources of the wheel."""
 MODULES = (
+    "test_arrivals",
+    "test_bridge_topics",
+    "test_bridge_wakeups",
     "test_budgets",
     "test_captured_dialogues",
     "test_core",
@@ -66,7 +69,7 @@ MODULES = (
     "workers/test_report",
 )
 """Tests of what is compiled, and of what uses it: recorded dialogues (the same bytes as the public agent's), streams,
-turns, sockets, and what processes exchange."""
+turns, sockets, wake-ups by ROS 2, and what processes exchange."""
 
 
 def test_this_checkout_runs_in_python() -> None:
@@ -229,7 +232,7 @@ def _compiled(tree: Path) -> Path:
     with zipfile.ZipFile(wheel) as opened:
         libraries = [name for name in opened.namelist() if name.endswith(".so")]
         opened.extractall(tree, libraries)
-    assert len(libraries) == len(hatch_build.CORE) + 1
+    assert len(libraries) == len(hatch_build.CORE) + 2  # what all modules share, and quick_calls.c
     return tree
 
 

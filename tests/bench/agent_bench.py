@@ -55,8 +55,14 @@ TRIP_RECORDED = "83 to 95 us median, 172 us p99"
 MEMORY_RECORDED = {0: "15 MB", 1: "20 MB", 10: "39 MB", 100: "400 MB, 608 threads"}
 
 
-def bench_agent(work: Path, other: Target | None = None) -> None:
-    """Print the table; `other`: an agent that runs already, in place of one that is started here."""
+def bench_agent(
+    work: Path, other: Target | None = None, only: str | None = None, samples: int = SAMPLES
+) -> None:
+    """Print the table; `other`: an agent that runs already, in place of one that is started here.
+
+    `only`: a part of the names of the rates to measure (way and case, as printed), and nothing else than these.
+    `samples`: the number in each run, half of it in fragments.
+    """
     programs = build_programs(work)
     if programs is None:
         print("agent: not measured: the ROS 2 wheels or a C compiler is missing")
@@ -73,10 +79,12 @@ def bench_agent(work: Path, other: Target | None = None) -> None:
     with _target(other) as target:
         _calibrate(programs, target.domain)
         keys = count(0xB0000000 + (os.getpid() & 0xFFFF) * 0x1000)
-        _print_rates(programs, target, keys)
-        _print_trips(programs, target, keys)
-    with _target(other) as target:
-        print_memory(target)
+        _print_rates(programs, target, keys, only or "", samples)
+        if only is None:
+            _print_trips(programs, target, keys)
+    if only is None:
+        with _target(other) as target:
+            print_memory(target)
     print()
 
 
@@ -106,17 +114,22 @@ def _calibrate(programs: Programs, domain: int) -> None:
         print(f"    {f'the same DDS writer to reader, {size} B':<38} {rate.per_second:9,.0f} /s")
 
 
-def _print_rates(programs: Programs, target: Target, keys: Iterator[int]) -> None:
+def _print_rates(programs: Programs, target: Target, keys: Iterator[int], only: str, samples: int) -> None:
     for title, measure in (("client to DDS", client_to_dds), ("DDS to client", dds_to_client)):
         print(f"  {title:<99} recorded")
         for row in ROWS:
-            once = partial(_rate, measure, programs, target, row, keys)
+            if only not in f"{title}, {row.case}":
+                continue
+            count = row.samples * samples // SAMPLES
+            once = partial(_rate, measure, programs, target, row.case, count, keys)
             recorded = row.to_dds if measure is client_to_dds else row.to_client
             print(f"    {row.case!s:<48} {median_of(RUNS, once)!s:<48} {recorded}", flush=True)
 
 
-def _rate(measure: Measure, programs: Programs, target: Target, row: Row, keys: Iterator[int]) -> Rate:
-    return measure(programs, target, row.case, row.samples, next(keys))
+def _rate(
+    measure: Measure, programs: Programs, target: Target, case: Case, count: int, keys: Iterator[int]
+) -> Rate:
+    return measure(programs, target, case, count, next(keys))
 
 
 def _print_trips(programs: Programs, target: Target, keys: Iterator[int]) -> None:

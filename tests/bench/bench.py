@@ -16,7 +16,7 @@ import tempfile
 from pathlib import Path
 
 from tests.bench.agent_attacks import bench_attacks
-from tests.bench.agent_bench import bench_agent
+from tests.bench.agent_bench import SAMPLES, bench_agent
 from tests.bench.agent_fleet import bench_fleet
 from tests.bench.agent_sides import Target
 from tests.bench.agent_workers import bench_workers
@@ -70,6 +70,12 @@ def main() -> int:
         metavar=("PORT", "PROCESS", "DOMAIN"),
         help="measure another, which runs",
     )
+    parser.add_argument(
+        "--rates",
+        metavar="PART",
+        help="of the agent, only rates with this in their names, as 'DDS to client, 64 B'",
+    )
+    parser.add_argument("--samples", type=int, default=SAMPLES, help="in each run of the agent's rates")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         work = Path(folder)
@@ -104,7 +110,8 @@ def main() -> int:
         if "tasks" in options.parts:
             bench_tasks(work / "tasks")
         if "agent" in options.parts:
-            bench_agent(work / "agent", Target(*options.agent) if options.agent else None)
+            other = Target(*options.agent) if options.agent else None
+            bench_agent(work / "agent", other, options.rates, options.samples)
         if "fleet" in options.parts:
             bench_fleet()
         if "workers" in options.parts:

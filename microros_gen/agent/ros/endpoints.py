@@ -3,18 +3,18 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import time
 from collections.abc import Callable
-from ctypes import addressof, byref, c_void_p
+from ctypes import byref
 from typing import Any
 
+from microros_gen.agent.ros.arrivals import NewBell, PlainBell, new_bell, new_take
 from microros_gen.agent.ros.bridge import BridgeError, BusyError, GraphReport
 from microros_gen.agent.ros.graph import Endpoint, Events
 from microros_gen.agent.ros.wakeups import Notify, Wakeups
 from microros_gen.ros.layout import SerializedMessage
-from microros_gen.ros.libraries import FAILURES, OK, SUBSCRIPTION_TAKE_FAILED, first_line, new_bytes
+from microros_gen.ros.libraries import FAILURES, OK, SUBSCRIPTION_TAKE_FAILED, first_line
 from microros_gen.ros.raw_types import RawTypes
 
 FULL_S, LONGEST_FULL_S = 0.002, 0.064
@@ -103,7 +103,13 @@ class RawSource(Entity):
     """An entity for which ROS 2 wakes the agent, until it is destroyed."""
 
     def __init__(
-        self, handle: Any, ros: Ros, notify: Notify, events: Events, endpoints: tuple[Endpoint, ...]
+        self,
+        handle: Any,
+        ros: Ros,
+        notify: Notify,
+        events: Events,
+        endpoints: tuple[Endpoint, ...],
+        new_bell: NewBell = PlainBell,
     ) -> None:
         self._empty = True
         """Whether it was empty at some time since the last call of `unread`."""
@@ -113,7 +119,9 @@ class RawSource(Entity):
         self._wakeups = ros.wakeups
         self._descriptor = ros.wakeups.add(self)
         # What came before is reported at once, unless it comes between the two steps of rmw_fastrtps: so look once.
-        if notify(self._pointer, ros.libraries.eventfd_write, self._descriptor) != OK:
+        self._bell = new_bell(self._descriptor, ros.libraries.eventfd_write)
+        if notify(self._pointer, *self._bell.call()) != OK:
+            self._bell.release()
             ros.wakeups.remove(self._descriptor)
             raise BridgeError(self._libraries.error())
         os.eventfd_write(self._descriptor, 1)
@@ -124,6 +132,7 @@ class RawSource(Entity):
         # unset the callback first would crash rmw_fastrtps if a request came in that moment.)
         descriptor, self._descriptor = self._descriptor, -1
         super()._leave()
+        self._bell.release()
         self._wakeups.remove(descriptor)
 
     def unread(self) -> int:
@@ -131,9 +140,11 @@ class RawSource(Entity):
         if self._empty:
             self._empty, self._arrived = False, 0
         if self._descriptor >= 0:
-            with contextlib.suppress(BlockingIOError):
-                self._arrived += os.eventfd_read(self._descriptor)
+            self._arrived += self._bell.arrived()
         return self._arrived
+
+    def woken(self) -> None:
+        """Prepare for the next wake-up; called at each one."""
 
     def failed(self, doing: str) -> BridgeError:
         """Return the error that ROS 2 reported while `doing` something."""
@@ -144,20 +155,29 @@ class RawReader(RawSource):
     """See Reader."""
 
     def __init__(self, handle: Any, ros: Ros, events: Events, endpoints: tuple[Endpoint, ...]) -> None:
-        super().__init__(handle, ros, ros.libraries.notify_subscription, events, endpoints)
-        self._message = ros.taken
-        # Objects of ctypes are passed as they are; an int would be converted in each call.
-        self._arguments = (c_void_p(self._pointer), c_void_p(addressof(ros.taken)), None, None)
-        self._take = ros.libraries.take
+        super().__init__(handle, ros, ros.libraries.notify_subscription, events, endpoints, new_bell)
+        self._drained = True
+        """Whether it was empty when last looked at: only then the next sample has to wake the agent."""
+        self._take = new_take(ros.libraries, self._pointer, ros.taken)
+
+    def woken(self) -> None:
+        """See RawSource. With samples left it is not woken again: whoever left them continues by itself."""
+        if self._drained:
+            self._drained = False
+            self._bell.arm()
 
     def take(self) -> bytes | None:
         """See Reader."""
         if self._descriptor < 0:
             return None
-        result = self._take(*self._arguments)
-        if result == OK:
-            return new_bytes(self._message.buffer, self._message.length)
-        if result == SUBSCRIPTION_TAKE_FAILED:
-            self._empty = True
+        taken = self._take()
+        if isinstance(taken, bytes):
+            return taken
+        if taken == SUBSCRIPTION_TAKE_FAILED and self._bell.arm():
+            taken = self._take()  # what came between these calls woke nobody
+            if isinstance(taken, bytes):
+                return taken
+        if taken == SUBSCRIPTION_TAKE_FAILED:
+            self._empty = self._drained = True
             return None
         raise self.failed("take")

@@ -157,6 +157,7 @@ class RclpyBridge:
             if isinstance(woken, Watcher):
                 woken.look()
             else:
+                woken.woken()
                 sources.append(woken)
         return sources
 

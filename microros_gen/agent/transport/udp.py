@@ -17,6 +17,7 @@ from collections.abc import Hashable
 from typing import Any, Final
 
 from microros_gen.agent.fairness import TURN_S, Account, Fairness
+from microros_gen.agent.quick import quick_receive
 from microros_gen.agent.transport.addresses import parse_address
 from microros_gen.agent.transport.base import Origin, Receive
 from microros_gen.agent.transport.datagrams import send_datagrams, takes_several
@@ -209,25 +210,36 @@ class Udp:
         self._epoll.close()
 
     def _read(self, queue: Queue, receive: Receive) -> None:
-        take, account, address = queue.socket.recvfrom_into, queue.account, queue.address
-        receive_only, clock = queue.socket.recv_into, time.monotonic
-        datagram, view = self._datagram, self._view
+        opened, account, address = queue.socket, queue.account, queue.address
+        clock, quick = time.monotonic, quick_receive
         end = clock() + SHARE_S
+        data: bytes | None
         for _ in range(BATCH):
             try:
-                if address is not None:
-                    size = receive_only(datagram)
+                if address is None:
+                    data, peer = self._take_from_anyone(opened)
+                elif quick is not None:
+                    data = quick(opened.fileno())  # it is closed when its client leaves
                 else:
-                    size, peer = take(datagram)
+                    data = self._take(opened)
             except BlockingIOError:
                 return
             except OSError:
-                if queue.socket.fileno() < 0:
+                if opened.fileno() < 0:
                     return  # its client left with the previous message
                 continue  # an ICMP error for something sent earlier
-            receive(bytes(view[:size]), address or (self, peer), self)
+            if data is None:
+                return
+            receive(data, address or (self, peer), self)
             if account.busy or clock() > end:
                 return
+
+    def _take(self, connected: socket.socket) -> bytes:
+        return bytes(self._view[: connected.recv_into(self._datagram)])
+
+    def _take_from_anyone(self, opened: socket.socket) -> tuple[bytes, Peer]:
+        size, peer = opened.recvfrom_into(self._datagram)
+        return bytes(self._view[:size]), peer
 
     def _keep(self, ends: socket.socket) -> bool:
         """Keep the datagrams in a socket; in a new one, those that arrived before it was connected.

@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import replace
 
 from microros_gen.agent.log import EventLog
+from microros_gen.agent.readiness import notify
 from microros_gen.agent.recording.recorder import Recorder
-from microros_gen.agent.server import Server
+from microros_gen.agent.server import Ready, Server
 from microros_gen.cli.agent.options import AgentOptions
 from microros_gen.diagnostics import UserError
 
@@ -23,17 +25,22 @@ def open_recorder(options: AgentOptions, log: EventLog) -> Recorder | None:
         raise UserError([replace(d, span=d.span or span) for d in error.diagnostics]) from error
 
 
-def begin(recorder: Recorder | None, server: Server) -> bool:
-    """Begin to record, after all that may fail: it replaces what the file holds. False: `server` is to end already."""
-    if server.stops:
-        return False
-    if recorder is not None:
-        recorder.begin()
-    return True
+def run(server: Server, recorder: Recorder | None, announce: Ready) -> bool:
+    """Run `server`, which records; call it after all that may fail. Return whether the recording has begun.
+
+    A recording replaces what its file holds, so it does not begin if the server is to end already.
+    """
+    has_begun = not server.stops
+    if has_begun:
+        if recorder is not None:
+            recorder.begin()
+        notify("READY=1")
+    server.run(announce, time.monotonic)
+    return has_begun
 
 
 def end(recorder: Recorder | None, has_begun: bool) -> None:
-    """End what `begin` began, or leave the file as it was."""
+    """End what `run` began, or leave the file as it was."""
     if recorder is None:
         return
     if has_begun:

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import gc
 import sys
-import time
 from functools import partial
 
 import click
@@ -16,7 +15,7 @@ from microros_gen.agent.fairness import Account, Fairness
 from microros_gen.agent.input_pool import InputPool
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.own_time import Waited
-from microros_gen.agent.readiness import is_service, notify, watchdog
+from microros_gen.agent.readiness import is_service, watchdog
 from microros_gen.agent.recording.recorder import RecordedTransport
 from microros_gen.agent.ros.rclpy_bridge import open_bridge
 from microros_gen.agent.ros.reports import graph_reporter
@@ -32,7 +31,7 @@ from microros_gen.cli.agent.monitoring import checked_places, monitoring
 from microros_gen.cli.agent.options import AgentOptions
 from microros_gen.cli.agent.parameters import ParametersOnDemand
 from microros_gen.cli.agent.policy import reloading, report_policy
-from microros_gen.cli.agent.recording import begin, end, open_recorder
+from microros_gen.cli.agent.recording import end, open_recorder, run
 from microros_gen.cli.agent.seal import PskFile, Seals
 from microros_gen.cli.agent.transports import Shared, close_all, connections, open_transports
 from microros_gen.cli.agent.workers import serve_with_workers
@@ -108,10 +107,7 @@ def _serve_alone(options: AgentOptions, files: AgentFiles, log: EventLog, signal
             ),
             signals.stopping(server),
         ):
-            has_begun = begin(recorder, server)
-            if has_begun:
-                notify("READY=1")
-            server.run(lambda transport: _announce(announcements, transport), time.monotonic)
+            has_begun = run(server, recorder, partial(_announce, announcements))
     except UserError:  # one of the servers cannot start
         agent.close()
         close_all(transports)

@@ -16,7 +16,7 @@ from microros_gen.agent.fairness import Account, Fairness
 from microros_gen.agent.input_pool import InputPool
 from microros_gen.agent.log import EventLog, Level
 from microros_gen.agent.policy.model import Policy
-from microros_gen.agent.readiness import notify, watchdog
+from microros_gen.agent.readiness import watchdog
 from microros_gen.agent.server import Server
 from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.transport.udp import Udp
@@ -32,7 +32,7 @@ from microros_gen.cli.agent.monitoring import monitoring
 from microros_gen.cli.agent.options import AgentOptions
 from microros_gen.cli.agent.parameters import ParametersOnDemand
 from microros_gen.cli.agent.policy import reloading, report_policy
-from microros_gen.cli.agent.recording import begin, end, open_recorder
+from microros_gen.cli.agent.recording import end, open_recorder, run
 from microros_gen.cli.agent.seal import PskFile
 from microros_gen.cli.agent.transports import Shared, close_all, connections, open_transports
 from microros_gen.cli.agent.worker import WorkerStart
@@ -120,10 +120,7 @@ def serve_with_workers(
                     (reloading(options, in_force, log), psk_file.reloading(in_force.use_keys)),
                 ),
             ):
-                has_begun = begin(recorder, server)
-                if has_begun:
-                    notify("READY=1")
-                server.run(announce, time.monotonic)
+                has_begun = run(server, recorder, announce)
     except UserError:
         front.close()
         close_all(transports)
