@@ -14,8 +14,7 @@ static uint8_t * binary_put_string(
   uint8_t * end = xrce_describe_text(xrce_describe_text(xrce_describe_text(&at[4], first), second), third);
 
   *end++ = 0;
-  xrce_put_le16(&at[0], xrce_size_between(&at[4], end));
-  xrce_put_le16(&at[2], 0);
+  xrce_put_le32(at, xrce_size_between(&at[4], end));
   return end;
 }
 

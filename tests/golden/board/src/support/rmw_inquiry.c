@@ -38,7 +38,7 @@ static void inquiry_send(xrce_transport_t * transport)
 static bool inquiry_attempt(xrce_transport_t * transport, uint32_t timeout_ms)
 {
   const uint32_t start = port_time_ms();
-  uint8_t * input = xrce_input;
+  uint8_t * input = xrce_input; /* unused without a session */
 
   inquiry_send(transport);
   for (;;) {

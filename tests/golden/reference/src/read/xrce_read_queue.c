@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The queues: rings of slots of one size each. */
 #include "microros/xrce_client.h"
+#include "microros/xrce_input.h"
 #include "microros/xrce_loan.h"
 #include "microros/xrce_queue_memory.h"
 #include "microros/xrce_read.h"

@@ -47,9 +47,14 @@ void rmw_replier_bind(const rmw_service_t * service, void * ros_request, void * 
     bind_service_0_response,
   };
 
-  const xrce_endpoint_t * endpoint = service->data;
-  const size_t index = endpoint->index - (XRCE_REPLIERS_AT - MICROROS_NODES_MAX);
+  const xrce_endpoint_t * endpoint;
+  size_t index;
 
+  if (!rmw_replier_is_open(service)) {
+    return;
+  }
+  endpoint = service->data;
+  index = endpoint->index - (XRCE_REPLIERS_AT - MICROROS_NODES_MAX);
   service_bind(requests[index], ros_request);
   service_bind(responses[index], ros_response);
 }

@@ -21,7 +21,6 @@ bool xrce_route_message(xrce_client_t * client, const uint8_t * message, size_t 
   if (!xrce_session_take_submessages(client, message, size, now)) {
     return false;
   }
-  xrce_stream_reliable_input_continue(client, now);
   return true;
 }
 

@@ -5,12 +5,13 @@
 #include "microros/port.h"
 #include "microros/rmw_client.h"
 #include "microros/xrce_client.h"
+#include "microros/xrce_input.h"
 #include "microros/xrce_wire.h"
 
 /* The agent's INFO has 36 bytes; anything longer than this is not an INFO. */
 enum { INPUT_SIZE = 40 };
 
-/* Of its own: an open session may keep part of a message in its input buffer. */
+/* An open session may keep part of a message in its input buffer. */
 static uint8_t inquiry_input[INPUT_SIZE];
 
 /* Without a session other tasks could only open one, maybe over this line: they have to wait. */
