@@ -237,12 +237,13 @@ def file_name(unit: Any, program: Any, index: int) -> str:
     """
     has_all = program.header["version"] >= 5
     entry = program["file_entry"][index if has_all else index - 1]
-    own = unit.get_top_DIE().attributes["DW_AT_comp_dir"].value
+    folder = unit.get_top_DIE().attributes.get("DW_AT_comp_dir")
+    own = folder.value if folder is not None else b""  # optional: libgcc of AVR has none
     folders = [*([] if has_all else [own]), *program["include_directory"]]
     if has_all:
         folders[0] = own
     parts = (folders[0], folders[entry["dir_index"]], entry["name"])
-    return "/".join(str(part.decode("utf-8", "replace")) for part in parts[_first(parts) :])
+    return "/".join(str(part.decode("utf-8", "replace")) for part in parts[_first(parts) :] if part)
 
 
 def _first(parts: tuple[bytes, ...]) -> int:
