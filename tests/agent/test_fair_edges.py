@@ -169,7 +169,7 @@ class Graph:
 
 
 def test_a_topic_is_asked_about_once_for_all_its_endpoints() -> None:
-    wakeups: Wakeups[Any] = Wakeups()
+    wakeups: Wakeups = Wakeups()
     graph, reported, topics = Graph(), list[GraphReport](), TopicTypes()
     comparison = Comparison(graph, wakeups, reported.append)
     endpoints = [Endpoint(f"/n{n}", "publisher", "/t [x]", "/t", "x", None) for n in range(100)]

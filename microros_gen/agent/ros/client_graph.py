@@ -48,7 +48,7 @@ class ClientGraph(Watcher):
         self._libraries = libraries
         self._graph = Graph(handles, node)
         self._readers: set[GraphReader] = set()
-        self._wakeups: Wakeups[Any] | None = None
+        self._wakeups: Wakeups | None = None
         """None while nobody reads."""
         self._timer = -1
         self._nodes: Iterator[bytes | None] | None = None
@@ -56,7 +56,7 @@ class ClientGraph(Watcher):
         self.sample = b""
         """Encapsulation header and CDR body of the newest message; empty before the first."""
 
-    def read(self, topic: Topic, node: str, wakeups: Wakeups[Any], entities: set[Destroyable]) -> GraphReader:
+    def read(self, topic: Topic, node: str, wakeups: Wakeups, entities: set[Destroyable]) -> GraphReader:
         """Return a new reader of the node `node`, one of its `entities`. Raises BridgeError for another type."""
         label = f"{topic.name} [micro_ros_msgs/msg/Graph]"
         if topic.type_name != GRAPH_TYPE:
@@ -135,9 +135,7 @@ class ClientGraph(Watcher):
 class GraphReader:
     """See Reader: the newest graph, once."""
 
-    def __init__(
-        self, graph: ClientGraph, label: str, wakeups: Wakeups[Any], entities: set[Destroyable]
-    ) -> None:
+    def __init__(self, graph: ClientGraph, label: str, wakeups: Wakeups, entities: set[Destroyable]) -> None:
         self.label = label
         self._graph = graph
         self._wakeups = wakeups
@@ -158,6 +156,9 @@ class GraphReader:
             return None
         self._taken = self._graph.sample
         return self._taken or None
+
+    def woken(self) -> None:
+        """See WokenSource."""
 
     def unread(self) -> int:
         """See Source."""

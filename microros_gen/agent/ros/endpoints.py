@@ -29,7 +29,7 @@ class Ros:
         self.request_wait_s = request_wait_s
         self.libraries = types.libraries
         self.types = types
-        self.wakeups: Wakeups[Any] = Wakeups()
+        self.wakeups: Wakeups = Wakeups()
         self.taken = SerializedMessage(allocator=self.libraries.default_allocator())
 
     def close(self) -> None:
@@ -144,7 +144,7 @@ class RawSource(Entity):
         return self._arrived
 
     def woken(self) -> None:
-        """Prepare for the next wake-up; called at each one."""
+        """See WokenSource."""
 
     def failed(self, doing: str) -> BridgeError:
         """Return the error that ROS 2 reported while `doing` something."""
@@ -161,7 +161,7 @@ class RawReader(RawSource):
         self._take = new_take(ros.libraries, self._pointer, ros.taken)
 
     def woken(self) -> None:
-        """See RawSource. With samples left it is not woken again: whoever left them continues by itself."""
+        """See WokenSource. With samples left it is not woken again: whoever left them continues by itself."""
         if self._drained:
             self._drained = False
             self._bell.arm()

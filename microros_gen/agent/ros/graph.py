@@ -119,7 +119,7 @@ class Destroyable(Protocol):
 class Comparison(Watcher):
     """Compares types and type hashes of endpoints with those that other nodes announce for the same topic."""
 
-    def __init__(self, handles: Any, wakeups: Wakeups[Any], report: Callable[[GraphReport], None]) -> None:
+    def __init__(self, handles: Any, wakeups: Wakeups, report: Callable[[GraphReport], None]) -> None:
         self._handles = handles
         self._wakeups = wakeups
         self._report = report
@@ -200,7 +200,7 @@ class Events(Watcher):
         self,
         handles: Any,
         node: Any,
-        wakeups: Wakeups[Any],
+        wakeups: Wakeups,
         libraries: Libraries,
         comparison: Comparison,
         topics: TopicTypes,

@@ -54,7 +54,7 @@ class Waiter(Protocol):
 class Patience(Watcher):
     """Polls for the other side of a service, for which ROS 2 has no event."""
 
-    def __init__(self, wakeups: Wakeups[Any]) -> None:
+    def __init__(self, wakeups: Wakeups) -> None:
         self._wakeups = wakeups
         self._timer = wakeups.add_timer(self)
         self._waiting: set[Waiter] = set()

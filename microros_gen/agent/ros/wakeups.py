@@ -12,12 +12,11 @@ import ctypes
 import os
 import select
 from collections.abc import Callable
-from typing import Generic, TypeVar
+from typing import Protocol
 
-from microros_gen.agent.ros.bridge import BridgeError
+from microros_gen.agent.ros.bridge import BridgeError, Source
 from microros_gen.agent.wire.constants import Status
 
-T = TypeVar("T")
 _CLOCK_MONOTONIC = 1
 Notify = Callable[[int, int | None, int | None], int]
 """One of rcl's `…set…callback` functions: entity, function (address), its first argument."""
@@ -31,24 +30,34 @@ class Watcher:
         raise NotImplementedError
 
 
+class WokenSource(Source, Protocol):
+    """A source that is named by `Bridge.ready` when it was woken up."""
+
+    def woken(self) -> None:
+        """Prepare for the next wake-up; called at each one."""
+
+
+Woken = Watcher | WokenSource
+
+
 class _Time(ctypes.Structure):
     """itimerspec of Linux on 64-bit machines."""
 
     _fields_ = tuple((name, ctypes.c_long) for name in ("every_s", "every_ns", "first_s", "first_ns"))
 
 
-class Wakeups(Generic[T]):
+class Wakeups:
     """An epoll descriptor and the objects that its eventfds wake."""
 
     def __init__(self) -> None:
         self._epoll = select.epoll()
-        self._known: dict[int, T] = {}
+        self._known: dict[int, Woken] = {}
 
     def fileno(self) -> int:
         """Return the descriptor that is readable while `drain` would return objects."""
         return self._epoll.fileno()
 
-    def add(self, what: T) -> int:
+    def add(self, what: Woken) -> int:
         """Return a new eventfd that wakes `what`. Raises BridgeError if the process has no descriptor left."""
         try:
             descriptor = os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC)
@@ -60,12 +69,12 @@ class Wakeups(Generic[T]):
         self.watch(descriptor, what)
         return descriptor
 
-    def watch(self, descriptor: int, what: T) -> None:
+    def watch(self, descriptor: int, what: Woken) -> None:
         """Let a descriptor wake `what`; it is closed with the others."""
         self._known[descriptor] = what
         self._epoll.register(descriptor, select.EPOLLIN | select.EPOLLET)
 
-    def add_timer(self, what: T) -> int:
+    def add_timer(self, what: Woken) -> int:
         """Return a timer that wakes `what`, stopped until `set_timer`. Raises BridgeError without a free descriptor."""
         descriptor = int(_libc().timerfd_create(_CLOCK_MONOTONIC, os.O_NONBLOCK | os.O_CLOEXEC))
         if descriptor < 0:
@@ -85,7 +94,7 @@ class Wakeups(Generic[T]):
         del self._known[descriptor]
         os.close(descriptor)
 
-    def drain(self) -> list[T]:
+    def drain(self) -> list[Woken]:
         """Return the objects woken up since the last call, each once. Never waits."""
         return [self._known[descriptor] for descriptor, _ in self._epoll.poll(0)]
 
