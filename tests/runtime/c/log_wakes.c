@@ -5,38 +5,16 @@
  * sends a sample when it has them all: a wait that does not end for one of them ends the program.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "unit.h"
-#include "unit_heard.h"
-#include "unit_sleeps.h"
+#include "unit_spinner.h"
 
-#include <microros/port.h>
-#include <microros_config.h>
-#include <rcl/rcl.h>
-#include <rclc/executor.h>
-#include <rclc/rclc.h>
 #include <rcutils/logging_macros.h>
-#include <std_msgs/msg/int32.h>
 
-#include <pthread.h>
 #include <time.h>
 
-#ifdef MICROROS_TASKS
-#include <microros/tasks.h>
-#endif
+enum { WRITERS = 4, MS_AT_MOST = 20000, PHASES = 7 };
 
-enum { WRITERS = 4, SETTLED_MS = 2500, MS_AT_MOST = 20000, PHASES = 7 };
-
-static rclc_executor_t executor;
 static pthread_barrier_t begins;
 static uint32_t rounds;
-
-#ifndef MICROROS_TASKS
-static void * spin(void * argument)
-{
-  (void)rclc_executor_spin(&executor);
-  return argument;
-}
-#endif
 
 /* So that lines come at all moments of the session's task: before its wait, in it, and after it. */
 static void rest(uint32_t round)
@@ -89,40 +67,12 @@ static void run_rounds(void)
 
 int main(int count, char * arguments[])
 {
-  static std_msgs__msg__Int32 sample;
-  const rosidl_message_type_support_t * type = ROSIDL_GET_MSG_TYPE_SUPPORT(std_msgs, msg, Int32);
-  rcl_allocator_t allocator = rcl_get_default_allocator();
-  rclc_support_t support;
-  rcl_node_t node = rcl_get_zero_initialized_node();
-  rcl_subscription_t subscription;
-  unsigned long before;
-
   CHECK(count == 3);
   rounds = (uint32_t)strtoul(arguments[2], NULL, 10);
-  CHECK(rclc_support_init(&support, 0, NULL, &allocator) == RCL_RET_OK);
-  CHECK(rclc_node_init_default(&node, "device", "", &support) == RCL_RET_OK);
-  CHECK(rclc_subscription_init_default(&subscription, &node, type, "target") == RCL_RET_OK);
-  CHECK(rclc_executor_init(&executor, &support.context, 1, &allocator) == RCL_RET_OK);
-  CHECK(
-    rclc_executor_add_subscription(&executor, &subscription, &sample, on_sample, ON_NEW_DATA) == RCL_RET_OK);
-#ifdef MICROROS_TASKS
-  CHECK(rclc_task_set_executor(0, &executor, NULL) == RCL_RET_OK);
-  CHECK(rclc_tasks_start() == RCL_RET_OK);
-#else
-  pthread_t thread;
-
-  CHECK(pthread_create(&thread, NULL, spin, NULL) == 0);
-#endif
-  port_sleep_ms(SETTLED_MS);
-  before = sleeps();
-  port_sleep_ms((uint32_t)strtoul(arguments[1], NULL, 10));
-  (void)printf("%lu\n", sleeps() - before);
+  spinner_open();
+  spinner_start();
+  (void)printf("%lu\n", spinner_sleeps((uint32_t)strtoul(arguments[1], NULL, 10)));
   run_rounds();
-#ifdef MICROROS_TASKS
-  CHECK(rclc_tasks_stop() == RCL_RET_OK);
-#else
-  CHECK(rcl_shutdown(&support.context) == RCL_RET_OK);
-  CHECK(pthread_join(thread, NULL) == 0);
-#endif
+  spinner_stop();
   return 0;
 }
