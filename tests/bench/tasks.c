@@ -2,7 +2,8 @@
 /*
  * Work at 1 kHz beside a saturated reliable stream: with BENCH_TASKS in a task above the one that publishes, else as the timer
  * of an executor in the loop that publishes. Prints by how many microseconds the time between two runs differed from a
- * millisecond: 50 %, 99 %, the most; messages that were published; and whether the system has priorities.
+ * millisecond: 50 %, 99 %, the most; messages that were published; and whether the system has priorities. Define SAMPLES for
+ * another number of runs.
  */
 #define _GNU_SOURCE
 #include <rcl/rcl.h>
@@ -20,7 +21,11 @@
 #include <microros/tasks.h>
 #endif
 
-enum { SAMPLES = 5000, PERIOD_US = 1000, WARM_UP = 200 };
+#ifndef SAMPLES
+#define SAMPLES 5000
+#endif
+
+enum { PERIOD_US = 1000, WARM_UP = 200 };
 
 static rcl_publisher_t publisher;
 static volatile uint32_t samples; /* a task writes it, main reads it */
