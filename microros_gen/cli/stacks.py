@@ -72,10 +72,12 @@ def check_stacks(folder: Folder) -> None:
 
 
 def _measured(folder: Folder) -> tuple[TaskStack, ...]:
+    from microros_gen.image.link_time import refuse_remade
     from microros_gen.image.report import measure_folder
     from microros_gen.image.task_stacks import task_stacks
 
     report = measure_folder(folder)
+    refuse_remade(folder, report.chunks)
     if report.graph is None or not report.graph.compiled:
         raise UserError([Diagnostic(f"no stack is known: {report.stack.why}", id="MG-7147")], status=1)
     return task_stacks(folder.manifest, report.graph)

@@ -19,6 +19,7 @@ from microros_gen.image.disassembly_avr import parse_avr
 from microros_gen.image.elf import THUMB, Elf
 from microros_gen.image.folder import Folder
 from microros_gen.image.lines import Lines, source_places
+from microros_gen.image.link_time import is_made_by_linker
 from microros_gen.image.pointers import Pointers, read_pointers
 from microros_gen.records import dataclass
 from microros_gen.toolchain.identity import CALL_GRAPH
@@ -140,7 +141,10 @@ def _node(chunk: Chunk, frames: Mapping[tuple[str, str], Frame]) -> Node:
             return node
     node = Node(names[0], chunk.address, None, "unknown", chunk.source)
     if chunk.owner.group == "application" and frames:
-        node.open.add(f"what {_file(chunk)} calls through pointers (compile it with {CALL_GRAPH})")
+        without = (
+            "link it without -flto" if is_made_by_linker(_file(chunk)) else f"compile it with {CALL_GRAPH}"
+        )
+        node.open.add(f"what {_file(chunk)} calls through pointers ({without})")
     return node
 
 

@@ -22,6 +22,7 @@ from microros_gen.image.guards import Written
 from microros_gen.image.holds import Hold, Holds, Rules
 from microros_gen.image.inlined import Inlined
 from microros_gen.image.lines import Lines, source_places
+from microros_gen.image.link_time import refuse_remade
 from microros_gen.image.paths import UNIT, Length, inner_parts, parts_of
 from microros_gen.image.pointers import read_pointers
 from microros_gen.image.report import SizeReport
@@ -77,6 +78,7 @@ class _Image:
 
     def __init__(self, report: SizeReport, image: Elf, port: int | None) -> None:
         folder = report.folder
+        refuse_remade(folder, report.chunks)
         self._functions: Mapping[int, Chunk] = {
             p.address: p for p in report.chunks if p.function and p.symbol
         }

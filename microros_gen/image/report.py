@@ -17,6 +17,7 @@ from microros_gen.image.dwarf import Facts, Part, read_facts, read_variables
 from microros_gen.image.elf import Elf
 from microros_gen.image.entities import Entity, RamPart, entities, ram_parts
 from microros_gen.image.folder import Folder, read_folder
+from microros_gen.image.link_time import refuse_remade
 from microros_gen.image.stack import StackReport, shown_name, stack_report
 from microros_gen.records import dataclass
 
@@ -93,9 +94,9 @@ def _static_ram(chunks: Iterable[Chunk]) -> int:
 
 
 def _measure_image(folder: Folder, image: Elf) -> SizeReport:
-    if folder.linked is not None:
-        _check_plan(folder, image)
     chunks = attribute(folder, image)
+    if folder.linked is not None:
+        _check_plan(folder, image, chunks)
     facts = read_facts(image)
     parts = ram_parts(folder, chunks, facts)
     graph = build_call_graph(folder, image, chunks)
@@ -104,10 +105,14 @@ def _measure_image(folder: Folder, image: Elf) -> SizeReport:
     return SizeReport(folder, chunks, facts, parts, entities(folder, chunks, parts), graph, stack, budgets)
 
 
-def _check_plan(folder: Folder, image: Elf) -> None:
-    """Refuse an image of another plan: each library and each application refer to the symbol of theirs."""
+def _check_plan(folder: Folder, image: Elf, chunks: Iterable[Chunk]) -> None:
+    """Refuse an image of another plan: each library and each application refer to the symbol of theirs.
+
+    Where both were optimized at link time, that symbol is not left.
+    """
     suffix = f"__plan_{folder.manifest['plan']}"
     if not any(symbol.name.endswith(suffix) for symbol in image.symbols):
+        refuse_remade(folder, chunks)
         what = f"{image.path} was not linked with the library of {folder.path} as it is now"
         raise UserError(
             [Diagnostic(what, hint="Link it again, or give the folder of its library", id="MG-8414")]
