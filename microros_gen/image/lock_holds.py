@@ -313,9 +313,14 @@ def task_holds(report: SizeReport, image: Elf, port: int | None) -> tuple[TaskHo
     )
 
 
-def longest_calls(report: SizeReport, image: Elf, functions: Iterable[str]) -> Mapping[str, Length]:
-    """Return the longest path of each of `functions`, called with the lock; those that the image lacks are left out."""
-    code = _Image(report, image, None)
+def longest_calls(
+    report: SizeReport, image: Elf, functions: Iterable[str], port: int | None = None
+) -> Mapping[str, Length]:
+    """Return the longest path of each of `functions`, called with the lock; those that the image lacks are left out.
+
+    `port`: instructions of a call of the port that has no bound.
+    """
+    code = _Image(report, image, port)
     holds = Holds(code.flows, code.names, code.rules())
     found = ((name, code.address(name)) for name in functions)
     lengths = ((name, holds.called(address)) for name, address in found if address is not None)

@@ -23,7 +23,7 @@ version: 1
 profiles: [pure_sender, pure_reader]
 components: [+services]
 errors: code
-limits: {"*": {string: 32}}
+limits: {"*": {string: 32}, std_msgs/msg/String: {data: 700}}
 pools: {history: 8, input_history: 8}
 logging: [{to: rosout, level: info}, {to: ring, level: info, size: 1 KiB}]
 nodes:
@@ -35,8 +35,12 @@ nodes:
 EXTREME = re.compile(r"^  EXTREME\(\s*(\w+),", re.MULTILINE)
 AROUND = 16
 """Instructions of the program between the marks: the arguments, the call, and the ends of the marks."""
-CLOSE = 5
-"""How far above the longest call the bound of a function may be."""
+CLOSE = 6
+"""How far above the longest call the bound of a function may be: each byte of a copy counts, and it takes words."""
+FAR = {"xrce_stream_reliable_input_on_heartbeat"}
+"""Their bound counts the ACKNACK as the largest message of the line."""
+PORT = ("port_serial_write", "port_serial_read")
+"""They wait for the line: neither what runs of them counts, nor what the bound would have."""
 
 
 @pytest.mark.system
@@ -49,8 +53,8 @@ def test_the_worst_input_takes_no_more_than_the_bound_and_not_far_less(
     emulator = built.target.emulator
     assert emulator is not None
     command = [emulator.program, *emulator.arguments, *EXIT]
-    counted = [region.counted for region in trace_regions(command, image, ())][0::2]
-    bounds = longest_calls(measure_folder(read_folder(built.out, image)), Elf(image), names)
+    counted = [region.counted for region in trace_regions(command, image, PORT)][0::2]
+    bounds = longest_calls(measure_folder(read_folder(built.out, image)), Elf(image), names, port=0)
     longest = dict[str, int]()
     for name, measured in zip(names, counted, strict=True):
         longest[name] = max(measured, longest.get(name, 0))
@@ -59,4 +63,4 @@ def test_the_worst_input_takes_no_more_than_the_bound_and_not_far_less(
         bound = bounds[name]
         assert bound.open == frozenset(), (name, bound.open)
         assert measured <= bound.count + AROUND, (name, measured, bound.count)
-        assert bound.count <= CLOSE * measured, (name, measured, bound.count)
+        assert name in FAR or bound.count <= CLOSE * measured, (name, measured, bound.count)

@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Functions of the library with the worst that their loops can be given: full tables that are searched to the end, names that
- * differ in their last character, all messages of a stream asked for again. Each EXTREME(function, call) is between two marks, in the
- * order of this file. The application file is that of test_extremes.py.
+ * differ in their last character, all messages of a stream asked for again, bytes that each become two. Each EXTREME(function,
+ * call) is between two marks, in the order of this file. The application file is that of test_extremes.py.
  */
 #include "measured.h"
 
 #include <microros/rcutils_ring.h>
 #include <microros/xrce_client.h>
+#include <microros/xrce_entities.h>
+#include <microros/xrce_fragments.h>
+#include <microros/xrce_framing.h>
 #include <microros/xrce_services.h>
 #include <microros/xrce_rosout.h>
 #include <microros/xrce_stream_reliable.h>
@@ -18,7 +21,13 @@
 #include <rclc/rclc.h>
 #include <rcutils/logging.h>
 
-enum { LINE_MOST = rcl_interfaces__msg__Log__MAX_ENCODED_SIZE, MANY = 300 };
+enum {
+  LINE_MOST = rcl_interfaces__msg__Log__MAX_ENCODED_SIZE,
+  MANY = 300,
+  AHEAD = 16,
+  REQUEST = 1,
+  OBJECT = (MICROROS_PUBLISHERS_MAX << 4) + XRCE_KIND_DATAREADER
+};
 
 #define EXTREME(function, ...) \
   do { \
@@ -96,6 +105,55 @@ static void input_measure(void)
   EXTREME(xrce_stream_reliable_input_kept, stream, XRCE_RELIABLE_INPUT_HELD, &size);
 }
 
+/* Every message that the agent may send ahead is not available any more. */
+static void skip_measure(void)
+{
+  static const uint8_t first[XRCE_HEARTBEAT_SIZE] = {AHEAD, 0, AHEAD, 0, XRCE_STREAM_RELIABLE};
+
+  (void)memset(&client.reliable_input, 0, sizeof(client.reliable_input));
+  EXTREME(xrce_stream_reliable_input_on_heartbeat, &client, first, sizeof(first), XRCE_FLAG_LITTLE_ENDIAN);
+}
+
+/* The last fragment of a sample, as large as a message can have it, for a reader. */
+static void fragments_measure(void)
+{
+  static uint8_t fragment[MICROROS_RELIABLE_INPUT_SLOT_SIZE] = {
+    XRCE_FRAGMENT, XRCE_FLAG_LITTLE_ENDIAN | XRCE_FLAG_LAST_FRAGMENT};
+  xrce_fragments_t * const fragments = &client.fragments;
+  xrce_receiver_t * const receiver = &client.receivers[0];
+
+  fragments->begun = true;
+  fragments->next = (uint16_t)(client.reliable_input.next - 1u);
+  fragments->sample.size = sizeof(fragment) - XRCE_SUBMESSAGE_HEADER - XRCE_MESSAGE_HEADER;
+  fragments->sample.request = REQUEST;
+  fragments->sample.object = OBJECT;
+  receiver->request = REQUEST;
+  receiver->arriving = true;
+  client.states[MICROROS_NODES_MAX + MICROROS_PUBLISHERS_MAX].wanted = true;
+  EXTREME(
+    xrce_fragments_on_fragment, &client, fragment,
+    sizeof(fragment) - XRCE_SUBMESSAGE_HEADER - XRCE_MESSAGE_HEADER, 1);
+}
+
+/* A message of bytes that each become two. */
+static void framing_measure(void)
+{
+  static uint8_t flags[MICROROS_MTU];
+
+  (void)memset(flags, XRCE_FRAME_FLAG, sizeof(flags));
+  EXTREME(xrce_framing_send, &client.session.transport, flags, sizeof(flags));
+}
+
+/* Each entity has to be created anew. */
+static void entities_measure(void)
+{
+  for (size_t i = 0; i < (size_t)XRCE_PLACES; ++i) {
+    client.states[i].wanted = true;
+    client.states[i].level = 1;
+  }
+  EXTREME(xrce_entities_renew, &client);
+}
+
 int main(void)
 {
   if (is_running) { /* the tool compares the plan of an image with that of its library */
@@ -109,6 +167,10 @@ int main(void)
   requests_measure();
   output_measure();
   input_measure();
+  skip_measure();
+  fragments_measure();
+  framing_measure();
+  entities_measure();
   finish();
   return 0;
 }
