@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Functions of the library that a linker made anew: they are no longer those of its sources and objects."""
+"""Functions of the library that a linker compiled again: they are no longer those of its sources and objects."""
 
 from __future__ import annotations
 
@@ -31,15 +31,15 @@ def is_made_by_linker(name: str) -> bool:
 
 
 def remade(folder: Folder, chunks: Iterable[Chunk]) -> Remade | None:
-    """Return the first function of the library that link-time optimization made; None: there is none.
+    """Return the first function of the library that link-time optimization made; None: without one.
 
     What it made of the application alone stays apart: the library's functions are called there, and not changed.
     """
-    made = [c for c in chunks if c.function and c.symbol and c.source and is_made_by_linker(c.source)]
-    if not made:
+    found = [c for c in chunks if c.function and c.symbol and c.source and is_made_by_linker(c.source)]
+    if not found:
         return None
     defined = {name for source in folder.sources for name in _defined(folder, source)}
-    for chunk in sorted(made, key=lambda c: c.address):
+    for chunk in sorted(found, key=lambda c: c.address):
         name = str(chunk.symbol).partition(".")[0]  # of a clone: name.constprop.0
         if name in defined:
             return Remade(name, str(chunk.source).rpartition("/")[2])

@@ -49,11 +49,11 @@ class ServedGraph:
     """The agent on a socket, and changes of its graph from another thread."""
 
     def __init__(self, served: socket.socket) -> None:
-        made = MadeGraph(
+        graph = MadeGraph(
             publishing={"/count": (endpoint("/device", 9, **QOS),)},
             subscribing={"/count": (endpoint("/other", 1, **QOS),)},
         )
-        self.agent = GraphAgent(mtu=256, graph=made, reader=READER, first_client=FIRST_CLIENT)
+        self.agent = GraphAgent(mtu=256, graph=graph, reader=READER, first_client=FIRST_CLIENT)
         self.served, self.lock, self.number = served, threading.Lock(), 1
         self.peer: tuple[str, int] | None = None
 
@@ -97,8 +97,8 @@ def test_a_node_with_an_event_of_the_graph_sleeps_until_it_changes(tmp_path: Pat
                     break
                 graph.change()
             last = running.stdout.readline()
-            took = time.monotonic() - began
+            elapsed_s = time.monotonic() - began
             _, errors = running.communicate(timeout=seconds(60))
     assert (running.returncode, errors, last) == (0, "", "end\n")
     assert int(wakes) <= TIMER
-    assert took < ROUNDS * POLL_S / 4, "each of them waited for a poll"
+    assert elapsed_s < ROUNDS * POLL_S / 4, "each of them waited for a poll"

@@ -69,7 +69,7 @@ def ran(program: Path) -> Deviations:
     return Deviations(median_us, most_us, has_priorities != 0)
 
 
-def test_a_task_keeps_its_period_beside_a_saturated_link(tmp_path: Path) -> None:
+def test_a_task_keeps_its_period_with_a_saturated_link(tmp_path: Path) -> None:
     """A round of a few in which the machine lets the task run is enough; the executor has the best of as many."""
     plain: list[Deviations] = []
     tasks: list[Deviations] = []

@@ -64,7 +64,7 @@ def test_a_library_with_it_is_refused(built: Built, tmp_path: Path, flags: tuple
 
 
 @pytest.mark.parametrize(
-    ("name", "made"),
+    ("name", "is_one"),
     [
         ("/tmp/ccmVQMaQ.ltrans0.ltrans.o", True),
         ("/tmp/ccmVQMaQ.ltrans.o", True),
@@ -76,5 +76,5 @@ def test_a_library_with_it_is_refused(built: Built, tmp_path: Path, flags: tuple
         ("libmicroros.a(xrce_session.o)", False),
     ],
 )
-def test_objects_of_link_time_optimization_are_known_by_name(name: str, made: bool) -> None:
-    assert is_made_by_linker(name) == made
+def test_objects_of_link_time_optimization_are_known_by_name(name: str, is_one: bool) -> None:
+    assert is_made_by_linker(name) == is_one

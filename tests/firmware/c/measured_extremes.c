@@ -144,7 +144,7 @@ static void framing_measure(void)
   EXTREME(xrce_framing_send, &client.session.transport, flags, sizeof(flags));
 }
 
-/* Each entity has to be created anew. */
+/* Each entity has to be created again. */
 static void entities_measure(void)
 {
   for (size_t i = 0; i < (size_t)XRCE_PLACES; ++i) {
