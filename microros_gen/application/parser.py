@@ -65,6 +65,8 @@ _POOLS_BESIDE_NODES = (
     "ros_clocks",
     "jump_callbacks",
     "parameters",
+    "loggers",
+    "logger_name_size",
 )
 _WITHOUT_ADDRESS = ("serial", "canfd", "custom")
 _ONLY_FOR = {

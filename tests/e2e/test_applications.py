@@ -111,7 +111,7 @@ def test_a_text_over_its_limit(declared: Live) -> None:
     answer = declared.call("say 0 " + "x" * 17)
     assert (answer.code, answer.text) == (
         1,
-        "std_msgs/msg/String.data: 17, limit 16: raise limits in microros.yaml",
+        "limit 16: set limits: {std_msgs/msg/String: {data: 17}} in microros.yaml",
     )
 
 

@@ -63,7 +63,7 @@ def test_as_a_node_of_rclpy(
         assert both_get(peer) == []
         full = peer.set(DEVICE, ("a", WARN), ("b", WARN), ("c", WARN), ("d", WARN))
         assert [successful for successful, _ in full] == [True, True, True, False]
-        assert full[3][1] == "logger d: all 4 loggers have a level"
+        assert full[3][1] == "all 4 loggers have a level: set pools: {loggers: 5} for d"
         assert both_set(peer, ("a", 0), ("b", 0), ("c", 0)) == [[True, ""]] * 3
         assert peer.set(DEVICE, ("loud", DEBUG)) == [[True, ""]]
         await_line(process, "loud: heard")

@@ -71,8 +71,8 @@ def test_rclpy_publishes_and_the_client_takes(
     assert [line for line in lines if line.startswith("word")] == ["word short", "word again"]
     (refused,) = (line for line in lines if line.startswith("refused"))
     assert (
-        refused.endswith("received 16 bytes, 16 fit: raise limits in microros.yaml")
-        or "11, capacity for 8: raise limits in microros.yaml" in refused
+        refused.endswith("received 16 bytes, 16 fit: raise limits of std_msgs/msg/String in microros.yaml")
+        or "capacity for 8: set limits: {std_msgs/msg/String: {data: 11}} in microros.yaml" in refused
     )
 
 

@@ -139,7 +139,7 @@ def test_what_is_refused(device: CommandedProgram, observer: Observer) -> None:
     """With a text; what was sent before stays."""
     for name in ("a", "b"):
         assert device.call(f"fix {name} 1.0")[0] == 0
-    text = "transform to frame d: no room: raise limits of tf2_msgs/msg/TFMessage"
+    text = "transform to frame d: set limits: {tf2_msgs/msg/TFMessage: {transforms: 4}} in microros.yaml"
     assert device.call("fixed c d")[:2] == (BAD_ALLOC, text)
     assert device.call("fixed c b")[0] == 0, "one of them has a place already"
     expected = {
@@ -151,7 +151,7 @@ def test_what_is_refused(device: CommandedProgram, observer: Observer) -> None:
         ),
         f"fix {'n' * 32} 1.0": (
             INVALID_ARGUMENT,
-            f"transform to frame {'n' * 32}: a name is above the limits of {TYPE}",
+            f"frame {'n' * 32}: set limits: {{{TYPE}: {{transforms: {{header: {{frame_id: 32}}, child_frame_id: 32}}}}}}",
         ),
         "none": (INVALID_ARGUMENT, "transforms or count"),
         "frames": (INVALID_ARGUMENT, "transform, frame_id or child_frame_id"),

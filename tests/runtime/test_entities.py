@@ -283,7 +283,7 @@ def test_a_field_above_its_limit_names_field_and_limit(bench: Bench) -> None:
     result = client.call("say 1 123456789")
     assert (result.code, result.error) == (
         1,
-        "std_msgs/msg/String.data: 9, limit 8: raise limits in microros.yaml",
+        "limit 8: set limits: {std_msgs/msg/String: {data: 9}} in microros.yaml",
     )
     client.ok("say 1 x")
     client.ok("flush 100")

@@ -131,7 +131,7 @@ def test_nodes_with_enclaves(device: Device) -> None:
 
 def test_an_enclave_that_does_not_fit(device: Device) -> None:
     device.agent.graph.enclaves["/root"] = "/" + "x" * 300
-    assert "raise limits of microros_graph_msgs" in device.fails("enclaves", ERROR)
+    assert "set limits: {microros_graph_msgs/msg/Name: {name: 190, types: {string: 190, sequence: 4}}}" in device.fails("enclaves", ERROR)
 
 
 def test_a_server_that_reports_no_enclaves(device: Device) -> None:
@@ -212,8 +212,8 @@ def test_names_of_dds(device: Device) -> None:
 def test_wrong_names_and_what_is_not_supported(device: Device) -> None:
     assert "not_absolute" in device.fails("count publishers not_absolute", INVALID)
     long = "/" + "x" * 95
-    assert "more than 95 bytes" in device.fails(f"count publishers {long}", ERROR)
-    assert "more than 95 bytes" in device.fails(f"names services_of {long[1:]} /", ERROR)
+    assert "a name does not fit" in device.fails(f"count publishers {long}", ERROR)
+    assert "a name does not fit" in device.fails(f"names services_of {long[1:]} /", ERROR)
     assert device.count(f"count publishers {long[:-1]}") == 0
 
 
@@ -222,11 +222,11 @@ def test_names_that_have_no_room_are_an_error(device: Device) -> None:
     device.agent.graph.topic_names = ((longest, (INT32,)),)
     assert device.items("names topics") == [f"{longest} {INT32}"]
     device.agent.graph.topic_names = (*TOPICS, (longest + "y", (INT32,)))
-    assert "more than 95 bytes, or with more than 2 types: raise limits" in device.fails(
+    assert "a name does not fit: set limits: {microros_graph_msgs/msg/Name: {name: 190, " in device.fails(
         "names topics", ERROR
     )
     device.agent.graph.topic_names = (("/three", (INT32, "a/msg/B", "a/msg/C")),)
-    assert "more than 2 types" in device.fails("names topics", ERROR)
+    assert "sequence: 4}" in device.fails("names topics", ERROR)
 
 
 def test_a_list_that_has_no_room_is_an_error_and_leaves_nothing(device: Device) -> None:

@@ -219,7 +219,7 @@ def test_a_sample_of_micro_ros_agent(chunked: Device) -> None:
 def test_what_the_topic_does_not_tell(device: Device) -> None:
     assert "use a graph server" in device.fails("names mangled", UNSUPPORTED)
     assert "begins with a slash" in device.fails("count publishers not_absolute", INVALID)
-    assert "more than 95 bytes" in device.fails("count publishers /" + "x" * 95, ERROR)
+    assert "a name does not fit" in device.fails("count publishers /" + "x" * 95, ERROR)
 
 
 NAMES = (
@@ -281,7 +281,7 @@ def test_names_that_have_no_room_are_an_error(chunked: Device) -> None:
     chunked.agent.nodes = {"/a": ((PUBLISHER, longest, INT32),), "/b": ()}
     assert chunked.items("names topics") == [f"{longest} {INT32[0]}"]
     assert chunked.count(f"count publishers {longest[:-1]}") == 0
-    too_long = "more than 95 bytes: raise limits of micro_ros_msgs/msg/Entity"
+    too_long = "a name does not fit: set limits: {micro_ros_msgs/msg/Entity: {name: 190}}"
     chunked.agent.nodes["/b"] = ((PUBLISHER, longest + "y", INT32), (SUBSCRIBER, "/short", (longest + "y",)))
     assert too_long in chunked.fails("names topics", ERROR)
     assert too_long in chunked.fails("names subscriptions_of b /", ERROR)

@@ -83,7 +83,7 @@ def test_levels_are_set_and_read(device: Device) -> None:
     assert device.client.ok("level arm").lines == ("level 30",)
     assert device.get("arm.left", "arm") == [("arm.left", 0), ("arm", 30)]
     full = device.set(("a", 10), ("b", 10), ("c", 10), ("d", 10))
-    assert full == [(True, "")] * 3 + [(False, "logger d: all 4 loggers have a level")]
+    assert full == [(True, "")] * 3 + [(False, "all 4 loggers have a level: set pools: {loggers: 5} for d")]
     assert device.set(("arm", 0), ("a", 0), ("b", 0), ("c", 0)) == [(True, "")] * 4
     assert device.get() == []
 

@@ -33,7 +33,7 @@ RELIABLE_BODY, FAST_BODY = 96, 88
 
 
 def refusal(found: int, limit: int) -> str:
-    return f"std_msgs/msg/String.data: {found}, limit {limit}: raise limits in microros.yaml"
+    return f"limit {limit}: set limits: {{std_msgs/msg/String: {{data: {found}}}}} in microros.yaml"
 
 
 @pytest.fixture(scope="module")

@@ -348,17 +348,17 @@ def test_a_silent_agent_during_a_call_that_waits(device: Device) -> None:
 
 def test_requests_above_the_limits(device: Device) -> None:
     fails = device.fails
-    advice = "raise the limits of its parameter_clients"
-    assert f"the number of parameters has 5, 4 fit: {advice}" in fails("names a b c d e", LIMIT)
-    assert "a name has 50, 49 fit" in fails(f"get 2 {'n' * 50}", LIMIT)
-    assert "a string has 13, 12 fit" in fails(f"set 4 label {'x' * 13}", LIMIT)
-    assert "an array has 4, 3 fit" in fails("set 7 list 1 2 3 4", LIMIT)
-    assert "a string has 13, 12 fit" in fails(f"set 9 list a {'x' * 13}", LIMIT)
-    assert "a name has 50, 49 fit" in fails(f"async_names {'n' * 50}", LIMIT)
+    advice = "set parameter_clients: [{node: /motor"
+    assert f"above 4: {advice}, parameters: 5}}]" in fails("names a b c d e", LIMIT)
+    assert "too long a name" in fails(f"get 2 {'n' * 50}", LIMIT)
+    assert f"above 12: {advice}, string: 13}}]" in fails(f"set 4 label {'x' * 13}", LIMIT)
+    assert f"above 3: {advice}, elements: 4}}]" in fails("set 7 list 1 2 3 4", LIMIT)
+    assert f"above 12: {advice}, string: 13}}]" in fails(f"set 9 list a {'x' * 13}", LIMIT)
+    assert "too long a name" in fails(f"async_names {'n' * 50}", LIMIT)
     assert device.agent.seen == []
     device.agent.parameters["texts"] = (STRINGS, ["a", "b"])
     device.client.ok("capacity 1")
-    assert "an array has 2, 1 fit" in fails("get 9 texts", LIMIT)
+    assert "an array above your capacity" in fails("get 9 texts", LIMIT)
     device.agent.parameters["n" * 49] = (INT, 1)
     assert device.lines(f"names {' '.join(['n' * 49] * 4)}") == ["value 2 1"] * 4
 
@@ -371,11 +371,11 @@ def test_time_outs_that_are_none(device: Device) -> None:
 
 def test_responses_above_the_limits(device: Device) -> None:
     """What has no room ends the call with its size; what has is given, whatever its limit."""
-    large = re.compile(r"parameters of /motor: a response has \d+, \d+ fit: raise the limits")
+    large = re.compile(r"parameters of /motor: a response has \d+ bytes, \d+ fit: raise elements")
     device.agent.parameters["label"] = (STRING, "x" * 4000)
     assert large.match(device.fails("get 4 label", LIMIT))
     device.agent.parameters["label"] = (STRINGS, ["", "", "", ""])
-    assert "string_array_value" in device.fails("get 9 label", LIMIT)
+    assert "above 3: set parameter_clients: [{node: /motor, elements: 4}]" in device.fails("get 9 label", LIMIT)
     device.agent.rejects["label"] = "y" * 4000
     assert large.match(device.fails("set 2 label 1", LIMIT))
     device.agent.rejects.clear()

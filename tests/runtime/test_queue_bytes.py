@@ -186,7 +186,7 @@ def test_a_larger_sample_than_the_largest_is_refused(bench: Bench) -> None:
     result = places.client.call("read_text 1 1000")
     assert (result.code, result.error) == (
         1,
-        "/arm/fast: received 305 bytes, 300 fit: raise limits in microros.yaml",
+        "/arm/fast: received 305 bytes, 300 fit: raise limits of std_msgs/msg/String in microros.yaml",
     )
     assert places.counted(FAST) == (0, 1)
 
@@ -208,5 +208,5 @@ def test_a_place_of_a_pool_knows_the_largest_of_its_type(bench: Bench) -> None:
     result = places.client.call("read_take 0")
     assert (result.code, result.error) == (
         1,
-        "/number: received 36 bytes, 4 fit: raise limits in microros.yaml",
+        "/number: received 36 bytes, 4 fit: raise limits of std_msgs/msg/Int32 in microros.yaml",
     )

@@ -344,7 +344,7 @@ def test_larger_than_a_slot_is_refused_and_reported(bench: Bench) -> None:
     reader.send(reader.agent.offer(FIRST, struct.pack("<I", 20) + b"x" * 19 + b"\0"))
     reader.send(reader.agent.offer(FIRST, struct.pack("<I", 2) + b"y\0"))
     result = reader.client.call("read_text 0 9")
-    expected = "/go: received 24 bytes, 16 fit: raise limits in microros.yaml"
+    expected = "/go: received 24 bytes, 16 fit: raise limits of std_msgs/msg/String in microros.yaml"
     assert (result.code, result.error) == (1, expected)
     assert reader.client.ok("read_text 0 9").lines == ("text y",)
     assert reader.counted() == (0, 1)
@@ -359,7 +359,7 @@ def test_what_does_not_decode_is_an_error_of_the_take(bench: Bench) -> None:
     result = reader.client.call("read_text 0 4")
     assert (
         result.error
-        == "std_msgs/msg/String.data: 8, capacity for 3: raise limits in microros.yaml, or that of your buffer"
+        == "capacity for 3: set limits: {std_msgs/msg/String: {data: 8}} in microros.yaml, or that of your buffer"
     )
     result = reader.client.call("read_text 0 4")
     assert (result.code, result.error.split(":")[0]) == (1, "std_msgs/msg/String.data")
@@ -496,7 +496,7 @@ def test_fragments_of_more_than_there_is_room_for(bench: Bench) -> None:
     reader.send(reader.agent.offer(FIRST, _text(600), _text(5)))
     reader.client.spin()
     result = reader.client.call("read_text 0 1000")
-    assert result.error == "/go: received 605 bytes, 400 fit: raise limits in microros.yaml"
+    assert result.error == "/go: received 605 bytes, 400 fit: raise limits of std_msgs/msg/String in microros.yaml"
     assert reader.client.ok("read_text 0 1000").lines == ("text zzzzz",)
     assert reader.counted() == (0, 1)
 
@@ -505,7 +505,7 @@ def test_fragments_where_none_are_planned(bench: Bench) -> None:
     reader = Reader(bench, type_name="String")
     reader.send(reader.agent.offer(FIRST, _text(100), _text(5)))
     result = reader.client.call("read_text 0 1000")
-    assert result.error == "/go: received 105 bytes, 16 fit: raise limits in microros.yaml"
+    assert result.error == "/go: received 105 bytes, 16 fit: raise limits of std_msgs/msg/String in microros.yaml"
     assert reader.client.ok("read_text 0 1000").lines == ("text zzzzz",)
 
 

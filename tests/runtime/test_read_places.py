@@ -218,7 +218,7 @@ def test_a_message_without_buffers_is_refused(bench: Bench) -> None:
     result = places.client.call("read_text 0 1")
     assert (result.code, result.error) == (
         1,
-        "std_msgs/msg/String.data: 300, capacity for 0: raise limits in microros.yaml, or that of your buffer",
+        "capacity for 0: set limits: {std_msgs/msg/String: {data: 300}} in microros.yaml, or that of your buffer",
     )
     assert places.counted() == (0, 1)
     places.client.spin(3)

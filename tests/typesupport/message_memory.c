@@ -90,8 +90,8 @@ static void joint_states(void)
     CHECK(third.position.data == NULL);
     check_refused(
       rosidl_runtime_c__double__Sequence__init(&third.position, 7),
-      "56 bytes of a string or sequence: no sent message has more than 48: raise limits in "
-      "microros.yaml");
+      "56 bytes of a string or sequence: no sent message has more than 48: "
+      "raise limits: {TYPE: {MEMBER: N}} in microros.yaml");
     CHECK(rmw_uros_get_refused_memory() == refused + 2u);
     CHECK(!rosidl_runtime_c__double__Sequence__init(&third.position, SIZE_MAX / 2));
     sensor_msgs__msg__JointState__fini(&second);
@@ -115,7 +115,8 @@ static void strings_of_two_lengths(void)
   CHECK(pair.text.size == 64u && memcmp(pair.text.data, long_text, 64) == 0 && pair.text.data[64] == '\0');
   check_refused(
     rosidl_runtime_c__String__assign(&pair.text, long_text),
-    "71 bytes of a string or sequence: no sent message has more than 65: raise limits in microros.yaml");
+    "71 bytes of a string or sequence: no sent message has more than 65: "
+    "raise limits: {TYPE: {MEMBER: N}} in microros.yaml");
   CHECK(pair.text.size == 64u);
   CHECK(rosidl_runtime_c__String__assign(&pair.text, "short again") && pair.text.size == 11u);
   memory_msgs__msg__Pair__fini(&pair);

@@ -146,15 +146,15 @@ base joint -2 1
 cut: 1 sensor_msgs/msg/JointState.name[]: the message ends: 4 bytes needed, 2 left
 no header: 1 sensor_msgs/msg/JointState.encapsulation: the message ends: 4 bytes needed, 3 left
 PL_CDR: 1 sensor_msgs/msg/JointState: representation 3 is not plain CDR (0 or 1)
-full: 1 sensor_msgs/msg/JointState.position: 2, capacity for 1: raise limits, or that of your buffer
+full: 1 capacity for 1: set limits: {sensor_msgs/msg/JointState: {position: 2}}, or that of your buffer
 NULL: 11 serialized_message, type_support or ros_message: NULL or not initialized
 other order: 1 sensor_msgs/msg/JointState.header.frame_id: the message ends: 83886080 bytes needed, 52 left
 only sent: 3 sensor_msgs/msg/JointState has no decoder: no profile receives it
-too much: 1 sensor_msgs/msg/JointState.position: 3, limit 2: raise limits
+too much: 1 limit 2: set limits: {sensor_msgs/msg/JointState: {position: 3}}
 cloud: 0 
-element read: 1 sensor_msgs/msg/PointCloud2.fields[1].name: 5, capacity for 3: raise limits, or that of your buffer
+element read: 1 capacity for 3: set limits: {sensor_msgs/msg/PointCloud2: {fields: {name: 5}}}, or that of your buffer
 element cut: 1 sensor_msgs/msg/PointCloud2.fields[1].offset: the message ends: 6 bytes needed, 1 left
-element sent: 1 sensor_msgs/msg/PointCloud2.fields[1].name: 6, limit 5: raise limits
+element sent: 1 limit 5: set limits: {sensor_msgs/msg/PointCloud2: {fields: {name: 6}}}
 no data: 1 sensor_msgs/msg/PointCloud2.fields has a size, 2, and no data: NULL
 bound sent: 1 shape_msgs/msg/SolidPrimitive.dimensions: 4, and its interface file allows 3
 bound read: 1 shape_msgs/msg/SolidPrimitive.dimensions: 4, and its interface file allows 3

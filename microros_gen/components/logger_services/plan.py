@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from microros_gen.application.model import Application, LimitRule
 from microros_gen.client.plan.features import PlanContext, refuse_own_limits
-from microros_gen.components.logging.plan import LOGGERS, name_size
+from microros_gen.components.logging.plan import LOGGERS, loggers, name_size
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import TypeName
 from microros_gen.records import dataclass
@@ -43,12 +43,12 @@ def record(part: LoggerServicesPlan) -> object:
 
 def limits(application: Application) -> tuple[LimitRule, ...]:
     """Return the bounds of requests and responses."""
-    size = name_size(application)
+    size, most = name_size(application), loggers(application)
     rules = (
-        _rule("srv/GetLoggerLevels_Request", "names", size - 1, LOGGERS),
-        _rule("srv/GetLoggerLevels_Response", "levels", None, LOGGERS),
-        _rule("srv/SetLoggerLevels_Request", "levels", None, LOGGERS),
-        _rule("srv/SetLoggerLevels_Response", "results", None, LOGGERS),
+        _rule("srv/GetLoggerLevels_Request", "names", size - 1, most),
+        _rule("srv/GetLoggerLevels_Response", "levels", None, most),
+        _rule("srv/SetLoggerLevels_Request", "levels", None, most),
+        _rule("srv/SetLoggerLevels_Response", "results", None, most),
         _rule("msg/LoggerLevel", "name", size - 1),
         _rule("msg/SetLoggerLevelsResult", "reason", REASON_SIZE - 1),
     )

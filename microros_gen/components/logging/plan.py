@@ -15,7 +15,7 @@ TEXT_SIZE = 192
 LOGGERS = 4
 """Loggers that can have a separate level."""
 NAME_SIZE = 32
-"""Bytes of the name of such a logger with its NUL, where no declared node has a longer one."""
+"""Bytes of the name of such a logger with its NUL, where neither the application nor a declared node has a longer one."""
 _LINE = TypeName("rcl_interfaces", "msg", "Log")
 _NO_WRITER = 60
 """Above all levels."""
@@ -66,7 +66,13 @@ def writer_of(application: Application, to: str) -> LogWriter | None:
 def name_size(application: Application) -> int:
     """Return the bytes of the name of a logger with its NUL."""
     names = (logger_name(node.namespace, node.name) for node in application.nodes)
-    return max(NAME_SIZE, *(1 + len(name) for name in names), 0)
+    own = application.pools.get("logger_name_size", NAME_SIZE)
+    return max(own, *(1 + len(name) for name in names), 0)
+
+
+def loggers(application: Application) -> int:
+    """Return how many loggers can have a separate level, and how many subloggers there can be."""
+    return application.pools.get("loggers", LOGGERS)
 
 
 def _longest(context: PlanContext) -> int:
@@ -101,6 +107,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LoggingPlan:
         console_level=levels.get("console", _NO_WRITER),
         callback_level=levels.get("callback", _NO_WRITER),
         rosout="rosout" in levels,
+        loggers=loggers(context.application),
         name_size=name_size(context.application),
         longest=_longest(context),
         text=", ".join(f"{writer.to} from {writer.level}" for writer in writers),
@@ -109,4 +116,6 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LoggingPlan:
 
 def record(part: LoggingPlan) -> object:
     """Return what the plan id is made of."""
-    return {"levels": [part.level, part.console_level, part.callback_level]}
+    pools = [part.loggers, part.name_size]
+    own = {"loggers": pools} if part.loggers != LOGGERS else {}
+    return {"levels": [part.level, part.console_level, part.callback_level], **own}

@@ -97,7 +97,7 @@ class RuleChecker:
             self._diagnostics.error(
                 f"one number for {where} is ambiguous: it is a sequence of strings",
                 rule.span,
-                f"Write {{sequence: {rule.sequence}, string: …}}",
+                f"Write `{{sequence: {rule.sequence}}}` for its elements, or `{{string: {rule.sequence}}}` for their bytes",
                 id="MG-5006",
             )
         else:

@@ -21,7 +21,7 @@ static void path_put(path_t * path, const char * words)
   path->text[path->length] = '\0';
 }
 
-static void path_put_index(path_t * path, uint32_t index)
+static void path_put_number(path_t * path, uint32_t index)
 {
   char text[DIGITS + 1];
   size_t first = DIGITS;
@@ -31,9 +31,45 @@ static void path_put_index(path_t * path, uint32_t index)
     text[--first] = (char)('0' + (char)(index % 10u));
     index /= 10u;
   } while (index != 0u);
-  path_put(path, "[");
   path_put(path, &text[first]);
-  path_put(path, "]");
+}
+
+/* "markers[2].text" */
+static void path_put_place(path_t * path, const cdr_fault_t * fault)
+{
+  if (fault->within != NULL) {
+    path_put(path, fault->within);
+    if (fault->index != CDR_NO_INDEX) {
+      path_put(path, "[");
+      path_put_number(path, fault->index);
+      path_put(path, "]");
+    }
+    path_put(path, (fault->depth > 1u) ? "..." : ".");
+  }
+  path_put(path, fault->field);
+}
+
+/* "markers: {text: 9}", as the application file has it; of a sequence's strings "names: {string: 9}". */
+static void path_put_limit(path_t * path, const cdr_fault_t * fault)
+{
+  const char * field = fault->field;
+
+  if (fault->within != NULL) {
+    path_put(path, fault->within);
+    path_put(path, (fault->depth > 1u) ? ": {...: {" : ": {");
+  }
+  /* at most PATH_SIZE rounds */
+  while (*field != '\0' && *field != '[') {
+    const char letter[2] = {*field++, '\0'};
+
+    path_put(path, letter);
+  }
+  path_put(path, (*field == '[') ? ": {string: " : ": ");
+  path_put_number(path, fault->found);
+  path_put(path, (*field == '[') ? "}" : "");
+  if (fault->within != NULL) {
+    path_put(path, (fault->depth > 1u) ? "}}" : "}");
+  }
 }
 
 rmw_ret_t rmw_fault_report(
@@ -41,14 +77,11 @@ rmw_ret_t rmw_fault_report(
 {
   path_t path = {{0}, 0};
 
-  if (fault->within != NULL) {
-    path_put(&path, fault->within);
-    if (fault->index != CDR_NO_INDEX) {
-      path_put_index(&path, fault->index);
-    }
-    path_put(&path, (fault->depth > 1u) ? "..." : ".");
+  if (fault->kind == CDR_FAULT_LIMIT || fault->kind == CDR_FAULT_CAPACITY) {
+    path_put_limit(&path, fault);
+  } else {
+    path_put_place(&path, fault);
   }
-  path_put(&path, fault->field);
   microros_error_set(error, type->dds_type_name, path.text, fault->found, fault->fits);
   return RMW_RET_ERROR;
 }

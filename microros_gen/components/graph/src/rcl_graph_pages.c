@@ -8,7 +8,8 @@ enum { PAGES_ATTEMPTS = 5 }; /* of a list that changes while it is read */
 rcl_ret_t rcl_graph_source_refuse_long(void)
 {
   microros_error_set(
-    microros_error_graph_limits, NULL, NULL, MICROROS_GRAPH_NAME_SIZE - 1u, MICROROS_GRAPH_TYPES_MAX);
+    microros_error_graph_limits, NULL, NULL, 2u * (MICROROS_GRAPH_NAME_SIZE - 1u),
+    2u * MICROROS_GRAPH_TYPES_MAX);
   return RCL_RET_ERROR;
 }
 

@@ -148,7 +148,7 @@ static void scan_begin(const rcl_graph_scanner_t * scanner, void * list)
 
 rcl_ret_t rcl_graph_source_refuse_long(void)
 {
-  microros_error_set(microros_error_graph_topic_limits, NULL, NULL, MICROROS_GRAPH_NAME_SIZE - 1u, 0);
+  microros_error_set(microros_error_graph_topic_limits, NULL, NULL, 2u * (MICROROS_GRAPH_NAME_SIZE - 1u), 0);
   return RCL_RET_ERROR;
 }
 

@@ -107,8 +107,8 @@ static rcutils_ret_t logger_add(const char * name, size_t size, uint8_t level)
   logger_t * const found = logger_free();
 
   if (size >= MICROROS_LOGGER_NAME_SIZE) {
-    return (rcutils_ret_t)microros_error_named(
-      RCUTILS_RET_NOT_ENOUGH_SPACE, microros_error_logger_name, name);
+    return (rcutils_ret_t)microros_error_fits(
+      RCUTILS_RET_NOT_ENOUGH_SPACE, microros_error_logger_name, name, (uint32_t)size + 1u);
   }
   if (found == NULL) {
     microros_error_set(

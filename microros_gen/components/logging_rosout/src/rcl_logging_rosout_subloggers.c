@@ -131,7 +131,8 @@ static rcl_ret_t sublogger_new(const sublogger_name_t * name)
     return sublogger_unknown(name->logger);
   }
   if (size + 1u + sub_size > MICROROS_LOG_ROSOUT_NAME) {
-    return microros_error_named(RCL_RET_BAD_ALLOC, microros_error_logger_name, name->sub);
+    return microros_error_fits(
+      RCL_RET_BAD_ALLOC, microros_error_logger_name, name->sub, (uint32_t)(size + sub_size) + 2u);
   }
   if (place == NULL) {
     microros_error_set(

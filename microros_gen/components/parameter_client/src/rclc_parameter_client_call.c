@@ -159,11 +159,15 @@ static rcl_ret_t parameter_call_take(
   rcl_ret_t result;
 
   if (large != 0u) {
-    return rclc_parameter_client_refuse_limit(client, MICROROS_ERROR_WORDS("a response"), large, fits);
+    microros_error_set(microros_error_parameter_client_large, client->remote->name, NULL, large, fits);
+    return RCLC_PARAMETER_CLIENT_LIMIT;
   }
-  client->exceeds = false;
+  client->exceeds = 0;
   result = rmw_requester_take(parameter_call_handle(client), info, client, taken);
-  return result != RCL_RET_OK && client->exceeds ? RCLC_PARAMETER_CLIENT_LIMIT : result;
+  return result != RCL_RET_OK && client->exceeds != 0u
+           ? rclc_parameter_client_refuse_limit(
+               client, MICROROS_ERROR_WORDS("elements"), client->exceeds, MICROROS_PARAMETER_CLIENT_ELEMENTS)
+           : result;
 }
 
 /* Ends the call. */

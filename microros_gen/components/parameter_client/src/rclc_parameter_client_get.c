@@ -213,8 +213,8 @@ rcl_ret_t rclc_parameter_client_get_string_array(
   }
   result = get_parameter(client, name, RCLC_PARAMETER_STRING_ARRAY, &value, timeout_ms);
   if (result == RCL_RET_OK && value.count > capacity) {
-    result =
-      rclc_parameter_client_refuse_limit(client, MICROROS_ERROR_WORDS("an array"), value.count, capacity);
+    result = rclc_parameter_client_refuse(
+      client, RCLC_PARAMETER_CLIENT_LIMIT, MICROROS_ERROR_WORDS("an array above your capacity"));
   }
   if (result == RCL_RET_OK) {
     *count = value.count;

@@ -16,8 +16,7 @@ static rcl_ret_t check_parameter_count(
   return count <= MICROROS_PARAMETER_CLIENT_PARAMETERS
            ? RCL_RET_OK
            : rclc_parameter_client_refuse_limit(
-               client, MICROROS_ERROR_WORDS("the number of parameters"), count,
-               MICROROS_PARAMETER_CLIENT_PARAMETERS);
+               client, MICROROS_ERROR_WORDS("parameters"), count, MICROROS_PARAMETER_CLIENT_PARAMETERS);
 }
 
 /* Returns the size limit of values of a type; 0 if no client has this type. */
@@ -26,31 +25,41 @@ static size_t check_parameter_most(rclc_parameter_type_t type, size_t most)
   return ((uint32_t)MICROROS_PARAMETER_CLIENT_TYPES >> (uint32_t)type & 1u) != 0u ? most : 0u;
 }
 
-/* `most` is bytes without the NUL. */
-static rcl_ret_t check_parameter_text(
-  const rclc_parameter_client_t * client, const char * text, size_t most, const char * what)
+/* Returns the bytes of a text without its NUL; SIZE_MAX, with an error, if there is none. */
+static size_t check_parameter_text(const char * text)
 {
-  size_t size;
-
   if (text == NULL) {
-    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "a name or string");
+    (void)microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "a name or string");
+    return SIZE_MAX;
   }
-  size = microros_text_size(text);
-  return size <= most ? RCL_RET_OK : rclc_parameter_client_refuse_limit(client, what, size, most);
+  return microros_text_size(text);
 }
 
 static rcl_ret_t check_parameter_name(const rclc_parameter_client_t * client, const char * name)
 {
-  return check_parameter_text(
-    client, name, (size_t)MICROROS_PARAMETER_CLIENT_NAME_SIZE - 1u, MICROROS_ERROR_WORDS("a name"));
+  const size_t size = check_parameter_text(name);
+
+  if (size == SIZE_MAX) {
+    return RCL_RET_INVALID_ARGUMENT;
+  }
+  return size < (size_t)MICROROS_PARAMETER_CLIENT_NAME_SIZE
+           ? RCL_RET_OK
+           : rclc_parameter_client_refuse(
+               client, RCLC_PARAMETER_CLIENT_LIMIT, MICROROS_ERROR_WORDS("too long a name"));
 }
 
 static rcl_ret_t check_parameter_string(
   const rclc_parameter_client_t * client, const char * text, rclc_parameter_type_t type)
 {
-  return check_parameter_text(
-    client, text, check_parameter_most(type, (size_t)MICROROS_PARAMETER_CLIENT_STRING_SIZE - 1u),
-    MICROROS_ERROR_WORDS("a string"));
+  const size_t most = check_parameter_most(type, (size_t)MICROROS_PARAMETER_CLIENT_STRING_SIZE - 1u);
+  const size_t size = check_parameter_text(text);
+
+  if (size == SIZE_MAX) {
+    return RCL_RET_INVALID_ARGUMENT;
+  }
+  return size <= most
+           ? RCL_RET_OK
+           : rclc_parameter_client_refuse_limit(client, MICROROS_ERROR_WORDS("string"), size, most);
 }
 
 rcl_ret_t rclc_parameter_client_check_names(
@@ -71,7 +80,7 @@ static rcl_ret_t check_parameter_array(
   rcl_ret_t result = RCL_RET_OK;
 
   if (value->count > most) {
-    return rclc_parameter_client_refuse_limit(client, MICROROS_ERROR_WORDS("an array"), value->count, most);
+    return rclc_parameter_client_refuse_limit(client, MICROROS_ERROR_WORDS("elements"), value->count, most);
   }
   if (value->count != 0u && value->as.byte_array_value == NULL) {
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "an array");

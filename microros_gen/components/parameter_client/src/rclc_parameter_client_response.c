@@ -19,7 +19,7 @@ cdr_in_t rclc_parameter_client_keep(rclc_parameter_client_t * client, cdr_in_t *
   cdr_in_t kept = {client->message.bytes, size, in->position - start, in->swap, in->failed, in->fault};
 
   if (size > sizeof(client->message)) {
-    cdr_in_refuse(in, CDR_FAULT_CAPACITY, "message", size, sizeof(client->message));
+    cdr_in_refuse(in, CDR_FAULT_VALUE, "message", size, sizeof(client->message));
     kept.failed = true;
     return kept;
   }
@@ -221,7 +221,7 @@ void rclc_parameter_client_settle(
   rclc_parameter_client_t * client, cdr_in_t * in, const cdr_in_t * kept, uint32_t count)
 {
   if (kept->failed) {
-    client->exceeds = kept->fault->kind == CDR_FAULT_CAPACITY;
+    client->exceeds = kept->fault->kind == CDR_FAULT_CAPACITY ? (uint16_t)kept->fault->found : 0u;
     client->size = 0;
     in->failed = true;
   }

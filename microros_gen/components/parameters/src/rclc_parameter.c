@@ -183,7 +183,7 @@ rcl_ret_t rclc_parameter_set_string(
   text.size = (uint32_t)microros_text_size(value);
   if (text.size > place->about->string_most) {
     return rclc_parameter_refuse(
-      RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("the string is too long"));
+      RCL_RET_ERROR, parameter_name, MICROROS_ERROR_WORDS("the string is too long: raise its size"));
   }
   rclc_parameter_string_copy(parameter_server->string_new, &text);
   old_state = rclc_parameter_state(place);

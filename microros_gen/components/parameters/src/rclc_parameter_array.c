@@ -303,7 +303,8 @@ static rclc_parameter_place_t * array_look_to_set(
     return NULL;
   }
   if (count > array_most(place, (uint8_t)type)) {
-    *result = rclc_parameter_refuse(RCL_RET_ERROR, name, MICROROS_ERROR_WORDS("the array is too long"));
+    *result = rclc_parameter_refuse(
+      RCL_RET_ERROR, name, MICROROS_ERROR_WORDS("the array is too long: raise its size"));
     return NULL;
   }
   return place;

@@ -53,7 +53,7 @@ static uint32_t event_encode(const void * message, uint8_t * body, cdr_fault_t *
     event_out_list(&out, server, what); /* the message has them in the order of the enumeration */
   }
   if (out.full) {
-    (void)cdr_refuse(fault, CDR_FAULT_LIMIT, "parameters", server->count, 0u);
+    (void)cdr_refuse(fault, CDR_FAULT_LIMIT, "changed_parameters", server->count, 0u);
   }
   return out.full ? 0u : out.position;
 }

@@ -72,7 +72,7 @@ static void request_keep(cdr_in_t * in, rclc_parameter_server_t * server)
     return;
   }
   if (in->size > sizeof(server->request)) {
-    cdr_in_refuse(in, CDR_FAULT_CAPACITY, "message", in->size, sizeof(server->request));
+    cdr_in_refuse(in, CDR_FAULT_VALUE, "message", in->size, sizeof(server->request));
     return;
   }
   (void)memcpy(server->request, in->body, (size_t)in->size);

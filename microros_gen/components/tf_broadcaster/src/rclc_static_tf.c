@@ -81,6 +81,15 @@ static bool static_tf_fits(
          transform->child_frame_id.size < place->child_frame_id.capacity;
 }
 
+/* Returns the bytes of the longer name of the two frames. */
+static uint32_t static_tf_longest(const geometry_msgs__msg__TransformStamped * transform)
+{
+  const size_t parent = transform->header.frame_id.size;
+  const size_t child = transform->child_frame_id.size;
+
+  return (uint32_t)(parent > child ? parent : child);
+}
+
 /* Returns whether all transforms have room; a text is set if not. */
 static rcl_ret_t static_tf_check(
   const geometry_msgs__msg__TransformStamped__Sequence * kept,
@@ -92,8 +101,8 @@ static rcl_ret_t static_tf_check(
   for (size_t i = 0; i < count; ++i) {
     if (!static_tf_fits(&kept->data[0], &transforms[i])) {
       microros_error_set(
-        microros_error_tf, transforms[i].child_frame_id.data,
-        MICROROS_ERROR_WORDS("a name is above the limits of tf2_msgs/msg/TFMessage"), 0, 0);
+        microros_error_tf_name, transforms[i].child_frame_id.data, NULL, static_tf_longest(&transforms[i]),
+        0);
       return RCL_RET_INVALID_ARGUMENT;
     }
     if (
@@ -106,9 +115,7 @@ static rcl_ret_t static_tf_check(
   if (size <= kept->capacity) {
     return RCL_RET_OK;
   }
-  microros_error_set(
-    microros_error_tf, transforms[last].child_frame_id.data,
-    MICROROS_ERROR_WORDS("no room: raise limits of tf2_msgs/msg/TFMessage"), 0, 0);
+  microros_error_set(microros_error_tf_full, transforms[last].child_frame_id.data, NULL, (uint32_t)size, 0);
   return RCL_RET_BAD_ALLOC;
 }
 

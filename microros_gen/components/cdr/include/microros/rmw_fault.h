@@ -12,8 +12,8 @@ extern "C" {
 #endif
 
 /*
- * Sets `error` as the last one, with the path of the refused member of `type`: "markers[2].text". Returns
- * RMW_RET_ERROR. */
+ * Sets `error` as the last one, with the path of the refused member of `type`: "markers[2].text"; of one above
+ * a limit, with the key that the application file needs: "markers: {text: 9}". Returns RMW_RET_ERROR. */
 rmw_ret_t rmw_fault_report(
   microros_error_t error, const microros_message_type_t * type, const cdr_fault_t * fault);
 

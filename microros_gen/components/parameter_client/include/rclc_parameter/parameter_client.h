@@ -117,14 +117,14 @@ typedef struct rclc_parameter_client_t {
   int64_t sequence;
   uint32_t start_ms;
   uint32_t timeout_ms;
-  uint32_t size;   /* bytes of `message` */
-  uint32_t start;  /* of what is read */
-  uint8_t call;    /* that `message` is the response of; RCLC_PARAMETER_CLIENT_CALLS: none */
-  bool swaps;      /* its numbers are in the other byte order */
-  bool is_busy;    /* a call has no result yet */
-  bool is_calling; /* the executor calls callbacks */
-  bool in_event;   /* the event's callback is called */
-  bool exceeds;    /* the last response had more than fits */
+  uint32_t size;    /* bytes of `message` */
+  uint32_t start;   /* of what is read */
+  uint8_t call;     /* that `message` is the response of; RCLC_PARAMETER_CLIENT_CALLS: none */
+  bool swaps;       /* its numbers are in the other byte order */
+  bool is_busy;     /* a call has no result yet */
+  bool is_calling;  /* the executor calls callbacks */
+  bool in_event;    /* the event's callback is called */
+  uint16_t exceeds; /* elements of an array of the last response, above their limit; 0: all fit */
 #if MICROROS_PARAMETER_CLIENT_STRINGS > 0u
   const char * strings[MICROROS_PARAMETER_CLIENT_STRINGS]; /* of the array that was read last */
 #endif
