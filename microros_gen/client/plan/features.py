@@ -12,6 +12,7 @@ from dataclasses import replace
 from importlib import import_module
 from typing import Any, Protocol, cast
 
+from microros_gen.application.limit_tree import LimitTree, limit_text, put_limit
 from microros_gen.application.model import Application, EndpointDecl, LimitRule, NodeDecl
 from microros_gen.client.plan.feature_slices import NO_FEATURES, Features, FeatureSlice
 from microros_gen.client.plan.line_load import LineLoad
@@ -158,12 +159,27 @@ def refuse_short_doubles(context: PlanContext, name: str, diagnostics: Diagnosti
 def refuse_own_limits(context: PlanContext, name: str, diagnostics: Diagnostics) -> None:
     """Report limits of an endpoint that this component opens, where it is compiled for those of the type."""
     own = {
-        i.name for c in context.selection.components if c.component.name == name for i in c.component.implies
+        i.name: i.type
+        for c in context.selection.components
+        if c.component.name == name
+        for i in c.component.implies
     }
     for endpoint in (e for e in context.application.endpoints if e.limits and e.name in own):
         diagnostics.error(
             f"the limits of '{endpoint.name}' cannot differ from those of its type",
             endpoint.span,
-            "Set them below `limits:`, by the type",
+            f"Remove them, and write `limits: {_limits_by_type(own[endpoint.name], endpoint.limits)}`",
             id="MG-7033",
         )
+
+
+def _limits_by_type(name: str, limits: Iterable[LimitRule]) -> str:
+    """Return an endpoint's own limits as the application's; those of a service are for its request."""
+    owner = name if "/msg/" in name else f"{name}_Request"
+    tree: LimitTree = {}
+    for rule in limits:
+        for kind, number in (("string", rule.string), ("sequence", rule.sequence)):
+            if number is not None and (kind == "string" or not rule.single):
+                below = (kind,) if rule.path == ("*",) else rule.path[1:]
+                put_limit(tree, (owner, *below), kind, number, by_kind=not rule.single and rule.path != ("*",))
+    return limit_text(tree)

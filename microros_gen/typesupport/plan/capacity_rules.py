@@ -56,7 +56,7 @@ class RuleChecker:
                 self._diagnostics.error(
                     f"a {kind} limit of {value} is out of range",
                     rule.span,
-                    f"0 to {LARGEST_LIMIT}",
+                    f"Write 0 to {LARGEST_LIMIT}",
                     id="MG-5002",
                 )
 
@@ -69,7 +69,7 @@ class RuleChecker:
                 element = element_of(found)
                 if not isinstance(element, NamedType):
                     self._diagnostics.error(
-                        f"'{'.'.join(path)}': a primitive has no members", rule.span, id="MG-5003"
+                        f"'{'.'.join(path)}': a primitive has no members", rule.span, "Remove it", id="MG-5003"
                     )
                     return None
                 message = self._messages[str(element.name)]
@@ -92,7 +92,7 @@ class RuleChecker:
         is_sequence = isinstance(field_type, SequenceType)
         is_string = isinstance(element, StringType)
         if not is_sequence and not is_string:
-            self._diagnostics.error(f"{where} has a fixed size; it takes no limit", rule.span, id="MG-5005")
+            self._diagnostics.error(f"{where} has a fixed size; it takes no limit", rule.span, "Remove it", id="MG-5005")
         elif rule.single and is_sequence and is_string:
             self._diagnostics.error(
                 f"one number for {where} is ambiguous: it is a sequence of strings",
@@ -123,7 +123,7 @@ class RuleChecker:
         if not isinstance(field_type, SequenceType):
             if is_fixed(self._messages[str(name)], {m.name: m for m in self._messages.values()}):
                 self._diagnostics.error(
-                    f"{where} has a fixed size; it takes no limit", rule.span, id="MG-5009"
+                    f"{where} has a fixed size; it takes no limit", rule.span, "Remove it", id="MG-5009"
                 )
             return
         self._check_kind(rule, where, "sequence", True, rule.sequence, field_type.bound)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
+from microros_gen.application.limit_tree import LimitTree, limit_text, put_limit
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.interfaces.types import (
     ArrayType,
@@ -130,6 +131,13 @@ class _Planner:
     def place(self, path: str) -> str:
         """Return what a user knows the member at `path` by."""
         return f"{self._owner}.{path}" + (f" on {self._topic}" if self._topic else "")
+
+    def limit(self, path: str, kind: str, number: int) -> str:
+        """Return the `limits:` that set the member at `path`: of the application, or of the endpoints of the topic."""
+        tree: LimitTree = {}
+        owner = () if self._topic else (str(self._owner),)
+        put_limit(tree, (*owner, *path.split(".")), kind, number, by_kind=True)
+        return f"`limits: {limit_text(tree)}`" + (f" at {self._topic}" if self._topic else "")
 
     def unit(self, name: TypeName, limits: TypeLimits, path: str) -> str:
         """Plan the unit for the use of `name` at `path` ("" for the owner); return its name."""
@@ -276,12 +284,13 @@ class _UnitBuilder:
         return False
 
     def _too_small(self, field: Field, member: str, kind: str, needed: int, limit: int) -> None:
-        place = self._planner.place(f"{self._path}.{member}" if self._path else member)
+        path = f"{self._path}.{member}" if self._path else member
+        place = self._planner.place(path)
         self._diagnostics.error(
             f"the default value of '{field.name}' needs a {kind} limit of {needed}, but the limit of {place}"
             f" is {limit}",
             field.span,
-            f"Set its {kind} limit to {needed}",
+            f"Write {self._planner.limit(path, kind, needed)}",
             id="MG-5010",
         )
 
