@@ -12,7 +12,10 @@ from tests.support.components.rendered import planned
 
 BARE = "version: 1\nprofiles: [pure_sender]\n"
 NODE = f"{BARE}nodes: [{{name: device}}]\n"
-PARAMETERS = "components: [+parameters]\nnodes: [{name: device, parameters: [{name: a, type: bool}, {name: b, type: bool}]}]\n"
+PARAMETERS = (
+    "components: [+parameters]\n"
+    "nodes: [{name: device, parameters: [{name: a, type: bool}, {name: b, type: bool}]}]\n"
+)
 TEXT = "components: [+parameters]\nnodes: [{name: device, parameters: [{name: a, type: string, default: long}]}]\n"
 SENDER = f"{BARE}nodes: [{{name: device, publishers: [{{topic: t, type: sensor_msgs/msg/JointState}}]}}]\n"
 JOINTS = "limits: {sensor_msgs/msg/JointState: {name: {sequence: 2, string: 8}, %s: %s}}\n"

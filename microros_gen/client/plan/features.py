@@ -181,5 +181,7 @@ def _limits_by_type(name: str, limits: Iterable[LimitRule]) -> str:
         for kind, number in (("string", rule.string), ("sequence", rule.sequence)):
             if number is not None and (kind == "string" or not rule.single):
                 below = (kind,) if rule.path == ("*",) else rule.path[1:]
-                put_limit(tree, (owner, *below), kind, number, by_kind=not rule.single and rule.path != ("*",))
+                put_limit(
+                    tree, (owner, *below), kind, number, by_kind=not rule.single and rule.path != ("*",)
+                )
     return limit_text(tree)

@@ -80,7 +80,11 @@ def limits(application: Application) -> tuple[LimitRule, ...]:
 
 
 def _rule(name: str, member: str, string: int | None, sequence: int | None = None) -> LimitRule:
-    return LimitRule((f"{_PACKAGE}/{name}", member), string, sequence)
+    """Return the limits of a member; one number for a sequence says nothing of what its elements have."""
+    path = (f"{_PACKAGE}/{name}", member)
+    if string is None:
+        return LimitRule(path, sequence, sequence, single=True)
+    return LimitRule(path, string, sequence)
 
 
 def _bounds(context: PlanContext, package: str, kind: str, name: str) -> dict[str, tuple[int, int]]:

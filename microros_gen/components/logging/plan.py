@@ -15,7 +15,7 @@ TEXT_SIZE = 192
 LOGGERS = 4
 """Loggers that can have a separate level."""
 NAME_SIZE = 32
-"""Bytes of the name of such a logger with its NUL, where neither the application nor a declared node has a longer one."""
+"""Bytes of the name of such a logger with its NUL, where no declared node has a longer one."""
 _LINE = TypeName("rcl_interfaces", "msg", "Log")
 _NO_WRITER = 60
 """Above all levels."""

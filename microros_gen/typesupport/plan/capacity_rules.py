@@ -69,7 +69,10 @@ class RuleChecker:
                 element = element_of(found)
                 if not isinstance(element, NamedType):
                     self._diagnostics.error(
-                        f"'{'.'.join(path)}': a primitive has no members", rule.span, "Remove it", id="MG-5003"
+                        f"'{'.'.join(path)}': a primitive has no members",
+                        rule.span,
+                        "Remove it",
+                        id="MG-5003",
                     )
                     return None
                 message = self._messages[str(element.name)]
@@ -92,12 +95,15 @@ class RuleChecker:
         is_sequence = isinstance(field_type, SequenceType)
         is_string = isinstance(element, StringType)
         if not is_sequence and not is_string:
-            self._diagnostics.error(f"{where} has a fixed size; it takes no limit", rule.span, "Remove it", id="MG-5005")
+            self._diagnostics.error(
+                f"{where} has a fixed size; it takes no limit", rule.span, "Remove it", id="MG-5005"
+            )
         elif rule.single and is_sequence and is_string:
             self._diagnostics.error(
                 f"one number for {where} is ambiguous: it is a sequence of strings",
                 rule.span,
-                f"Write `{{sequence: {rule.sequence}}}` for its elements, or `{{string: {rule.sequence}}}` for their bytes",
+                f"Write `{{sequence: {rule.sequence}}}` for its elements, or `{{string: {rule.sequence}}}`"
+                " for their bytes",
                 id="MG-5006",
             )
         else:
