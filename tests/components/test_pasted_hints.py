@@ -21,7 +21,7 @@ SENDER = f"{BARE}nodes: [{{name: device, publishers: [{{topic: t, type: sensor_m
 JOINTS = "limits: {sensor_msgs/msg/JointState: {name: {sequence: 2, string: 8}, %s: %s}}\n"
 VALUE = "limits: {rcl_interfaces/msg/ParameterValue: {string_value: {string: %d}}}\n"
 
-# Id → the application file, what its hint says, and the file in which that is done; the file of a target is beside it.
+# Id → the application file, what its hint says, and the file in which that is done; files of targets are next to it.
 CASES: dict[str, tuple[str, str, str]] = {
     "MG-3098": (BARE + TEXT + VALUE % 2, "`" + VALUE.strip() % 4 + "`", BARE + TEXT + VALUE % 4),
     "MG-5003": (
@@ -29,7 +29,7 @@ CASES: dict[str, tuple[str, str, str]] = {
         "Remove it",
         SENDER + JOINTS % ("position", "3"),
     ),
-    "MG-5004": (SENDER + JOINTS % ("positon", "3"), "'position'", SENDER + JOINTS % ("position", "3")),
+    "MG-5004": (SENDER + JOINTS % ("velocities", "3"), "'velocity'", SENDER + JOINTS % ("velocity", "3")),
     "MG-5006": (
         SENDER + "limits: {sensor_msgs/msg/JointState: {name: 3}}\n",
         "`{sequence: 3}`",

@@ -164,7 +164,9 @@ def check_static_types(static_types: Example, observer: Observer, found: Samples
     assert states == [full, small]
     assert [found["/joint_states"][0][key] for key in ("velocity", "effort")] == [[], []]
     assert static_types.log == []
-    static_types.wait_for("capacity for 6: set limits: {sensor_msgs/msg/JointState: {name: 7}} in microros.yaml")
+    static_types.wait_for(
+        "capacity for 6: set limits: {sensor_msgs/msg/JointState: {name: 7}} in microros.yaml"
+    )
     static_types.complaints = ("spin: error ",)
 
 

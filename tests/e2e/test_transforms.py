@@ -151,7 +151,8 @@ def test_what_is_refused(device: CommandedProgram, observer: Observer) -> None:
         ),
         f"fix {'n' * 32} 1.0": (
             INVALID_ARGUMENT,
-            f"frame {'n' * 32}: set limits: {{{TYPE}: {{transforms: {{header: {{frame_id: 32}}, child_frame_id: 32}}}}}}",
+            f"frame {'n' * 32}: set limits: {{{TYPE}: "
+            "{transforms: {header: {frame_id: 32}, child_frame_id: 32}}}",
         ),
         "none": (INVALID_ARGUMENT, "transforms or count"),
         "frames": (INVALID_ARGUMENT, "transform, frame_id or child_frame_id"),

@@ -131,7 +131,8 @@ def test_nodes_with_enclaves(device: Device) -> None:
 
 def test_an_enclave_that_does_not_fit(device: Device) -> None:
     device.agent.graph.enclaves["/root"] = "/" + "x" * 300
-    assert "set limits: {microros_graph_msgs/msg/Name: {name: 190, types: {string: 190, sequence: 4}}}" in device.fails("enclaves", ERROR)
+    advice = "set limits: {microros_graph_msgs/msg/Name: {name: 190, types: {string: 190, sequence: 4}}}"
+    assert advice in device.fails("enclaves", ERROR)
 
 
 def test_a_server_that_reports_no_enclaves(device: Device) -> None:

@@ -375,7 +375,9 @@ def test_responses_above_the_limits(device: Device) -> None:
     device.agent.parameters["label"] = (STRING, "x" * 4000)
     assert large.match(device.fails("get 4 label", LIMIT))
     device.agent.parameters["label"] = (STRINGS, ["", "", "", ""])
-    assert "above 3: set parameter_clients: [{node: /motor, elements: 4}]" in device.fails("get 9 label", LIMIT)
+    assert "above 3: set parameter_clients: [{node: /motor, elements: 4}]" in device.fails(
+        "get 9 label", LIMIT
+    )
     device.agent.rejects["label"] = "y" * 4000
     assert large.match(device.fails("set 2 label 1", LIMIT))
     device.agent.rejects.clear()

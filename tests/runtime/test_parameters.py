@@ -269,7 +269,9 @@ def test_strings(programs: Programs, stack: ExitStack, codec: Codec) -> None:
     client.ok("text label <6")
     client.ok("text label left")
     assert client.ok("text label").lines == ("text left",)
-    assert client.call("text label sixsix+").error == "parameter label: the string is too long: raise its size"
+    assert (
+        client.call("text label sixsix+").error == "parameter label: the string is too long: raise its size"
+    )
     assert client.call("text label <3").error == "parameter label: its string is longer"
     assert client.call("text label <9").code == client.call("text label <800").code != 0
     values = device.call("get_parameters", names=["label"])["values"]

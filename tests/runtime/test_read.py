@@ -496,7 +496,10 @@ def test_fragments_of_more_than_there_is_room_for(bench: Bench) -> None:
     reader.send(reader.agent.offer(FIRST, _text(600), _text(5)))
     reader.client.spin()
     result = reader.client.call("read_text 0 1000")
-    assert result.error == "/go: received 605 bytes, 400 fit: raise limits of std_msgs/msg/String in microros.yaml"
+    assert (
+        result.error
+        == "/go: received 605 bytes, 400 fit: raise limits of std_msgs/msg/String in microros.yaml"
+    )
     assert reader.client.ok("read_text 0 1000").lines == ("text zzzzz",)
     assert reader.counted() == (0, 1)
 
@@ -505,7 +508,10 @@ def test_fragments_where_none_are_planned(bench: Bench) -> None:
     reader = Reader(bench, type_name="String")
     reader.send(reader.agent.offer(FIRST, _text(100), _text(5)))
     result = reader.client.call("read_text 0 1000")
-    assert result.error == "/go: received 105 bytes, 16 fit: raise limits of std_msgs/msg/String in microros.yaml"
+    assert (
+        result.error
+        == "/go: received 105 bytes, 16 fit: raise limits of std_msgs/msg/String in microros.yaml"
+    )
     assert reader.client.ok("read_text 0 1000").lines == ("text zzzzz",)
 
 

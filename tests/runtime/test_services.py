@@ -192,7 +192,7 @@ def test_more_requests_than_there_is_room_for_replies(bench: Bench) -> None:
 @pytest.mark.parametrize(
     ("sample", "code", "words"),
     [
-        (identity(1) + bytes(20), 1, "/set: received 44 bytes, 40 fit: raise limits of test/srv/Ask_Request in microros.yaml"),
+        (identity(1) + bytes(20), 1, "/set: received 44 bytes, 40 fit: raise limits of test/srv/Ask_Request"),
         (identity(1)[:20], 1, "service /set: received 20 bytes, a header takes 24"),
         (identity(1) + bytes(2), 1, "data"),
     ],

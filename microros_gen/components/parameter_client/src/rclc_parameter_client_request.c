@@ -25,7 +25,7 @@ static size_t check_parameter_most(rclc_parameter_type_t type, size_t most)
   return ((uint32_t)MICROROS_PARAMETER_CLIENT_TYPES >> (uint32_t)type & 1u) != 0u ? most : 0u;
 }
 
-/* Returns the bytes of a text without its NUL; SIZE_MAX, with an error, if there is none. */
+/* Returns the bytes of a text without its NUL; SIZE_MAX, with an error, for NULL. */
 static size_t check_parameter_text(const char * text)
 {
   if (text == NULL) {
