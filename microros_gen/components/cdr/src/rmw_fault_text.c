@@ -52,23 +52,23 @@ static void path_put_place(path_t * path, const cdr_fault_t * fault)
 /* "markers: {text: 9}", as the application file has it; of a sequence's strings "names: {string: 9}". */
 static void path_put_limit(path_t * path, const cdr_fault_t * fault)
 {
-  const char * field = fault->field;
+  uint32_t open = 0;
 
   if (fault->within != NULL) {
+    open = (fault->depth > 1u) ? 2u : 1u;
     path_put(path, fault->within);
-    path_put(path, (fault->depth > 1u) ? ": {...: {" : ": {");
+    path_put(path, (open == 2u) ? ": {...: {" : ": {");
   }
-  /* at most PATH_SIZE rounds */
-  while (*field != '\0' && *field != '[') {
-    const char letter[2] = {*field++, '\0'};
-
-    path_put(path, letter);
+  path_put(path, fault->field);
+  if (path->length > 1u && path->text[path->length - 1u] == ']') { /* "names[]" */
+    path->length -= 2u;
+    path_put(path, ": {string");
+    ++open;
   }
-  path_put(path, (*field == '[') ? ": {string: " : ": ");
+  path_put(path, ": ");
   path_put_number(path, fault->found);
-  path_put(path, (*field == '[') ? "}" : "");
-  if (fault->within != NULL) {
-    path_put(path, (fault->depth > 1u) ? "}}" : "}");
+  for (; open != 0u; --open) { /* at most 3 rounds */
+    path_put(path, "}");
   }
 }
 
