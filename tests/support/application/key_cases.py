@@ -549,6 +549,8 @@ _TOP = {
             "ros_clocks": 251,
             "jump_callbacks": 0,
             "parameters": 251,
+            "loggers": 251,
+            "logger_name_size": 7,
             "history": 17,
             "input_history": 0,
             "best_effort_history": 65,

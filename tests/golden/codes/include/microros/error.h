@@ -86,6 +86,14 @@ static inline int32_t microros_error_named(
   return microros_error_code(result, error);
 }
 
+static inline int32_t microros_error_fits(
+  int32_t result, microros_error_t error, const MICROROS_ANYWHERE char * name, uint32_t fits)
+{
+  (void)name;
+  (void)fits;
+  return microros_error_code(result, error);
+}
+
 /* Largest pool of one kind that a session can have. */
 #define MICROROS_POOL_MOST 250u
 

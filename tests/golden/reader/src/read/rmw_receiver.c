@@ -54,7 +54,8 @@ bool rmw_receiver_report(const xrce_endpoint_t * endpoint)
   uint8_t status = 0;
 
   if (large != 0u) {
-    microros_error_set(microros_error_sample_large, endpoint->name, NULL, large, fits);
+    microros_error_set(
+      microros_error_sample_large, endpoint->name, endpoint->type->dds_type_name, large, fits);
     return true;
   }
   status = xrce_read_status(endpoint);

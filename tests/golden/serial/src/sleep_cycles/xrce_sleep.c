@@ -4,6 +4,7 @@
 #include "microros/port.h"
 #include "microros/text.h"
 #include "microros/xrce_client.h"
+#include "microros/xrce_stream_reliable_slots.h"
 #include "microros/xrce_routes.h"
 #include "microros/xrce_ping_hooks.h"
 #include "microros/xrce_wire.h"

@@ -76,6 +76,14 @@ int32_t microros_error_refuse_flash(int32_t result, const MICROROS_FLASH char * 
   microros_error_refuse_flash((result), MICROROS_FLASH_TEXT(argument))
 #endif
 
+/* Sets an error with a name and the size that would do; returns `result`. */
+static inline int32_t microros_error_fits(
+  int32_t result, microros_error_t error, const MICROROS_ANYWHERE char * name, uint32_t fits)
+{
+  microros_error_set(error, name, "", 0, fits);
+  return result;
+}
+
 /* Largest pool of one kind that a session can have. */
 #define MICROROS_POOL_MOST 250u
 
