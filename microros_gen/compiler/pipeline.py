@@ -6,7 +6,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import chain
 from pathlib import Path
 from types import MappingProxyType
 
@@ -30,12 +29,11 @@ from microros_gen.client.plan.service_limits import service_roots
 from microros_gen.client.plan.stream_budget import check_stream_budget
 from microros_gen.client.plan.streams import WRITE_DATA_OVERHEAD
 from microros_gen.client.plan.transport_sizes import DEFAULT_MTU
-from microros_gen.client.views.printed_with import printed_with
 from microros_gen.compiler.distribution import check_distribution
 from microros_gen.compiler.request import Request
 from microros_gen.diagnostics import Diagnostic, Diagnostics
 from microros_gen.documents.named import Named
-from microros_gen.documents.templates import compile_also, compiled_before
+from microros_gen.documents.templates import compile_also, compiled_before, templates_below
 from microros_gen.interfaces.closure import InterfaceSet, resolve_interfaces, split_type_name
 from microros_gen.interfaces.derived import declaring_name, derived_name, event_name
 from microros_gen.interfaces.find import InterfaceFinder
@@ -160,7 +158,11 @@ def _check_interfaces_have_a_use(
 def plan_request(resolved: Resolved, diagnostics: Diagnostics) -> Planned:
     """Find the interfaces and plan sizes, names and entities. Raises UserError with all that is wrong."""
     selected = [c.component for c in resolved.selection.components]
-    compile_also(chain(template_names(selected), printed_with(component.name for component in selected)))
+    compile_also(template_names(selected))
+    if any(
+        "DATA" in component.receives for component in selected
+    ):  # types have decoders, the example an executor
+        compile_also(templates_below("types", "example"))
     planned = _planned(resolved, diagnostics)
 
     def other(application: Application) -> Project:

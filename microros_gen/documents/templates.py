@@ -90,6 +90,13 @@ def compile_also(names: Iterable[str]) -> None:
         ahead.ask(names)
 
 
+def templates_below(*folders: str) -> Iterator[str]:
+    """Yield the names of the templates below these folders of the package's templates/, in order."""
+    top = TEMPLATE_FOLDERS[0]
+    for folder in folders:
+        yield from (path.relative_to(top).as_posix() for path in sorted((top / folder).rglob("*.j2")))
+
+
 def _compile_common(requested: Iterable[str]) -> Mapping[str, bytes]:
     environment = shared_environment()
     components = TEMPLATE_FOLDERS[1]

@@ -54,7 +54,7 @@ def call(program: Path, observer: Observer) -> None:
         assert await_replies(observer) == [[len(name) for name in requested] for requested in names]
         observer.ask(do="call", service="/arm/lengths", type=TYPE, names=[["much too long"]])
         refused = await_line(process, "refused")
-        assert "names[]: 13, capacity for 8" in refused
+        assert "set limits: {rcl_interfaces/srv/GetParameterTypes_Request: {names: {string: 13}}}" in refused
         observer.ask(do="call", service="/arm/lengths", type=TYPE, names=[["short"]])
         assert await_replies(observer) == [[5]]
         out, errors = process.communicate(timeout=seconds(15))
