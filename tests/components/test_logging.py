@@ -263,6 +263,12 @@ def test_another_level_makes_another_plan_id(tmp_path: Path) -> None:
     assert len({planned(tmp_path, BARE + text).project.runtime.plan_id for text in texts}) == 3
 
 
+def test_another_size_for_loggers_makes_another_plan_id(tmp_path: Path) -> None:
+    pools = ("", "pools: {loggers: 5}\n", "pools: {logger_name_size: 40}\n")
+    ids = {planned(tmp_path, BARE + "logging: console\n" + text).project.runtime.plan_id for text in pools}
+    assert len(ids) == len(pools)
+
+
 def test_a_writer_is_named_once(tmp_path: Path) -> None:
     with pytest.raises(UserError) as caught:
         planned(tmp_path, BARE + "logging: [console, {to: console, level: debug}]\n")

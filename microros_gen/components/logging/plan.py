@@ -116,6 +116,7 @@ def plan(context: PlanContext, diagnostics: Diagnostics) -> LoggingPlan:
 
 def record(part: LoggingPlan) -> object:
     """Return what the plan id is made of."""
-    pools = [part.loggers, part.name_size]
-    own = {"loggers": pools} if part.loggers != LOGGERS else {}
-    return {"levels": [part.level, part.console_level, part.callback_level], **own}
+    return {
+        "levels": [part.level, part.console_level, part.callback_level],
+        "loggers": [part.loggers, part.name_size],
+    }

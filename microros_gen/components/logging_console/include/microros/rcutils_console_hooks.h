@@ -9,7 +9,8 @@
 extern "C" {
 #endif
 
-/* Returns the time until microros_console_report is to be called, at most `left`, milliseconds. Where several tasks call the library. */
+/* Returns the time until microros_console_report is to be called, at most `left`, milliseconds. Where several tasks call
+ * the library. */
 uint32_t microros_console_left(uint32_t left);
 
 #ifdef __cplusplus
