@@ -88,6 +88,7 @@ static void library_log_refusal(uint8_t refusal)
     return;
   }
   library_seen.refusal = refusal;
+  /* cppcheck-suppress knownConditionTrueFalse ; depends on the lowest level of the plan */
   if (library_has(RCUTILS_LOG_SEVERITY_ERROR) && refusal != 0u) {
     library_log_number(
       RCUTILS_LOG_SEVERITY_ERROR, "the agent refuses the session: status 0x", &two_digits, refusal, "");
