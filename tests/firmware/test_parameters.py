@@ -19,7 +19,7 @@ NAME = "qemu-mps2-an386"
 DEVICE = "/arm/device"
 SIZES = {
     "qemu-microbit": (24_168, 5_736, 960),
-    NAME: (22_744, 5_736, 1_080),
+    NAME: (22_776, 5_736, 1_080),
     "qemu-mps2-an505": (22_936, 5_736, 1_092),
 }
 """Flash, RAM without the stack, worst stack; the goals on the Cortex-M4 are 24,000, 6,000 and 1,200."""
