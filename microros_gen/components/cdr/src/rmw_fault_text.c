@@ -52,7 +52,7 @@ static void path_put_place(path_t * path, const cdr_fault_t * fault)
 /* "markers: {text: 9}", as the application file has it; of a sequence's strings "names: {string: 9}". */
 static void path_put_limit(path_t * path, const cdr_fault_t * fault)
 {
-  uint32_t open = 0;
+  uint8_t open = 0; /* braces */
 
   if (fault->within != NULL) {
     open = (fault->depth > 1u) ? 2u : 1u;

@@ -55,6 +55,8 @@ void rclc_parameter_out_value(parameter_out_t * out, const rclc_parameter_place_
       cdr_put_8(&to[0], &place->value);
     } else if (type == (uint8_t)RCLC_PARAMETER_DOUBLE) {
       cdr_put_8(&to[8], &place->value);
+    } else {
+      /* all other members are set */
     }
   }
   value_out_rest(out, place, to);
