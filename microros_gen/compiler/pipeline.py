@@ -159,9 +159,8 @@ def plan_request(resolved: Resolved, diagnostics: Diagnostics) -> Planned:
     """Find the interfaces and plan sizes, names and entities. Raises UserError with all that is wrong."""
     selected = [c.component for c in resolved.selection.components]
     compile_also(template_names(selected))
-    if any(
-        "DATA" in component.receives for component in selected
-    ):  # types have decoders, the example an executor
+    if any("DATA" in component.receives for component in selected):
+        # Types have decoders then, and the example an executor.
         compile_also(templates_below("types", "example"))
     planned = _planned(resolved, diagnostics)
 

@@ -90,21 +90,15 @@ def compile_also(names: Iterable[str]) -> None:
         ahead.ask(names)
 
 
-def templates_below(*folders: str) -> Iterator[str]:
-    """Yield the names of the templates below these folders of the package's templates/, in order."""
-    top = TEMPLATE_FOLDERS[0]
+def templates_below(*folders: str, top: Path = TEMPLATE_FOLDERS[0]) -> Iterator[str]:
+    """Yield the names of the templates below these folders of `top`, in order."""
     for folder in folders:
         yield from (path.relative_to(top).as_posix() for path in sorted((top / folder).rglob("*.j2")))
 
 
 def _compile_common(requested: Iterable[str]) -> Mapping[str, bytes]:
     environment = shared_environment()
-    components = TEMPLATE_FOLDERS[1]
-    likely = (
-        path.relative_to(components).as_posix()
-        for folder in COMMON_COMPONENTS
-        for path in sorted((components / folder).rglob("*.j2"))
-    )
+    likely = templates_below(*COMMON_COMPONENTS, top=TEMPLATE_FOLDERS[1])
     for name in chain(COMMON, likely, requested):
         with suppress(TemplateError):  # this process stops at what is wrong in it, if it uses the template
             environment.get_template(name)

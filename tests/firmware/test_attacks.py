@@ -8,13 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.image.elf import Elf
-from microros_gen.image.folder import read_folder
-from microros_gen.image.lock_holds import longest_calls
-from microros_gen.image.report import measure_folder
 from tests.support.firmware.board import C_FILES, Builds
-from tests.support.firmware.footprint import EXIT
-from tests.support.firmware.instructions import trace_regions
+from tests.support.firmware.bounds import bounds_of, measured_calls
 from tests.support.firmware.tasks import BOARD
 from tests.support.slices import first
 
@@ -58,11 +53,8 @@ def test_no_attack_takes_more_instructions_than_its_bound(builds: Builds, tmp_pa
     built = builds.build(BOARD, APPLICATION)
     image = built.link(SOURCE, tmp_path / "attacks.elf", level)
     names = ATTACK.findall(SOURCE.read_text(encoding="utf-8"))
-    bounds = longest_calls(measure_folder(read_folder(built.out, image)), Elf(image), names)
-    emulator = built.target.emulator
-    assert emulator is not None
-    command = [emulator.program, *emulator.arguments, *EXIT]
-    counted = [region.counted for region in trace_regions(command, image, ())][0::2]
+    bounds = bounds_of(built, image, names)
+    counted = measured_calls(built, image)
     assert set(bounds) == set(names)
     for name, measured in zip(names, counted, strict=True):
         found = bounds[name]

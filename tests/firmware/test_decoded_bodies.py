@@ -13,14 +13,9 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.image.elf import Elf
-from microros_gen.image.folder import read_folder
-from microros_gen.image.lock_holds import longest_calls
-from microros_gen.image.report import measure_folder
 from microros_gen.records import dataclass
 from tests.support.firmware.board import C_FILES, Builds
-from tests.support.firmware.footprint import EXIT
-from tests.support.firmware.instructions import trace_regions
+from tests.support.firmware.bounds import bounds_of, measured_calls
 from tests.support.firmware.tasks import BOARD
 
 AROUND = 12
@@ -152,14 +147,10 @@ def test_no_body_takes_more_instructions_than_the_call_graph_says(builds: Builds
     found = bodies()
     (tmp_path / "decoded_bodies.h").write_text(header(found))
     image = built.link(C_FILES / "decoded_bodies.c", tmp_path / "bodies.elf", f"-I{tmp_path}")
-    report = measure_folder(read_folder(built.out, image))
-    lengths = longest_calls(report, Elf(image), [f"{name}__decode" for name in TYPES])
+    lengths = bounds_of(built, image, [f"{name}__decode" for name in TYPES])
     bounds = [lengths[f"{name}__decode"] for name in TYPES]
     assert [bound.open for bound in bounds] == [frozenset()] * len(TYPES)
-    emulator = built.target.emulator
-    assert emulator is not None
-    command = [emulator.program, *emulator.arguments, *EXIT]
-    counted = [region.counted for region in trace_regions(command, image, ())][0::2]
+    counted = measured_calls(built, image)
     assert len(counted) == len(found)
     closest = [0.0] * len(TYPES)
     for body, instructions in zip(found, counted, strict=True):

@@ -8,13 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.image.elf import Elf
-from microros_gen.image.folder import read_folder
-from microros_gen.image.lock_holds import longest_calls
-from microros_gen.image.report import measure_folder
 from tests.support.firmware.board import C_FILES, Builds
-from tests.support.firmware.footprint import EXIT
-from tests.support.firmware.instructions import trace_regions
+from tests.support.firmware.bounds import bounds_of, measured_calls
 from tests.support.firmware.tasks import BOARD
 
 SOURCE = C_FILES / "measured_extremes.c"
@@ -50,11 +45,8 @@ def test_the_worst_input_takes_no_more_than_the_bound_and_not_far_less(
     built = builds.build(BOARD, APPLICATION)
     image = built.link(SOURCE, tmp_path / "extremes.elf")
     names = EXTREME.findall(SOURCE.read_text(encoding="utf-8"))
-    emulator = built.target.emulator
-    assert emulator is not None
-    command = [emulator.program, *emulator.arguments, *EXIT]
-    counted = [region.counted for region in trace_regions(command, image, PORT)][0::2]
-    bounds = longest_calls(measure_folder(read_folder(built.out, image)), Elf(image), names, port=0)
+    counted = measured_calls(built, image, PORT)
+    bounds = bounds_of(built, image, names, port=0)
     longest = dict[str, int]()
     for name, measured in zip(names, counted, strict=True):
         longest[name] = max(measured, longest.get(name, 0))

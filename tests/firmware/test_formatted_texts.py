@@ -7,13 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.image.elf import Elf
-from microros_gen.image.folder import read_folder
-from microros_gen.image.lock_holds import longest_calls
-from microros_gen.image.report import measure_folder
-from tests.support.firmware.board import C_FILES, Builds, Built
-from tests.support.firmware.footprint import EXIT
-from tests.support.firmware.instructions import trace_regions
+from tests.support.firmware.board import C_FILES, Builds
+from tests.support.firmware.bounds import bounds_of, measured_calls
 from tests.support.firmware.tasks import BOARD
 
 LINES, ERRORS = 18, 7
@@ -39,22 +34,14 @@ CLOSE_FLOAT = 20
 """As CLOSE: the compiler makes one loop of two in microros_digits_begin, so that their rounds are multiplied."""
 
 
-def counts(built: Built, image: Path) -> list[int]:
-    """Return the instructions between each two marks of a program."""
-    emulator = built.target.emulator
-    assert emulator is not None
-    command = [emulator.program, *emulator.arguments, *EXIT]
-    return [region.counted for region in trace_regions(command, image, ())][0::2]
-
-
 @pytest.mark.system
 def test_no_floating_point_number_takes_more_than_the_call_graph_says(builds: Builds, tmp_path: Path) -> None:
     """The largest and the smallest double with the highest precision: all digits are exact, and each is counted."""
     built = builds.build(BOARD, APPLICATION + "components: [+logging_float]\n")
     image = built.link(C_FILES / "measured_floats.c", tmp_path / "floats.elf")
     name = "microros_format_floating"
-    bound = longest_calls(measure_folder(read_folder(built.out, image)), Elf(image), [name])[name]
-    measured = counts(built, image)
+    bound = bounds_of(built, image, [name])[name]
+    measured = measured_calls(built, image)
     assert (len(measured), bound.open) == (FLOATS, frozenset())
     assert max(measured) <= bound.count + AROUND, (measured, bound.count)
     assert bound.count < CLOSE_FLOAT * max(measured), (measured, bound.count)
@@ -64,10 +51,9 @@ def test_no_floating_point_number_takes_more_than_the_call_graph_says(builds: Bu
 def test_no_text_takes_more_instructions_than_the_call_graph_says(builds: Builds, tmp_path: Path) -> None:
     built = builds.build(BOARD, APPLICATION)
     image = built.link(C_FILES / "measured_formats.c", tmp_path / "formats.elf")
-    report = measure_folder(read_folder(built.out, image))
-    bounds = longest_calls(report, Elf(image), FUNCTIONS)
+    bounds = bounds_of(built, image, FUNCTIONS)
     assert [bounds[name].open for name in FUNCTIONS] == [frozenset()] * len(FUNCTIONS)
-    counted = counts(built, image)
+    counted = measured_calls(built, image)
     assert len(counted) == LINES + ERRORS + 1
     parts = (counted[:LINES], counted[LINES : LINES + ERRORS], counted[LINES + ERRORS :])
     for name, measured in zip(FUNCTIONS, parts, strict=True):

@@ -7,14 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from microros_gen.image.elf import Elf
-from microros_gen.image.folder import read_folder
-from microros_gen.image.lock_holds import longest_calls
-from microros_gen.image.report import measure_folder
 from tests.support.firmware.board import C_FILES, Builds
-from tests.support.firmware.footprint import EXIT
-from tests.support.firmware.instructions import trace_regions
+from tests.support.firmware.bounds import bounds_of, measured_calls
 from tests.support.firmware.tasks import BOARD
+from tests.support.slices import first
 
 APPLICATION = """\
 version: 1
@@ -38,22 +34,16 @@ HEAVY = 20_000
 
 
 @pytest.mark.system
-@pytest.mark.parametrize("writers", ["both", pytest.param("ring", marks=pytest.mark.variant)])
-@pytest.mark.parametrize(
-    "more", ["", pytest.param("+logging_float, +logging_wide", marks=pytest.mark.variant)]
-)
+@pytest.mark.parametrize("writers", first(WRITERS))
+@pytest.mark.parametrize("more", first(["", "+logging_float, +logging_wide"]))
 def test_five_messages_of_the_library_are_below_their_bound_and_close_to_it(
     builds: Builds, tmp_path: Path, writers: str, more: str
 ) -> None:
     """The formats of an application do not count: with floating-point numbers their bound is a thousand million."""
     built = builds.build(BOARD, APPLICATION.format(writers=WRITERS[writers]) + f"components: [{more}]\n")
     image = built.link(C_FILES / "measured_library_log.c", tmp_path / "log.elf")
-    emulator = built.target.emulator
-    assert emulator is not None
-    command = [emulator.program, *emulator.arguments, *EXIT]
-    counted = [region.counted for region in trace_regions(command, image, ())][0::2]
-    report = measure_folder(read_folder(built.out, image))
-    bound = longest_calls(report, Elf(image), ["microros_library_log"])["microros_library_log"]
+    counted = measured_calls(built, image)
+    bound = bounds_of(built, image, ["microros_library_log"])["microros_library_log"]
     assert (len(counted), bound.open) == (CALLS, frozenset())
     assert HEAVY < max(counted) <= bound.count + AROUND, (counted, bound.count)
     assert bound.count < CLOSE * max(counted), (counted, bound.count)

@@ -12,6 +12,7 @@ import pytest
 from microros_gen.image.link_time import is_made_by_linker
 from tests.support.firmware.board import C_FILES, Built, check
 from tests.support.firmware.tasks import built_tasks, holds_of, locks_of
+from tests.support.slices import first
 
 SOURCE = C_FILES / "measured_tasks.c"
 LTO = "-flto"
@@ -48,9 +49,7 @@ def test_an_application_with_it_has_bounds_that_are_no_smaller(built: Built, tmp
 
 
 @pytest.mark.system
-@pytest.mark.parametrize(
-    "flags", [(), pytest.param((LTO,), marks=pytest.mark.variant)], ids=["library", "all"]
-)
+@pytest.mark.parametrize("flags", first([(), (LTO,)]), ids=["library", "all"])
 def test_a_library_with_it_is_refused(built: Built, tmp_path: Path, flags: tuple[str, ...]) -> None:
     image = linked(built, tmp_path / "image.elf", *flags)
     stacks = [sys.executable, "-m", "microros_gen", "stacks", "out", "--image", str(image)]

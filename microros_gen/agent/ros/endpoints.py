@@ -29,7 +29,7 @@ class Ros:
         self.request_wait_s = request_wait_s
         self.libraries = types.libraries
         self.types = types
-        self.wakeups: Wakeups = Wakeups()
+        self.wakeups = Wakeups()
         self.taken = SerializedMessage(allocator=self.libraries.default_allocator())
 
     def close(self) -> None:
