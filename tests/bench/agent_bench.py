@@ -4,10 +4,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import partial
 from itertools import count
 from pathlib import Path
 
@@ -32,6 +31,7 @@ PACED = 17_000
 """Samples a second on a best-effort stream; the rate at which the public agent was recorded."""
 CLIENTS = (1, 10, 100)
 Measure = Callable[[Programs, Target, Case, int, int], Rate]
+_WAYS: tuple[tuple[str, Measure], ...] = (("client to DDS", client_to_dds), ("DDS to client", dds_to_client))
 
 
 @dataclass(frozen=True)
@@ -56,10 +56,17 @@ MEMORY_RECORDED = {0: "15 MB", 1: "20 MB", 10: "39 MB", 100: "400 MB, 608 thread
 
 
 def bench_agent(
-    work: Path, other: Target | None = None, only: str | None = None, samples: int = SAMPLES
+    work: Path,
+    other: Target | None = None,
+    beside: Target | None = None,
+    only: str | None = None,
+    samples: int = SAMPLES,
+    runs: int = RUNS,
 ) -> None:
     """Print the table; `other`: an agent that runs already, in place of one that is started here.
 
+    `beside`: an agent that runs already; rates and round trips are of both in turn, with the ratios of rates. Memory is
+    not measured then.
     `only`: a part of the names of the rates to measure (way and case, as printed), and nothing else than these.
     `samples`: the number in each run, half of it in fragments.
     """
@@ -71,17 +78,22 @@ def bench_agent(
         "agent: one client over UDP on this machine; counted at a DDS reader in another process, or in the client"
     )
     print(
-        f"  KEEP_ALL; median of {RUNS} runs, losses of the worst; us: user and system time of the agent a sample"
+        f"  KEEP_ALL; median of {runs} runs, losses of the worst; us: user and system time of the agent a sample"
     )
-    print(
-        "  recorded: the public agent 2.4.3 in another machine's minutes (verification/figures.md), not of this run"
-    )
+    rates = _Rates(programs, count(0xB0000000 + (os.getpid() & 0xFFFF) * 0x1000), only or "", samples, runs)
     with _target(other) as target:
         _calibrate(programs, target.domain)
-        keys = count(0xB0000000 + (os.getpid() & 0xFFFF) * 0x1000)
-        _print_rates(programs, target, keys, only or "", samples)
+        if beside is not None:
+            rates.print_ratios(target, beside)
+            if only is None:
+                _print_trips(programs, [target, beside], rates.keys)
+            return
+        print(
+            "  recorded: the public agent 2.4.3 in another machine's minutes (verification/figures.md), not of this run"
+        )
+        rates.print(target)
         if only is None:
-            _print_trips(programs, target, keys)
+            _print_trips(programs, [target], rates.keys)
     if only is None:
         with _target(other) as target:
             print_memory(target)
@@ -114,27 +126,56 @@ def _calibrate(programs: Programs, domain: int) -> None:
         print(f"    {f'the same DDS writer to reader, {size} B':<38} {rate.per_second:9,.0f} /s")
 
 
-def _print_rates(programs: Programs, target: Target, keys: Iterator[int], only: str, samples: int) -> None:
-    for title, measure in (("client to DDS", client_to_dds), ("DDS to client", dds_to_client)):
-        print(f"  {title:<99} recorded")
-        for row in ROWS:
-            if only not in f"{title}, {row.case}":
-                continue
-            count = row.samples * samples // SAMPLES
-            once = partial(_rate, measure, programs, target, row.case, count, keys)
-            recorded = row.to_dds if measure is client_to_dds else row.to_client
-            print(f"    {row.case!s:<48} {median_of(RUNS, once)!s:<48} {recorded}", flush=True)
+@dataclass(frozen=True)
+class _Rates:
+    """Measures the rates of agents: `samples` in each of `runs` runs, of the cases with `only` in their names."""
+
+    programs: Programs
+    keys: Iterator[int]
+    only: str
+    samples: int
+    runs: int
+
+    def print(self, target: Target) -> None:
+        """Print the rates of one agent, and those that are recorded of the public one."""
+        for title, measure in _WAYS:
+            print(f"  {title:<99} recorded")
+            for row in self._rows(title):
+                rate = median_of([self._once(measure, row, target) for _ in range(self.runs)])
+                recorded = row.to_dds if measure is client_to_dds else row.to_client
+                print(f"    {row.case!s:<48} {rate!s:<48} {recorded}", flush=True)
+
+    def print_ratios(self, target: Target, beside: Target) -> None:
+        """Print the rates of two agents, measured in turn, and the ratio of rates and of processor times."""
+        for title, measure in _WAYS:
+            print(f"  {title:<53}{'this agent':<48} {'the other one':<48} rate, us: ratios")
+            for row in self._rows(title):
+                pairs = [
+                    (self._once(measure, row, target), self._once(measure, row, beside))
+                    for _ in range(self.runs)
+                ]
+                here, there = (median_of(rates) for rates in zip(*pairs, strict=True))
+                ratios = f"{here.per_second / there.per_second:.2f}, {here.cpu_us / there.cpu_us:.2f}"
+                print(f"    {row.case!s:<50} {here!s:<48} {there!s:<48} {ratios}", flush=True)
+
+    def _rows(self, title: str) -> Iterator[Row]:
+        return (row for row in ROWS if self.only in f"{title}, {row.case}")
+
+    def _once(self, measure: Measure, row: Row, target: Target) -> Rate:
+        return measure(
+            self.programs, target, row.case, row.samples * self.samples // SAMPLES, next(self.keys)
+        )
 
 
-def _rate(
-    measure: Measure, programs: Programs, target: Target, case: Case, count: int, keys: Iterator[int]
-) -> Rate:
-    return measure(programs, target, case, count, next(keys))
-
-
-def _print_trips(programs: Programs, target: Target, keys: Iterator[int]) -> None:
+def _print_trips(programs: Programs, targets: Sequence[Target], keys: Iterator[int]) -> None:
+    """Print the round trips of each agent, measured in turn."""
     print("  client, agent, DDS, agent, client; 64 B")
     for stream, title in ((RELIABLE, "reliable"), (BEST_EFFORT, "best effort")):
-        trips = [round_trip(programs, target, stream, TRIPS, next(keys)) for _ in range(RUNS)]
-        middle = sorted(trips, key=lambda trip: trip.median_us)[RUNS // 2]
-        print(f"    {title:<38} {middle!s:<58} {TRIP_RECORDED if stream == RELIABLE else ''}", flush=True)
+        runs = [
+            [round_trip(programs, each, stream, TRIPS, next(keys)) for each in targets] for _ in range(RUNS)
+        ]
+        middles = [
+            sorted(trips, key=lambda trip: trip.median_us)[RUNS // 2] for trips in zip(*runs, strict=True)
+        ]
+        shown = " ".join(f"{middle!s:<58}" for middle in middles)
+        print(f"    {title:<38} {shown} {TRIP_RECORDED if stream == RELIABLE else ''}", flush=True)

@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 import statistics
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -183,9 +183,9 @@ def memory(target: Target, steps: Sequence[int]) -> list[tuple[int, float, int]]
     return seen
 
 
-def median_of(runs: int, measure: Callable[[], Rate]) -> Rate:
+def median_of(runs: Iterable[Rate]) -> Rate:
     """Return the run with the median rate; what was lost in any of them shows."""
-    seen = sorted((measure() for _ in range(runs)), key=lambda rate: rate.per_second)
+    seen = sorted(runs, key=lambda rate: rate.per_second)
     middle = seen[len(seen) // 2]
     worst = max(seen, key=lambda rate: rate.lost)
     cpu = statistics.median(rate.cpu_us for rate in seen)

@@ -16,7 +16,7 @@ import tempfile
 from pathlib import Path
 
 from tests.bench.agent_attacks import bench_attacks
-from tests.bench.agent_bench import SAMPLES, bench_agent
+from tests.bench.agent_bench import RUNS, SAMPLES, bench_agent
 from tests.bench.agent_fleet import bench_fleet
 from tests.bench.agent_sides import Target
 from tests.bench.agent_workers import bench_workers
@@ -71,11 +71,19 @@ def main() -> int:
         help="measure another, which runs",
     )
     parser.add_argument(
+        "--beside",
+        nargs=3,
+        type=int,
+        metavar=("PORT", "PROCESS", "DOMAIN"),
+        help="measure the agent's rates in turn with those of another, which runs",
+    )
+    parser.add_argument(
         "--rates",
         metavar="PART",
         help="of the agent, only rates with this in their names, as 'DDS to client, 64 B'",
     )
     parser.add_argument("--samples", type=int, default=SAMPLES, help="in each run of the agent's rates")
+    parser.add_argument("--runs", type=int, default=RUNS, help="of each of the agent's rates")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         work = Path(folder)
@@ -111,7 +119,8 @@ def main() -> int:
             bench_tasks(work / "tasks")
         if "agent" in options.parts:
             other = Target(*options.agent) if options.agent else None
-            bench_agent(work / "agent", other, options.rates, options.samples)
+            beside = Target(*options.beside) if options.beside else None
+            bench_agent(work / "agent", other, beside, options.rates, options.samples, options.runs)
         if "fleet" in options.parts:
             bench_fleet()
         if "workers" in options.parts:
