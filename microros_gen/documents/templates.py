@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import marshal
 import os
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from functools import cache
@@ -37,8 +38,8 @@ COMMON = (
 )
 """Templates that every project prints."""
 
-COMMON_COMPONENTS = ("base", "memory", "node", "qos", "session", "support")
-"""Components that nearly every project has."""
+_COMMON_COMPONENT = re.compile(rb"^common: true$", re.MULTILINE)
+"""Its line in a component.yaml, which the second process looks for while the first one still parses these files."""
 
 
 def make_environment(folders: Sequence[Path] = TEMPLATE_FOLDERS) -> Environment:
@@ -96,10 +97,16 @@ def templates_below(*folders: str, top: Path = TEMPLATE_FOLDERS[0]) -> Iterator[
         yield from (path.relative_to(top).as_posix() for path in sorted((top / folder).rglob("*.j2")))
 
 
+def common_templates(components: Path = TEMPLATE_FOLDERS[1]) -> Iterator[str]:
+    """Yield the names of the templates of the components below a folder that nearly every project has."""
+    for path in sorted(components.glob("*/component.yaml")):
+        if _COMMON_COMPONENT.search(path.read_bytes()):
+            yield from templates_below(path.parent.name, top=components)
+
+
 def _compile_common(requested: Iterable[str]) -> Mapping[str, bytes]:
     environment = shared_environment()
-    likely = templates_below(*COMMON_COMPONENTS, top=TEMPLATE_FOLDERS[1])
-    for name in chain(COMMON, likely, requested):
+    for name in chain(COMMON, common_templates(), requested):
         with suppress(TemplateError):  # this process stops at what is wrong in it, if it uses the template
             environment.get_template(name)
     return _compiled_templates().known

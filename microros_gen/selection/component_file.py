@@ -21,6 +21,8 @@ LAYERS = ("micro-ROS", "middleware", "port")
 _REQUIRED = ("component", "summary", "layer", "status")
 _LISTS = ("needs", "asks", "xrce", "sends", "receives", "objects", "headers", "sources", "implies", "pools")
 _FILLS = "fills_messages"
+_COMMON = "common"
+"""Read where templates are compiled ahead (documents/templates.py), before all components are."""
 _IMPLIED = ("type", "every_node", "queue", "qos", "limits", "executed", "storage", "unless", "outside_ros")
 _PROVISION = ("sources", "asks", "always", "waits_for_room")
 _STATUS = ("ready", "planned")
@@ -35,7 +37,12 @@ def parse_component(source: Source, diagnostics: Diagnostics) -> Component | Non
         if not diagnostics.has_errors():
             diagnostics.error(f"the component file '{source.name}' is empty", id="MG-4004")
         return None
-    check_keys(node, (*_REQUIRED, *_LISTS, _FILLS, "provides", *KEYS, *PRESENCE_KEYS), _REQUIRED, diagnostics)
+    check_keys(
+        node,
+        (*_REQUIRED, *_LISTS, _FILLS, _COMMON, "provides", *KEYS, *PRESENCE_KEYS),
+        _REQUIRED,
+        diagnostics,
+    )
     layer = read_choice(node, "layer", LAYERS, diagnostics)
     status = read_choice(node, "status", _STATUS, diagnostics)
     component = Component(

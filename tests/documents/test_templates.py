@@ -14,7 +14,7 @@ import pytest
 
 from microros_gen import compiler
 from microros_gen.documents.ahead import compute_ahead
-from microros_gen.documents.templates import COMMON, COMMON_COMPONENTS, shared_environment
+from microros_gen.documents.templates import COMMON, common_templates, shared_environment
 
 GENERATE = ("-m", "microros_gen", "generate", "--profile", "pure_sender", "-o", "out")
 
@@ -70,7 +70,23 @@ def test_the_second_process_begins_with_what_every_project_prints() -> None:
         assert cache is not None
         printed.append(frozenset(template.name or "" for template in cache.values()))
     assert [sorted(frozenset(COMMON) - names) for names in printed] == [[], []]
-    assert all(set(COMMON_COMPONENTS) <= {name.split("/")[0] for name in names} for names in printed)
+    common = {name.split("/")[0] for name in common_templates()}
+    assert "support" in common
+    assert all(common <= {name.split("/")[0] for name in names} for names in printed)
+
+
+def test_common_components_say_so_in_their_file(tmp_path: Path) -> None:
+    """The line counts where it is a key of the file, not in a text."""
+    texts = {
+        "one": "component: one\ncommon: true\n",
+        "two": "summary: |\n  common: true\n",
+        "three": "common: false\n",
+    }
+    for name, text in texts.items():
+        (tmp_path / name / "src").mkdir(parents=True)
+        (tmp_path / name / "component.yaml").write_text(text)
+        (tmp_path / name / "src/a.c.j2").touch()
+    assert list(common_templates(tmp_path)) == ["one/src/a.c.j2"]
 
 
 def test_a_process_computes(capfd: pytest.CaptureFixture[str]) -> None:
