@@ -11,7 +11,7 @@ import pytest
 from hypothesis import settings
 
 pytest.register_assert_rewrite("tests.support")
-pytest_plugins = ["tests.support.command_line", "tests.support.trees"]
+pytest_plugins = ["tests.support.command_line", "tests.support.sharing", "tests.support.trees"]
 
 
 def pytest_configure() -> None:

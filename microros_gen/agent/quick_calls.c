@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The system calls and calls of ROS 2 that the agent makes for each message, without what ctypes and Python's sockets add to them.
+/* The system calls and calls of ROS 2 that the agent makes for each message, without what ctypes and Python's sockets
+ * add to them.
  *
  * A part of the compiled core (hatch_build.py). calls.py does the same in Python, and says what each function does.
  */

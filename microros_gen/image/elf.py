@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterator
 from functools import cached_property
 from io import BytesIO
@@ -104,6 +105,22 @@ class Elf:
         """Functions and objects that are defined here, by address; a name that others see before others."""
         found = set(self._symbols())
         return tuple(sorted(found, key=lambda s: (s.section, s.address, -s.size, not s.exported, s.name)))
+
+    @cached_property
+    def _functions(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """The addresses at which functions begin, in their order, and those at which they end."""
+        extents = sorted((s.address, s.address + s.size) for s in self.symbols if s.function and s.size)
+        return tuple(begin for begin, _ in extents), tuple(end for _, end in extents)
+
+    def is_code(self, address: int) -> bool:
+        """Return whether a function of the image is at an address.
+
+        The linker sets the addresses of a function that it leaves out to 0, where an image of a microcontroller has
+        its vectors and then its first functions.
+        """
+        begins, ends = self._functions
+        at = bisect_right(begins, address) - 1
+        return at >= 0 and address < ends[at]
 
     @cached_property
     def dwarf(self) -> Any | None:

@@ -10,7 +10,6 @@ from elftools.dwarf.ranges import BaseAddressEntry
 
 from microros_gen.image.dwarf import file_name
 from microros_gen.image.elf import Elf
-from microros_gen.image.lines import code_of
 from microros_gen.records import dataclass
 
 
@@ -37,7 +36,7 @@ class Inlined:
 
 
 def _calls(image: Elf) -> Iterator[_Call]:
-    dwarf, is_code = image.dwarf, code_of(image)
+    dwarf = image.dwarf
     for unit in dwarf.iter_CUs() if dwarf is not None else ():
         assert dwarf is not None
         program = dwarf.line_program_for_CU(unit)
@@ -47,7 +46,7 @@ def _calls(image: Elf) -> Iterator[_Call]:
                 continue
             file = file_name(unit, program, attributes["DW_AT_call_file"].value)
             for begin, end in _ranges(dwarf, unit, die):
-                if is_code(begin):
+                if image.is_code(begin):
                     yield _Call(begin, end, file, attributes["DW_AT_call_line"].value)
 
 

@@ -5,26 +5,10 @@ from __future__ import annotations
 
 import itertools
 from bisect import bisect_right
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 
 from microros_gen.image.dwarf import file_name
 from microros_gen.image.elf import Elf
-
-
-def code_of(image: Elf) -> Callable[[int], bool]:
-    """Return what says whether a function of the image is at an address.
-
-    The linker sets the addresses of a function that it leaves out to 0, where an image of a microcontroller has its
-    vectors and then its first functions.
-    """
-    extents = sorted((s.address, s.address + s.size) for s in image.symbols if s.function and s.size)
-    begins = [begin for begin, _ in extents]
-
-    def is_code(address: int) -> bool:
-        at = bisect_right(begins, address) - 1
-        return at >= 0 and address < extents[at][1]
-
-    return is_code
 
 
 class Lines:
@@ -33,7 +17,6 @@ class Lines:
     def __init__(self, image: Elf) -> None:
         """Read it."""
         found: dict[int, tuple[int, str, int]] = {}
-        is_code = code_of(image)
         for unit in image.dwarf.iter_CUs() if image.dwarf else ():
             is_kept = False
             program = image.dwarf.line_program_for_CU(unit) if image.dwarf else None
@@ -42,7 +25,7 @@ class Lines:
             begins = True
             for here, after in itertools.pairwise(states):
                 if begins:
-                    is_kept = is_code(here.address)
+                    is_kept = image.is_code(here.address)
                 begins = here.end_sequence
                 if is_kept and not here.end_sequence and here.address < after.address:
                     if here.file not in names:

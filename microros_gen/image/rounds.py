@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The largest number of rounds of a loop, and of bytes of a copy, as the source says it.
 
-A loop says it itself, as in `for (i = 0; i < MICROROS_TASKS; ++i)`, or a comment does, at its line or on a separate
-one before it: `/* at most MICROROS_TASKS rounds */`, and for a call `/* at most MICROROS_MTU bytes */`. Numbers are
+A loop says it itself, as in `for (i = 0; i < MICROROS_TASKS; ++i)`, or a comment does, at its line or on separate
+ones before it: `/* at most MICROROS_TASKS rounds */`, and for a call `/* at most MICROROS_MTU bytes */`. Numbers are
 constants of the output, with `+ - * /` and parentheses; of `A or B` the first that the output has. `size of NAME` is
 the third argument of that function, where its caller has a constant. `BYTES_READ` are the bytes of a message that the
 call of the function reads. Where few of the rounds of a loop reach a call, a comment at it says so: `/* at most
@@ -70,7 +70,7 @@ class Source:
 
     def __init__(self, text: str, macros: Macros = NO_MACROS) -> None:
         """Take the text of a C file, and the macros of its headers."""
-        self._lines = text.splitlines()
+        self._lines = _COMMENT.sub(_on_its_last_line, text).splitlines()
         blank = _TEXT.sub(lambda m: " " * len(m[0]), _blanked(text))
         self.plain = blank
         self.is_generated = text.startswith(_GENERATED)
@@ -135,6 +135,11 @@ def _with_vague(text: str, loops: tuple[Loop, ...], macros: Macros) -> tuple[Loo
 
 def _blanked(text: str) -> str:
     return _COMMENT.sub(lambda m: re.sub(r"[^\n]", " ", m[0]), text)
+
+
+def _on_its_last_line(comment: re.Match[str]) -> str:
+    lines = comment[0].split("\n")
+    return "\n" * (len(lines) - 1) + " ".join(line.strip() for line in lines)
 
 
 def _loops(text: str) -> Iterator[Loop]:

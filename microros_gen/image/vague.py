@@ -20,7 +20,7 @@ _REPEATS = re.compile(r"\b(?:for|while|goto)\b")
 _GOTO = re.compile(r"\bgoto\s+(\w+)\s*;")
 _BODY = re.compile(r"^\w[^;{}=()]*?\b\w+\([^;{}]*\)\s*\{", re.MULTILINE)
 _TOKEN = re.compile(r"[A-Za-z_]\w*|\d\w*|[^\s\w]")
-_STATED = re.compile(r"/\* at most [^\n]*")
+_STATED = re.compile(r"/\* at most (?:[^*]|\*(?!/))*\*/[^\n]*")
 
 _TAKES_ARGUMENTS = re.compile(r"^[ \t]*#[ \t]*define[ \t]+(\w+)\(", re.MULTILINE)
 _INVOKED = re.compile(r"\b([A-Za-z_]\w*)\s*\(")

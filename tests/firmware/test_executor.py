@@ -3,17 +3,16 @@
 
 from __future__ import annotations
 
-import subprocess
 import time
 from pathlib import Path
 
 import pytest
 
 from tests.support.firmware.board import Builds, Built, board, need
-from tests.support.firmware.footprint import EXIT, SERVES, bounded_stack, image_sections, touched_stack
+from tests.support.firmware.footprint import SERVES, bounded_stack, image_sections, touched_stack
+from tests.support.firmware.instructions import run_to_end
 from tests.support.firmware.line import scripted_agent
 from tests.support.firmware.ticker import APPLICATION, LISTENS
-from tests.support.patience import seconds
 from tests.support.runtime.fake_agent import FakeAgent
 from tests.support.slices import first
 
@@ -62,14 +61,8 @@ def test_handles_of_every_kind_are_added_and_removed(builds: Builds) -> None:
     """Two executors, local topics and a local service, without an agent; the clock wraps meanwhile."""
     need(NAME, emulator=True)
     built = builds.build(NAME, CHANGES)
-    emulator = built.target.emulator
-    assert emulator is not None
     image = builds.application(built, "executor_changes.c")
-    command = [emulator.program, *emulator.arguments, *EXIT, "-kernel", str(image)]
-    done = subprocess.run(
-        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=seconds(60), check=False
-    )
-    assert (done.returncode, done.stderr) == (0, b"")
+    assert run_to_end(built.target, image) == (0, b"")
 
 
 @pytest.mark.system

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import subprocess
 from pathlib import Path
 
 import pytest
@@ -12,8 +11,7 @@ from microros_gen.platform.find import builtin_targets
 from microros_gen.selection.find_components import components_folder, parts_folder
 from microros_gen.toolchain.toolchain import WARNINGS
 from tests.support.firmware.board import C_FILES, Builds, check, need, target
-from tests.support.firmware.footprint import EXIT
-from tests.support.patience import seconds
+from tests.support.firmware.instructions import run_to_end
 
 NAME = "qemu-mps2-an386"
 WAITS = """\
@@ -38,14 +36,8 @@ def test_a_board_waits_for_months(builds: Builds) -> None:
     """On the emulated board, with the whole library: four wraps in one wait of an executor."""
     need(NAME, emulator=True)
     built = builds.build(NAME, WAITS)
-    emulator = built.target.emulator
-    assert emulator is not None
     image = builds.application(built, "long_time.c")
-    command = [emulator.program, *emulator.arguments, *EXIT, "-kernel", str(image)]
-    done = subprocess.run(
-        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=seconds(60), check=False
-    )
-    assert (done.returncode, done.stderr) == (0, b"")
+    assert run_to_end(built.target, image) == (0, b"")
 
 
 @pytest.mark.parametrize(

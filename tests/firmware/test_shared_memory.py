@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.firmware.board import C_FILES, Built, compile_merged_image, generate, need, target
-from tests.support.firmware.footprint import EXIT
+from tests.support.firmware.instructions import EXIT
 from tests.support.patience import seconds
 from tests.support.runtime.images import SYSTEM
 

@@ -4,15 +4,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 
 from microros_gen.cli import locks
-from microros_gen.image.folder import Folder
-from microros_gen.image.lock_holds import TaskHold
 from tests.support.command_line import Runner
+from tests.support.sharing import ShareResult
 
 APPLICATION = """\
 version: 1
@@ -30,23 +28,9 @@ tasks:
 """
 
 
-@pytest.fixture
-def analysed_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let two calls of `locks` in this process share the analysis of the one image."""
-    found: list[Sequence[TaskHold]] = []
-    measured = locks._measured
-
-    def once(image: Folder, port: int | None) -> Sequence[TaskHold]:
-        if not found:
-            found.append(measured(image, port))
-        return found[0]
-
-    monkeypatch.setattr(locks, "_measured", once)
-
-
 @pytest.mark.system
-@pytest.mark.usefixtures("analysed_once")
-def test_what_a_shared_library_has_is_no_bound(folder: Path, run: Runner) -> None:
+def test_what_a_shared_library_has_is_no_bound(folder: Path, run: Runner, share_result: ShareResult) -> None:
+    share_result(locks, "_measured", lambda image, port: (image.path, port))
     (folder / "microros.yaml").write_text(APPLICATION, encoding="utf-8")
     assert run("build", "-o", "out").status == 0
     done = run("locks", "out", "--format", "json")

@@ -86,3 +86,12 @@ def test_comments_have_totals() -> None:
     assert sources.rounds([("a.c", 10)]) == Length(30, total=Total(("format",), "all loops", 30))
     assert sources.all_calls("a.c", "look") == Length(4, total=Total((HOLD,), "a.c:2", 4))
     assert sources.all_calls("a.c", "other") == Length(1)
+
+
+def test_a_comment_can_have_several_lines() -> None:
+    """Its number is that of the loop after it; two functions with the same code differ in any of its lines."""
+    text = SOURCE.replace("of all loops in each format */", "of all loops\n     in each format or begin */")
+    total = Total(("format", "begin"), "all loops", 30)
+    assert Sources(lambda name: text, []).rounds([("a.c", 11)]) == Length(30, total=total)
+    twins = text + text.replace("look", "see").replace("or begin", "or end")
+    assert Sources(lambda name: twins, []).rounds([("a.c", 11)]) == "a.c:10"

@@ -6,9 +6,10 @@ from __future__ import annotations
 import fcntl
 import os
 import pickle
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from pathlib import Path
-from typing import TypeVar
+from types import ModuleType
+from typing import ParamSpec, Protocol, TypeVar
 
 import pytest
 
@@ -18,6 +19,7 @@ from microros_gen.selection.component import Component
 from microros_gen.selection.component_file import parse_component
 
 Value = TypeVar("Value")
+P = ParamSpec("P")
 Parse = Callable[[Source, Diagnostics], Component | None]
 
 
@@ -35,6 +37,40 @@ def once(parse: Parse) -> Parse:
         return component
 
     return parse_once
+
+
+class ShareResult(Protocol):
+    """Replaces the function `name` of a module during a test: calls with the same `key` share one result."""
+
+    def __call__(
+        self,
+        module: ModuleType,
+        name: str,
+        key: Callable[P, Hashable],
+        make: Callable[P, object] | None = None,
+    ) -> None:
+        """`make`: what is called instead of the function. `key` and `make` take the function's arguments."""
+
+
+@pytest.fixture
+def share_result(monkeypatch: pytest.MonkeyPatch) -> ShareResult:
+    """Let calls of a slow function in this process share its result."""
+
+    def share(
+        module: ModuleType, name: str, key: Callable[P, Hashable], make: Callable[P, object] | None = None
+    ) -> None:
+        kept: dict[Hashable, object] = {}
+        called: Callable[P, object] = make or getattr(module, name)
+
+        def shared(*arguments: P.args, **named: P.kwargs) -> object:
+            at = key(*arguments, **named)
+            if at not in kept:
+                kept[at] = called(*arguments, **named)
+            return kept[at]
+
+        monkeypatch.setattr(module, name, shared)
+
+    return share
 
 
 def share_components() -> None:

@@ -15,6 +15,7 @@ import pytest
 from tests.support.environments import dependencies
 from tests.support.installed import copy_of_sources
 from tests.support.paths import ROOT
+from tests.support.sharing import ShareResult
 from tests.tools import release
 from tests.tools.release import changelog_section, contents, make_release, obstacles, try_wheel, version
 
@@ -53,17 +54,15 @@ def test_what_cannot_be_released(tmp_path: Path) -> None:
 
 
 @pytest.mark.system
-def test_a_release(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_release(tmp_path: Path, share_result: ShareResult) -> None:
     """Twice the same bytes; the wheel was installed and used in an environment without a compiler."""
-    tried: dict[bytes, Path] = {}
 
-    def once(wheel: Path, folder: Path) -> Path:
-        """Try a wheel; not again where another one has the same bytes."""
-        if wheel.read_bytes() not in tried:
-            tried[wheel.read_bytes()] = try_wheel(wheel, tmp_path / f"tried{len(tried)}")
-        return tried[wheel.read_bytes()]
+    def digest_of(wheel: Path, _: Path) -> str:
+        return hashlib.sha256(wheel.read_bytes()).hexdigest()
 
-    monkeypatch.setattr(release, "try_wheel", once)
+    share_result(
+        release, "try_wheel", digest_of, lambda wheel, _: try_wheel(wheel, tmp_path / digest_of(wheel, _))
+    )
     source = tmp_path / "source"
     copy_of_sources(source)
     (source / "docs").mkdir()

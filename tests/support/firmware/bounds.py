@@ -12,16 +12,12 @@ from microros_gen.image.lock_holds import longest_calls
 from microros_gen.image.paths import Length
 from microros_gen.image.report import measure_folder
 from tests.support.firmware.board import Built
-from tests.support.firmware.footprint import EXIT
-from tests.support.firmware.instructions import trace_regions
+from tests.support.firmware.instructions import counted_regions
 
 
-def measured_calls(built: Built, image: Path, left_out: Iterable[str] = ()) -> list[int]:
+def measured_calls(built: Built, image: Path, left_out: Iterable[str] = ()) -> Sequence[int]:
     """Return the instructions between each two marks of a program; functions of `left_out` do not count."""
-    emulator = built.target.emulator
-    assert emulator is not None
-    command = [emulator.program, *emulator.arguments, *EXIT]
-    return [region.counted for region in trace_regions(command, image, left_out)][0::2]
+    return counted_regions(built.target, image, left_out)[0::2]
 
 
 def bounds_of(

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from tests.support.firmware.board import Board, Builds, Built, board, target
-from tests.support.firmware.instructions import trace_regions
+from tests.support.firmware.instructions import counted_regions
 from tests.support.firmware.line import scripted_agent
 from tests.support.runtime.fake_agent import FakeAgent
 
@@ -40,7 +40,6 @@ INTERRUPTS = (
     "port_riscv_timer_next",
 )
 """The timer ticks while the program works: how often depends on where its first tick fell, so none of it counts."""
-EXIT = ("-nographic", "-semihosting-config", "enable=on,target=native", "-icount", "shift=4,sleep=off")
 
 
 @dataclass(frozen=True)
@@ -195,10 +194,5 @@ def work(builds: Builds, name: str, sender: Sender) -> Work:
     built = builds.build(name, replace(sender, transport=transport).application)
     suffix = "default" if sender.reliability == "reliable" else "best_effort"
     image = builds.application(built, "measured.c", f"-DBENCH_INIT=rclc_publisher_init_{suffix}")
-    emulator = target(name).emulator
-    assert emulator is not None
-    command = [emulator.program, *emulator.arguments, *EXIT]
-    empty, ready, *publishes = (
-        region.counted for region in trace_regions(command, image, (*AGENT_FUNCTIONS, *INTERRUPTS))
-    )
+    empty, ready, *publishes = counted_regions(target(name), image, (*AGENT_FUNCTIONS, *INTERRUPTS))
     return Work(ready - empty, publishes[0] - empty, publishes[-1] - empty)

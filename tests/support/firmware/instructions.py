@@ -9,8 +9,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from microros_gen.platform.target import Target
+from tests.support.patience import seconds
+
 _TRACE = re.compile(r"^Trace \d+: \S+ \[[0-9a-f]+/([0-9a-f]+)/\S* ?(\S*)")
 LONGEST_RUN_S = 60
+EXIT = ("-nographic", "-semihosting-config", "enable=on,target=native", "-icount", "shift=4,sleep=off")
+"""Arguments of an emulator: the program ends it, and its time is that of its instructions."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +42,28 @@ def trace_regions(
             return tuple(_regions(process.stderr, skip, mark))
         finally:
             process.kill()
+
+
+def counted_regions(target: Target, image: Path, left_out: Iterable[str] = ()) -> Sequence[int]:
+    """Return the instructions from each mark to the next one, run on a target; those of `left_out` do not count."""
+    regions = trace_regions(emulator_command(target), image, left_out)
+    return [region.counted for region in regions]
+
+
+def emulator_command(target: Target) -> Sequence[str]:
+    """Return the command that runs an image on a target; the image follows `-kernel`."""
+    emulator = target.emulator
+    assert emulator is not None
+    return [emulator.program, *emulator.arguments, *EXIT]
+
+
+def run_to_end(target: Target, image: Path) -> tuple[int, bytes]:
+    """Run an image until it ends the emulator; return its status and what it and the emulator reported."""
+    command = [*emulator_command(target), "-kernel", str(image)]
+    done = subprocess.run(
+        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, timeout=seconds(60), check=False
+    )
+    return done.returncode, done.stderr
 
 
 def _regions(lines: Iterable[str], skip: frozenset[str], mark: str) -> Iterator[Region]:

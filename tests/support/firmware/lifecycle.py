@@ -6,8 +6,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from tests.support.firmware.board import Builds, target
-from tests.support.firmware.footprint import AGENT_FUNCTIONS, EXIT, INTERRUPTS
-from tests.support.firmware.instructions import trace_regions
+from tests.support.firmware.footprint import AGENT_FUNCTIONS, INTERRUPTS
+from tests.support.firmware.instructions import counted_regions
 
 APPLICATION = """\
 version: 1
@@ -38,11 +38,7 @@ class Work:
 def work(builds: Builds, name: str) -> Work:
     """Count the instructions on a board, with the agent of c/measured.h."""
     built = builds.build(name, f"{APPLICATION}transport: {{type: udp}}\n")
-    emulator = target(name).emulator
-    assert emulator is not None
-    command = [emulator.program, *emulator.arguments, *EXIT]
     image = builds.application(built, "measured_lifecycle.c")
-    regions = trace_regions(command, image, (*AGENT_FUNCTIONS, *INTERRUPTS))
-    empty, _, init, *others = (region.counted for region in regions)
+    empty, _, init, *others = counted_regions(target(name), image, (*AGENT_FUNCTIONS, *INTERRUPTS))
     assert len(others) == 4 * _TIMES + 1, "the program ended early"
     return Work(init - empty, others[-4] - empty, others[-2] - empty)

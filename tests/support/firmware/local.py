@@ -6,8 +6,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from tests.support.firmware.board import Builds, target
-from tests.support.firmware.footprint import AGENT_FUNCTIONS, EXIT, INTERRUPTS
-from tests.support.firmware.instructions import trace_regions
+from tests.support.firmware.footprint import AGENT_FUNCTIONS, INTERRUPTS
+from tests.support.firmware.instructions import counted_regions
 
 APPLICATION = """\
 version: 1
@@ -71,11 +71,8 @@ def way(builds: Builds, name: str, local: str, message: str = "Int32", transport
     text = text.replace("HEARD", "count")
     flags = (*flags, *TRANSPORTS[transport], *MEASURED[local])
     image = builds.application(builds.build(name, text, more_files), "measured_local.c", *flags)
-    emulator = target(name).emulator
-    assert emulator is not None
-    command = [emulator.program, *emulator.arguments, *EXIT]
     left_out = (*AGENT_FUNCTIONS, *INTERRUPTS, *LINE_FUNCTIONS, "agent_returns")
-    empty, *steps = (region.counted for region in trace_regions(command, image, left_out))
+    empty, *steps = counted_regions(target(name), image, left_out)
     second = _BEFORE - 1 + _STEPS
     assert len(steps) > second + 2, "the program ended early"
     return Way(steps[second] - empty, steps[second + 2] - empty)

@@ -8,13 +8,12 @@ from dataclasses import dataclass
 from tests.support.firmware.board import Builds, target
 from tests.support.firmware.footprint import (
     AGENT_FUNCTIONS,
-    EXIT,
     INTERRUPTS,
     Sections,
     bounded_stack,
     image_sections,
 )
-from tests.support.firmware.instructions import trace_regions
+from tests.support.firmware.instructions import counted_regions
 
 APPLICATION = """\
 version: 1
@@ -99,11 +98,7 @@ def work(builds: Builds, name: str, entities: str = "binary") -> Work:
     """Count the instructions on a board, with the agent of c/measured.h."""
     udp = f"{APPLICATION}transport: {{type: udp}}\nentities: {entities}\n"
     image = builds.application(builds.build(name, udp), "measured_parameters.c")
-    emulator = target(name).emulator
-    assert emulator is not None
-    command = [emulator.program, *emulator.arguments, *EXIT]
-    regions = trace_regions(command, image, (*AGENT_FUNCTIONS, *INTERRUPTS))
-    empty, _, init, *others = (region.counted for region in regions)
+    empty, _, init, *others = counted_regions(target(name), image, (*AGENT_FUNCTIONS, *INTERRUPTS))
     assert len(others) == 8 * _TIMES + 1, "the program ended early"
     services, calls = others[: 4 * _TIMES], others[4 * _TIMES : -1]
     last = (services[-3], services[-1], calls[-1], calls[-3])

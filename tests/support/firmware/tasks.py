@@ -13,8 +13,8 @@ from typing import Any
 from microros_gen.diagnostics import Diagnostics
 from microros_gen.platform.find import read_target
 from tests.support.firmware.board import C_FILES, Built, build, need
-from tests.support.firmware.footprint import AGENT_FUNCTIONS, EXIT, INTERRUPTS
-from tests.support.firmware.instructions import trace_regions
+from tests.support.firmware.footprint import AGENT_FUNCTIONS, INTERRUPTS
+from tests.support.firmware.instructions import counted_regions
 
 BOARD = "qemu-mps2-an386"
 TARGET = f"""\
@@ -107,12 +107,7 @@ def built_tasks(home: Path, transport: str = "udp", application: str = "") -> Bu
 def counted(built: Built, *flags: str, left_out: Sequence[str] = ()) -> Sequence[int]:
     """Return the instructions from each mark to the next one; those of the functions `left_out` are the agent's."""
     image = built.link(C_FILES / "measured_tasks.c", built.out.parent / "tasks.elf", *flags)
-    emulator = built.target.emulator
-    assert emulator is not None
-    command = [emulator.program, *emulator.arguments, *EXIT]
-    return [
-        region.counted for region in trace_regions(command, image, (*AGENT_FUNCTIONS, *INTERRUPTS, *left_out))
-    ]
+    return counted_regions(built.target, image, (*AGENT_FUNCTIONS, *INTERRUPTS, *left_out))
 
 
 def locks_of(built: Built, image: Path, *options: str) -> subprocess.CompletedProcess[str]:

@@ -33,8 +33,8 @@ void rmw_shared_call_opened(const xrce_endpoint_t * endpoint);
 bool rmw_shared_call_is_open(const xrce_endpoint_t * client);
 
 /*
- * Encode a request or a response, of type `sent`, into the ring of an endpoint that has one. RMW_RET_ERROR, with a text, as for a publisher that
- * is reliable. If the other end is not open, the message is dropped. */
+ * Encode a request or a response, of type `sent`, into the ring of an endpoint that has one. RMW_RET_ERROR, with a
+ * text, as for a publisher that is reliable. If the other end is not open, the message is dropped. */
 rmw_ret_t rmw_shared_call_request(
   const xrce_endpoint_t * client, const microros_message_type_t * sent, const rmw_local_number_t * number,
   const void * message);

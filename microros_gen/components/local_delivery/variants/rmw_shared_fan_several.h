@@ -16,17 +16,17 @@ extern "C" {
 const rmw_shared_ring_t * rmw_shared_next(const rmw_shared_ring_t * ring);
 
 /*
- * Returns the index of the ring that is looked at as the `i`-th one, for each `i` from 0 on. Of the rings of an endpoint the one
- * from which messages were moved last comes last: the clients of one image do not keep those of another one from a server that is
- * always busy. */
+ * Returns the index of the ring that is looked at as the `i`-th one, for each `i` from 0 on. Of the rings of an
+ * endpoint the one from which messages were moved last comes last: the clients of one image do not keep those of
+ * another one from a server that is always busy. */
 size_t rmw_shared_turn(size_t i);
 
 /* Called after messages were moved from the ring with this index: in the next round, the one after it comes first. */
 void rmw_shared_turned(size_t index);
 
 /*
- * Returns the ring of the replies to a client, by the run of its requests; `requests`: the first ring of the service. NULL: no client
- * has that run any more. */
+ * Returns the ring of the replies to a client, by the run of its requests; `requests`: the first ring of the service.
+ * NULL: no client has that run any more. */
 const rmw_shared_ring_t * rmw_shared_replies(const rmw_shared_ring_t * requests, uint16_t client);
 
 #ifdef __cplusplus

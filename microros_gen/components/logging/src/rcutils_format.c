@@ -26,7 +26,8 @@ void microros_format_put(microros_format_t * out, char character)
 
 void microros_format_repeat(microros_format_t * out, char character, int32_t count)
 {
-  /* at most MICROROS_LOG_LONGEST + 1 rounds of all loops in each microros_format_arguments or microros_format_begin or microros_format_integer */
+  /* at most MICROROS_LOG_LONGEST + 1 rounds of all loops in each microros_format_arguments
+     or microros_format_begin or microros_format_integer */
   for (int32_t i = 0; i < count && !out->truncated; ++i) {
     microros_format_put(out, character);
   }
@@ -34,7 +35,8 @@ void microros_format_repeat(microros_format_t * out, char character, int32_t cou
 
 void microros_format_string(microros_format_t * out, const char * string)
 {
-  /* at most MICROROS_LOG_LONGEST + 1 rounds of all loops in each microros_format_arguments or microros_format_begin or microros_format_integer */
+  /* at most MICROROS_LOG_LONGEST + 1 rounds of all loops in each microros_format_arguments
+     or microros_format_begin or microros_format_integer */
   for (const char * next = string; *next != '\0' && !out->truncated; ++next) {
     microros_format_put(out, *next);
   }
@@ -49,7 +51,8 @@ static void format_field(
   if (!how->minus) {
     microros_format_repeat(out, ' ', fill);
   }
-  /* at most MICROROS_LOG_LONGEST + 1 rounds of all loops in each microros_format_arguments or microros_format_begin or microros_format_integer */
+  /* at most MICROROS_LOG_LONGEST + 1 rounds of all loops in each microros_format_arguments
+     or microros_format_begin or microros_format_integer */
   for (size_t i = 0; i < size && !out->truncated; ++i) {
     microros_format_put(out, text[i]);
   }
@@ -245,7 +248,8 @@ static void format_floating(
   if (microros_format_floating(out, how, args)) {
     return;
   }
-  /* at most MICROROS_LOG_LONGEST + 1 rounds of all loops in each microros_format_arguments or microros_format_begin or microros_format_integer */
+  /* at most MICROROS_LOG_LONGEST + 1 rounds of all loops in each microros_format_arguments
+     or microros_format_begin or microros_format_integer */
   for (const char * shown = first; shown != end && !out->truncated; ++shown) {
     microros_format_put(out, *shown);
   }

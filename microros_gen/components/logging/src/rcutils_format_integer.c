@@ -99,7 +99,8 @@ void microros_format_integer(
   microros_format_repeat(out, ' ', how->minus ? 0 : fill);
   microros_format_string(out, prefix);
   microros_format_repeat(out, '0', zeros);
-  /* at most DIGITS_MOST rounds, MICROROS_LOG_LONGEST + 1 of all loops in each microros_format_arguments or microros_format_begin or microros_format_integer */
+  /* at most DIGITS_MOST rounds, MICROROS_LOG_LONGEST + 1 of all loops in each microros_format_arguments
+     or microros_format_begin or microros_format_integer */
   for (int32_t i = DIGITS_MOST - count; i < DIGITS_MOST && !out->truncated; ++i) {
     microros_format_put(out, digits[i]);
   }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Rings of messages in memory that the images of one chip share: for each pair of ends of a topic of `local: chip` one, for each client
- * of a service two. One image writes, the other one reads. A message is in its slot as CDR, whose bytes do not depend on the compilers of the images.
- * Internal.
+ * Rings of messages in memory that the images of one chip share: for each pair of ends of a topic of `local: chip`
+ * one, for each client of a service two. One image writes, the other one reads. A message is in its slot as CDR, whose
+ * bytes do not depend on the compilers of the images. Internal.
  */
 #ifndef MICROROS_RMW_SHARED_H
 #define MICROROS_RMW_SHARED_H
@@ -27,7 +27,8 @@ typedef struct rmw_shared_ring_t {
   bool sends;
 } rmw_shared_ring_t;
 
-/* Those of an endpoint are neighbors. A service has two for each client: that of the requests, and after it that of the replies. */
+/* Those of an endpoint are neighbors. A service has two for each client: that of the requests, then that of the
+ * replies. */
 extern const rmw_shared_ring_t rmw_shared_rings[MICROROS_SHARED_RINGS];
 
 /* The first ring of each endpoint, of a service that of requests, or RMW_LOCAL_NONE. */

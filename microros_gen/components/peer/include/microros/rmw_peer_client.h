@@ -17,8 +17,8 @@ extern "C" {
 bool rmw_peer_server(const xrce_endpoint_t * client, bool * is_connected);
 
 /*
- * Sends a request of type `sent` to the server of such a client; *number is that of XRCE. RMW_RET_ERROR, with a text: it is above its
- * limits, the other board has not answered yet, or the link has no room. */
+ * Sends a request of type `sent` to the server of such a client; *number is that of XRCE. RMW_RET_ERROR, with a text:
+ * it is above its limits, the other board has not answered yet, or the link has no room. */
 rmw_ret_t rmw_peer_send_request(
   const xrce_endpoint_t * endpoint, const microros_message_type_t * sent, const void * ros_request,
   uint16_t * number);

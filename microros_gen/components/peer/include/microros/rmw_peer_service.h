@@ -31,9 +31,9 @@ bool rmw_peer_free_room(const rmw_request_id_t * request);
 bool rmw_peer_abandon(const rmw_request_id_t * request);
 
 /*
- * Sends the reply, of type `sent`, to such a request, whose identity is that of the wire (XRCE_IDENTITY_SIZE bytes). The reply to a board
- * that has restarted meanwhile is dropped and counted. RMW_RET_ERROR, with a text: it is above its limits, or the link
- * has no room. */
+ * Sends the reply, of type `sent`, to such a request, whose identity is that of the wire (XRCE_IDENTITY_SIZE bytes).
+ * The reply to a board that has restarted meanwhile is dropped and counted. RMW_RET_ERROR, with a text: it is above its
+ * limits, or the link has no room. */
 rmw_ret_t rmw_peer_respond(
   const xrce_endpoint_t * service, const microros_message_type_t * sent, const uint8_t * identity,
   const void * ros_response);

@@ -3,8 +3,8 @@
  * Links with other boards (OMG DDS-XRCE 1.0 without an agent). On a link each board is the client of one session,
  * which it opens with CREATE_CLIENT, and the agent of the other board's. Entities are preconfigured: the index of a
  * data writer is that of its topic in the table of the link, which both images have; that of a requester and a replier is
- * that of their service. A client writes with WRITE_DATA; an agent answers with STATUS_AGENT, ACKNACK, and RESET to messages of a session that it does not know, or cannot
- * follow.
+ * that of their service. A client writes with WRITE_DATA; an agent answers with STATUS_AGENT, ACKNACK, and RESET to
+ * messages of a session that it does not know, or cannot follow.
  *
  * A client key is the hash of the table (24 bits) and a number, which follows in the session id: messages of an earlier
  * session are recognized. Who asks for a session with a key that is in use, or was before, gets ALREADY_EXISTS and

@@ -21,7 +21,8 @@ struct xrce_transport_t;
 #define XRCE_SEAL_FIRST 60u
 #define XRCE_SEAL_OVERHEAD 32u
 
-/* An upper bound of XRCE_LARGEST_SENT, for comments that bound a loop or a copy: a sum, which the report on holds of the lock can read. */
+/* An upper bound of XRCE_LARGEST_SENT, for comments that bound a loop or a copy: a sum, which the report on holds of the
+ * lock can read. */
 #define XRCE_SEALED_MOST (MICROROS_MTU + XRCE_SEAL_FIRST)
 
 /* The agent has one session of a client: that of the handshake that was confirmed last. */

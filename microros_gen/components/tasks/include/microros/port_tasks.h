@@ -26,9 +26,9 @@ typedef struct port_task_t {
   uint8_t priority;        /* 1 is the lowest; MICROROS_TASKS priorities, each of one task */
 } port_task_t;
 
-/* Makes the task and its event, and starts it. A task that was joined can be made again, while other tasks go on. Returns false if the system
- * refuses. The caller holds the library's lock, which a task that runs at once may wait for. Another task is never in a
- * function of this header for the same task meanwhile, here and in port_task_join. */
+/* Makes the task and its event, and starts it. A task that was joined can be made again, while other tasks go on.
+ * Returns false if the system refuses. The caller holds the library's lock, which a task that runs at once may wait
+ * for. Another task is never in a function of this header for the same task meanwhile, here and in port_task_join. */
 bool port_task_create(uint8_t task, const port_task_t * setting);
 
 /* Waits until the entry of a task that was made has returned, and releases what the system has of it. */

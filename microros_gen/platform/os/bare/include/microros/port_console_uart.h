@@ -18,8 +18,8 @@
 extern "C" {
 #endif
 
-/* Implemented by the driver: the ring has bytes. The first call turns the UART on. Enables the transmit interrupt, or starts a transfer
- * unless one is in progress; does not wait. */
+/* Implemented by the driver: the ring has bytes. The first call turns the UART on. Enables the transmit interrupt, or
+ * starts a transfer unless one is in progress; does not wait. */
 void port_console_send(void);
 
 /* For the driver's interrupt: takes the next byte to send from the ring. Returns false if it is empty. */
