@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+
+from microros_gen.application.limit_rule import LimitRule
 
 PROPOSED_LIMITS: tuple[tuple[int, int], ...] = ((32, 8), (32, 4), (16, 4), (16, 2), (8, 2), (8, 1), (4, 1))
 """Characters of strings and elements of sequences, the largest first: proposed are the first that fit."""
@@ -31,6 +33,20 @@ def put_limit(
     else:
         other = "sequence" if kind == "string" else "string"
         tree[path[-1]] = {other: known, kind: number}
+
+
+def tree_of_rules(rules: Iterable[LimitRule]) -> LimitTree:
+    """Return what rules of one type, or the own limits of one endpoint, say: a tree of members."""
+    members: LimitTree = {}
+    for rule in rules:
+        for kind, number in (("string", rule.string), ("sequence", rule.sequence)):
+            if number is None:
+                continue
+            if len(rule.path) == 1:
+                members[kind] = number
+            else:
+                put_limit(members, rule.path[1:], kind, number, by_kind=not rule.single)
+    return members
 
 
 def limit_text(tree: Mapping[str, object]) -> str:

@@ -12,7 +12,7 @@ from dataclasses import replace
 from importlib import import_module
 from typing import Any, Protocol, cast
 
-from microros_gen.application.limit_tree import LimitTree, limit_text, put_limit
+from microros_gen.application.limit_tree import limit_text, tree_of_rules
 from microros_gen.application.model import Application, EndpointDecl, LimitRule, NodeDecl
 from microros_gen.client.plan.feature_slices import NO_FEATURES, Features, FeatureSlice
 from microros_gen.client.plan.line_load import LineLoad
@@ -176,12 +176,4 @@ def refuse_own_limits(context: PlanContext, name: str, diagnostics: Diagnostics)
 def _limits_by_type(name: str, limits: Iterable[LimitRule]) -> str:
     """Return an endpoint's own limits as the application's; those of a service are for its request."""
     owner = name if "/msg/" in name else f"{name}_Request"
-    tree: LimitTree = {}
-    for rule in limits:
-        for kind, number in (("string", rule.string), ("sequence", rule.sequence)):
-            if number is not None and (kind == "string" or not rule.single):
-                below = (kind,) if rule.path == ("*",) else rule.path[1:]
-                put_limit(
-                    tree, (owner, *below), kind, number, by_kind=not rule.single and rule.path != ("*",)
-                )
-    return limit_text(tree)
+    return limit_text({owner: tree_of_rules(limits)})

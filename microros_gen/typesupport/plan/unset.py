@@ -5,7 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
-from microros_gen.application.limit_tree import PROPOSED_LIMITS, LimitTree, limit_text, put_limit
+from microros_gen.application.limit_tree import (
+    PROPOSED_LIMITS,
+    LimitTree,
+    limit_text,
+    put_limit,
+    tree_of_rules,
+)
 from microros_gen.application.model import LimitRule
 from microros_gen.diagnostics import Diagnostic, Diagnostics, Span
 from microros_gen.interfaces.types import TypeName
@@ -84,7 +90,7 @@ def _block(
     for root in roots:
         if root.type not in members:
             known = [rule for rule in rules if rule.path[0] == str(root.type)]
-            members[root.type] = _tree_of(known)
+            members[root.type] = tree_of_rules(known)
             places[root.type] = _instead(known)
         for unset in root.unset:
             put_limit(members[root.type], unset.path, unset.kind, values[unset.kind])
@@ -98,23 +104,9 @@ def _block(
 def type_line(name: str, before: Iterable[LimitRule], after: Iterable[LimitRule]) -> tuple[str, str]:
     """Return the line of a type below `limits:` that says what `after` says, and which line of `before` it replaces."""
     own_rules, known = ([rule for rule in rules if rule.path[0] == name] for rules in (after, before))
-    return f"  {name}: {limit_text(_tree_of(own_rules))}", _instead(known)
+    return f"  {name}: {limit_text(tree_of_rules(own_rules))}", _instead(known)
 
 
 def _instead(rules: Sequence[LimitRule]) -> str:
     lines = sorted({rule.span.line for rule in rules if rule.span is not None})
     return f"instead of line {lines[0]}" if lines else ""
-
-
-def _tree_of(rules: Iterable[LimitRule]) -> LimitTree:
-    """Return what rules of one type say, as a tree of members."""
-    members: LimitTree = {}
-    for rule in rules:
-        for kind, number in (("string", rule.string), ("sequence", rule.sequence)):
-            if number is None:
-                continue
-            if len(rule.path) == 1:
-                members[kind] = number
-            else:
-                put_limit(members, rule.path[1:], kind, number, by_kind=not rule.single)
-    return members
