@@ -3,7 +3,7 @@
 types, firmware, whole images, images for an Arduino, the client, links of boards, tasks, the agent, the same
 with 1,000 clients and under attack.
 
-Times depend on the machine; so each stands besides a peer that ran in the same minutes. Instruction counts come
+Times depend on the machine; so each is next to that of a peer that ran in the same minutes. Instruction counts come
 from callgrind or QEMU and repeat exactly with one compiler.
 """
 

@@ -216,6 +216,23 @@ def test_few_places_name_a_component() -> None:
     assert {name: count for name, count in named.items() if count > MOST_MENTIONS} == {}
 
 
+_HAS = re.compile(r'\bhas\(\s*"([a-z_]+)"\s*\)')
+MOST_QUESTIONS = 33
+"""Modules that ask whether a component by its name is selected, summed over the components."""
+
+
+def test_few_modules_ask_for_a_component() -> None:
+    """A component contributes: what depends on it is declared in its component.yaml, or in its own plan.py."""
+    package = ROOT.parent
+    asked = {
+        (path.relative_to(package).as_posix(), name)
+        for path in package.rglob("*.py")
+        for name in _HAS.findall(path.read_text(encoding="utf-8"))
+        if name in CATALOGUE and not path.is_relative_to(ROOT / name)
+    }
+    assert 0 < len(asked) <= MOST_QUESTIONS, sorted(asked)
+
+
 _C_COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 _C_FUNCTION = re.compile(r"^[\w *]*\b(\w+)\([^;{}]*\)\n\{\n(.*?)\n\}", re.MULTILINE | re.DOTALL)
 SHORT = 200
