@@ -58,15 +58,15 @@ MEMORY_RECORDED = {0: "15 MB", 1: "20 MB", 10: "39 MB", 100: "400 MB, 608 thread
 def bench_agent(
     work: Path,
     other: Target | None = None,
-    beside: Target | None = None,
+    compared: Target | None = None,
     only: str | None = None,
     samples: int = SAMPLES,
     runs: int = RUNS,
 ) -> None:
     """Print the table; `other`: an agent that runs already, in place of one that is started here.
 
-    `beside`: an agent that runs already; rates and round trips are of both in turn, with the ratios of rates. Memory is
-    not measured then.
+    `compared`: an agent that runs already; rates and round trips are of both in turn, with the ratios of rates. Memory
+    is not measured then.
     `only`: a part of the names of the rates to measure (way and case, as printed), and nothing else than these.
     `samples`: the number in each run, half of it in fragments.
     """
@@ -83,10 +83,10 @@ def bench_agent(
     rates = _Rates(programs, count(0xB0000000 + (os.getpid() & 0xFFFF) * 0x1000), only or "", samples, runs)
     with _target(other) as target:
         _calibrate(programs, target.domain)
-        if beside is not None:
-            rates.print_ratios(target, beside)
+        if compared is not None:
+            rates.print_ratios(target, compared)
             if only is None:
-                _print_trips(programs, [target, beside], rates.keys)
+                _print_trips(programs, [target, compared], rates.keys)
             return
         print(
             "  recorded: the public agent 2.4.3 in another machine's minutes (verification/figures.md), not of this run"
@@ -145,18 +145,18 @@ class _Rates:
                 recorded = row.to_dds if measure is client_to_dds else row.to_client
                 print(f"    {row.case!s:<48} {rate!s:<48} {recorded}", flush=True)
 
-    def print_ratios(self, target: Target, beside: Target) -> None:
+    def print_ratios(self, target: Target, compared: Target) -> None:
         """Print the rates of two agents, measured in turn, and the ratio of rates and of processor times."""
         for title, measure in _WAYS:
             print(f"  {title:<53}{'this agent':<48} {'the other one':<48} rate, us: ratios")
             for row in self._rows(title):
                 pairs = [
-                    (self._once(measure, row, target), self._once(measure, row, beside))
+                    (self._once(measure, row, target), self._once(measure, row, compared))
                     for _ in range(self.runs)
                 ]
-                here, there = (median_of(rates) for rates in zip(*pairs, strict=True))
-                ratios = f"{here.per_second / there.per_second:.2f}, {here.cpu_us / there.cpu_us:.2f}"
-                print(f"    {row.case!s:<50} {here!s:<48} {there!s:<48} {ratios}", flush=True)
+                first, second = (median_of(rates) for rates in zip(*pairs, strict=True))
+                ratios = f"{first.per_second / second.per_second:.2f}, {first.cpu_us / second.cpu_us:.2f}"
+                print(f"    {row.case!s:<50} {first!s:<48} {second!s:<48} {ratios}", flush=True)
 
     def _rows(self, title: str) -> Iterator[Row]:
         return (row for row in ROWS if self.only in f"{title}, {row.case}")

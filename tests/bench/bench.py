@@ -71,7 +71,7 @@ def main() -> int:
         help="measure another, which runs",
     )
     parser.add_argument(
-        "--beside",
+        "--compared",
         nargs=3,
         type=int,
         metavar=("PORT", "PROCESS", "DOMAIN"),
@@ -119,8 +119,8 @@ def main() -> int:
             bench_tasks(work / "tasks")
         if "agent" in options.parts:
             other = Target(*options.agent) if options.agent else None
-            beside = Target(*options.beside) if options.beside else None
-            bench_agent(work / "agent", other, beside, options.rates, options.samples, options.runs)
+            compared = Target(*options.compared) if options.compared else None
+            bench_agent(work / "agent", other, compared, options.rates, options.samples, options.runs)
         if "fleet" in options.parts:
             bench_fleet()
         if "workers" in options.parts:

@@ -224,13 +224,13 @@ MOST_QUESTIONS = 33
 def test_few_modules_ask_for_a_component() -> None:
     """A component contributes: what depends on it is declared in its component.yaml, or in its own plan.py."""
     package = ROOT.parent
-    asked = {
+    found = {
         (path.relative_to(package).as_posix(), name)
         for path in package.rglob("*.py")
         for name in _HAS.findall(path.read_text(encoding="utf-8"))
         if name in CATALOGUE and not path.is_relative_to(ROOT / name)
     }
-    assert 0 < len(asked) <= MOST_QUESTIONS, sorted(asked)
+    assert 0 < len(found) <= MOST_QUESTIONS, sorted(found)
 
 
 _C_COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
