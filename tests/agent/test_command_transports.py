@@ -277,3 +277,11 @@ def test_the_unit_allows_the_sockets_of_each_transport() -> None:
     (line,) = re.findall(r"(?m)^RestrictAddressFamilies=(.*)$", UNIT.read_text())
     assert "AF_CAN" in named
     assert sorted(line.split()) == sorted(named | {"AF_NETLINK"})
+
+
+def test_the_unit_lets_fast_dds_set_the_schedule_of_its_threads() -> None:
+    """Otherwise it logs an error for each of the seven threads of a participant."""
+    lines = re.findall(r"(?m)^SystemCallFilter=(.*)$", UNIT.read_text())
+    assert lines[:2] == ["@system-service", "~@privileged @resources"]
+    assert {"sched_setscheduler", "setpriority"} <= set(lines[-1].split())
+    assert "RestrictRealtime=yes" in UNIT.read_text()
