@@ -39,6 +39,7 @@ NEEDED = {
     "fish": "fish",
     "tcc": "tcc",
     "tcpdump": "tcpdump",
+    "/usr/sbin/logrotate": "logrotate",
     "nm": "binutils",
     "valgrind": "valgrind",
     "frama-c": "frama-c-base",
