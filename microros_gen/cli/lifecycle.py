@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from microros_gen.cli.groups import CommandGroup
-from microros_gen.cli.ros_tools import graph_options, on_graph
+from microros_gen.cli.ros_tools import graph_options, node_options, on_graph
 from microros_gen.diagnostics import Diagnostic, UserError, nearest
 
 
@@ -44,8 +44,9 @@ def nodes_command(hidden: bool, count_nodes: bool, **graph: Any) -> None:
 
 @command.command("get")
 @click.argument("node", required=False)
+@click.option("--include-hidden-nodes", is_flag=True, help="Also nodes whose name begins with `_`.")
 @graph_options
-def get_command(node: str | None, **graph: Any) -> int:
+def get_command(node: str | None, include_hidden_nodes: bool, **graph: Any) -> int:
     """Show the state of a node, or of all nodes.
 
     \b
@@ -62,7 +63,7 @@ def get_command(node: str | None, **graph: Any) -> int:
             label, number = NodeLifecycle(peer, absolute(node)).state()
             click.echo(f"{label} [{number}]")
             return 0
-        for name in lifecycle_nodes(discovery.services()):
+        for name in lifecycle_nodes(discovery.services(include_hidden_nodes)):
             try:
                 label, number = NodeLifecycle(peer, name).state()
                 click.echo(f"{name}: {label} [{number}]")
@@ -75,7 +76,7 @@ def get_command(node: str | None, **graph: Any) -> int:
 @command.command("list")
 @click.argument("node")
 @click.option("-a", "--all", "all_states", is_flag=True, help="The transitions from all states.")
-@graph_options
+@node_options
 def list_command(node: str, all_states: bool, **graph: Any) -> None:
     """List the transitions that a node has in its state, or in all states.
 
@@ -99,7 +100,7 @@ def list_command(node: str, all_states: bool, **graph: Any) -> None:
 @command.command("set")
 @click.argument("node")
 @click.argument("transition")
-@graph_options
+@node_options
 def set_command(node: str, transition: str, **graph: Any) -> int:
     """Trigger a transition of a node, by its label or number.
 

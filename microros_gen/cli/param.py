@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from microros_gen.cli.groups import CommandGroup
-from microros_gen.cli.ros_tools import graph_options, on_graph
+from microros_gen.cli.ros_tools import graph_options, on_graph, parameter_options
 from microros_gen.diagnostics import Diagnostic, UserError, nearest
 
 if TYPE_CHECKING:
@@ -111,7 +111,7 @@ def _pattern(expression: str | None) -> re.Pattern[str] | None:
 @click.argument("node")
 @click.argument("parameter")
 @click.option("--hide-type", is_flag=True, help="Print the value alone.")
-@graph_options
+@parameter_options
 def get_command(node: str, parameter: str, hide_type: bool, **graph: Any) -> None:
     """Print the value of a parameter.
 
@@ -140,7 +140,7 @@ def _value_text(value: ParameterValue) -> str:
 @click.argument("node")
 @click.argument("parameter")
 @click.argument("value")
-@graph_options
+@parameter_options
 def set_command(node: str, parameter: str, value: str, **graph: Any) -> int:
     """Set a parameter; VALUE is YAML: `2.5`, `true`, `fast`, `[1, 2]`. Quotes make a text of a number: `'"2"'`.
 
@@ -163,7 +163,7 @@ def set_command(node: str, parameter: str, value: str, **graph: Any) -> int:
 @command.command("delete")
 @click.argument("node")
 @click.argument("parameter")
-@graph_options
+@parameter_options
 def delete_command(node: str, parameter: str, **graph: Any) -> int:
     """Delete a parameter, which its node must allow: one of dynamic type that is not read-only.
 
@@ -188,7 +188,7 @@ def delete_command(node: str, parameter: str, **graph: Any) -> int:
 @command.command("describe")
 @click.argument("node")
 @click.argument("parameters", nargs=-1, required=True)
-@graph_options
+@parameter_options
 def describe_command(node: str, parameters: tuple[str, ...], **graph: Any) -> None:
     """Show type, description and limits of parameters.
 
@@ -210,7 +210,7 @@ def describe_command(node: str, parameters: tuple[str, ...], **graph: Any) -> No
 
 @command.command("dump")
 @click.argument("node")
-@graph_options
+@parameter_options
 def dump_command(node: str, **graph: Any) -> None:
     """Print all parameters of a node as a parameter file.
 
@@ -232,7 +232,7 @@ def dump_command(node: str, **graph: Any) -> None:
 @click.argument("node")
 @click.argument("file", type=click.Path(path_type=Path, exists=True, dir_okay=False))
 @click.option("--no-use-wildcard", is_flag=True, help="Without the parameters that the file has for `/**`.")
-@graph_options
+@parameter_options
 def load_command(node: str, file: Path, no_use_wildcard: bool, **graph: Any) -> int:
     """Set the parameters of a node from a parameter file, each by itself.
 

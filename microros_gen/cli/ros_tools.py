@@ -41,11 +41,17 @@ stdin_option = click.option(
 )
 
 
-def graph_options(function: F) -> F:
-    """Add the options of every command on a graph; they are passed on as `**graph` to `on_graph`."""
+def graph_options(function: F, *synonyms: str) -> F:
+    """Add the options of every command on a graph; they are passed on as `**graph` to `on_graph`.
+
+    `synonyms`: further names of --spin-time.
+    """
     for option in (
+        _without_effect("--no-daemon"),
         click.option(
             "--spin-time",
+            *synonyms,
+            "spin_time",
             type=click.FloatRange(0, 3600),
             metavar="SECONDS",
             default=3.0,
@@ -57,6 +63,21 @@ def graph_options(function: F) -> F:
     ):
         function = option(function)
     return function
+
+
+def node_options(function: F) -> F:
+    """Add the options of a command on one node; a command of ros2 with all of its options has the same effect."""
+    return _without_effect("--include-hidden-nodes")(graph_options(function))
+
+
+def parameter_options(function: F) -> F:
+    """Add the options of a command on the parameters of one node."""
+    return _without_effect("--include-hidden-nodes")(graph_options(function, "--timeout"))
+
+
+def _without_effect(name: str) -> Callable[[F], F]:
+    """Return an option of ros2 that changes nothing here: hidden nodes are found, and there is no daemon."""
+    return click.option(name, is_flag=True, hidden=True, expose_value=False)
 
 
 def sim_time_option(function: F) -> F:
