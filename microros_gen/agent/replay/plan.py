@@ -9,7 +9,8 @@ from collections.abc import Collection
 from microros_gen.agent.recording.recorded import Conversation, Message, opens_session
 from microros_gen.agent.replay.parts import Part, Receiver
 from microros_gen.agent.replay.sender import Sender
-from microros_gen.agent.wire.constants import SubmessageId
+from microros_gen.agent.wire.constants import OBJECT_CLIENT, SubmessageId
+from microros_gen.agent.wire.entity_messages import StatusReply
 from microros_gen.agent.wire.errors import MalformedError
 from microros_gen.agent.wire.message import Header, header_size, split
 from microros_gen.agent.wire.session_messages import CreateClient
@@ -50,6 +51,8 @@ class Plan:
         """Number of the packet with the newest answer of each stream."""
         self._expected: dict[Where, deque[Part]] = {}
         self._waiting = 0
+        self._leaves = False
+        """Whether the client has asked for the end of its session, without an answer so far."""
 
     @property
     def complete(self) -> bool:
@@ -95,6 +98,8 @@ class Plan:
     def _expect(self, message: Message) -> None:
         taken = self._receiver.take(message.data, message.number)
         for part in taken.parts:
+            if self._is_farewell(part):
+                continue
             where = part.session, part.stream
             self._expected.setdefault(where, deque()).append(part)
             self._waiting += 1
@@ -106,6 +111,15 @@ class Plan:
         for acknack in taken.acknacks:
             self._sender.take(acknack)
 
+    def _is_farewell(self, part: Part) -> bool:
+        """Take a part; return whether the recorded agent ended with it, unasked: the agent of the replay goes on."""
+        reply = part.content
+        of_client = isinstance(reply, StatusReply) and (reply.object, reply.status) == (OBJECT_CLIENT, 0)
+        if not of_client:
+            return False
+        asked, self._leaves = self._leaves, False
+        return not asked
+
     def _send(self, message: Message) -> None:
         if (message.data, self._answers) == self._before:  # sent again, without an answer
             return
@@ -114,6 +128,8 @@ class Plan:
         if opens:
             self._receiver.reset()
             self._sender.reset()
+            self._leaves = False
+        self._leaves = self._leaves or ends_session(message.data)
         if content(message.data):
             self.steps.append(Step(message, self.outstanding(), self.acknowledged, opens))
             self._sender.keep(Header.decode(message.data), message.data)
@@ -126,3 +142,9 @@ def content(data: bytes) -> list[bytes]:
     except MalformedError:
         return []
     return [data[start - 4 : end] for identifier, _, start, end in spans if identifier not in _FLOW]
+
+
+def ends_session(data: bytes) -> bool:
+    """Return whether a message has a DELETE of the client."""
+    client = OBJECT_CLIENT.to_bytes(2, "big")
+    return any(part[0] == SubmessageId.DELETE and part[6:8] == client for part in content(data))

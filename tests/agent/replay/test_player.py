@@ -69,6 +69,25 @@ def test_an_agent_that_answers_otherwise(tmp_path: Path) -> None:
     assert status[4] == 5, "a STATUS"
 
 
+FAREWELL = bytes.fromhex("81000000 05010600 0002fffe0000")
+
+
+def test_the_farewell_of_an_agent_that_ended_is_not_expected(tmp_path: Path) -> None:
+    """It is the answer to a DELETE of the client that nobody sent; after such a DELETE it is expected."""
+    conversation = recorded(tmp_path / "a")
+    messages = tuple(conversation.messages)
+    last = messages[-1]
+    farewell = replace(last, number=last.number + 1, of_client=False, data=FAREWELL)
+    player = Player(replace(conversation, messages=(*messages, farewell)), False, wait_s=2)
+    play(player, Bench())
+    assert (player.difference, player.done, player.compared) == ("", True, 7)
+    delete = replace(farewell, of_client=True, data=bytes.fromhex("81000000 03010400 0002fffe"))
+    asked = replace(farewell, number=last.number + 2)
+    player = Player(replace(conversation, messages=(*messages, delete, asked)), False, wait_s=2)
+    play(player, Bench())
+    assert (player.difference, player.done, player.compared) == ("", True, 8)
+
+
 def test_an_agent_that_is_silent(tmp_path: Path) -> None:
     player = Player(recorded(tmp_path / "a"), as_agent=False, wait_s=2)
     for now in (0.0, 1.9, 2.1):
