@@ -90,9 +90,7 @@ int probe_index(const char * topic)
 SOURCES = (
     "node/rcl_names.c",
     "node/rmw_names.c",
-    "node/rcl_names_expand.c",
-    "node/rcl_expand_topic_name.c",
-    "node/rcl_validate_topic_name.c",
+    "node/rcl_topic_name.c",
     "name_substitutions/rcl_names_substitute.c",
     "memory/rcutils_string_map.c",
     "memory/rcutils_allocator.c",
