@@ -179,7 +179,7 @@ def test_sizes_are_the_cheapest() -> None:
 
 
 def test_no_order_of_requests_is_refused() -> None:
-    """Members take, change and free blocks at random, as message_memory_pools.c does."""
+    """Members take, change and free blocks at random, as message_pools.c does."""
     chance = random.Random(5)
     for _ in range(60):
         limits = [chance.choice((1, 5, 9, 17, 33, 120)) for _ in range(chance.randint(1, 12))]
