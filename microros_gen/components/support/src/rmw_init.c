@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* What rmw/init.h, rmw/init_options.h and rmw/time.h declare. */
 #include "rmw/init.h"
 
 #include "microros/error.h"
@@ -13,10 +14,13 @@
 #include "microros/xrce_routes.h"
 #include "rmw/init_options.h"
 #include "rmw/rmw.h"
+#include "rmw/time.h"
 #include "rmw/types.h"
 
 #include <stdbool.h>
 #include <string.h>
+
+#define NS_PER_S 1000000000u
 
 const char * rmw_get_implementation_identifier(void)
 {
@@ -206,4 +210,39 @@ rmw_message_info_t rmw_get_zero_initialized_message_info(void)
 
   (void)memset(&info, 0, sizeof(info));
   return info;
+}
+
+rmw_duration_t rmw_time_total_nsec(const rmw_time_t time)
+{
+  const uint64_t most = (uint64_t)INT64_MAX;
+  uint64_t total;
+
+  if (time.sec > most / NS_PER_S || time.nsec > most - time.sec * NS_PER_S) {
+    return INT64_MAX;
+  }
+  total = time.sec * NS_PER_S + time.nsec;
+  return (rmw_duration_t)total;
+}
+
+rmw_time_t rmw_time_from_nsec(const rmw_duration_t nanoseconds)
+{
+  rmw_time_t time = RMW_DURATION_INFINITE;
+
+  if (nanoseconds >= 0) {
+    const uint64_t left = (uint64_t)nanoseconds;
+
+    time.sec = left / NS_PER_S;
+    time.nsec = left % NS_PER_S;
+  }
+  return time;
+}
+
+rmw_time_t rmw_time_normalize(const rmw_time_t time)
+{
+  return rmw_time_from_nsec(rmw_time_total_nsec(time));
+}
+
+bool rmw_time_equal(const rmw_time_t left, const rmw_time_t right)
+{
+  return rmw_time_total_nsec(left) == rmw_time_total_nsec(right);
 }
