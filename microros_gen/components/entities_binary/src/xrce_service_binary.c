@@ -2,6 +2,7 @@
 /* Repliers and requesters in binary (OMG DDS-XRCE 1.0, annex A). */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
+#include "microros/xrce_describe_service.h"
 #include "microros/xrce_service_sizes.h"
 #include "microros/xrce_wire.h"
 

@@ -2,6 +2,7 @@
 /* Repliers and requesters in binary (OMG DDS-XRCE 1.0, annex A), with the least code: for few services. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
+#include "microros/xrce_describe_service.h"
 #include "microros/xrce_wire.h"
 
 #include <string.h>

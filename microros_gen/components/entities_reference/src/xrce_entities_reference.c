@@ -7,6 +7,7 @@
  */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
+#include "microros/xrce_describe_service.h"
 #include "microros/xrce_wire.h"
 
 static uint8_t * reference_put_participant(uint8_t * at, const xrce_participant_t * participant)

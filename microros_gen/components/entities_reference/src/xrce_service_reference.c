@@ -2,6 +2,7 @@
 /* Repliers and requesters by name: "set_bool__rp" of the service /set_bool, "set_bool__rq" of its client. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
+#include "microros/xrce_describe_service.h"
 #include "microros/xrce_service_sizes.h"
 
 uint8_t * xrce_describe_service(

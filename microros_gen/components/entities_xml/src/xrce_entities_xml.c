@@ -5,6 +5,7 @@
  */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
+#include "microros/xrce_describe_service.h"
 #include "microros/xrce_topic_prefix.h"
 #include "microros/xrce_wire.h"
 

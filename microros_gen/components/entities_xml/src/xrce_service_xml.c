@@ -4,6 +4,7 @@
  * since the agent's default is 1. A description has some 600 characters: each part is copied as a block of known size. */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
+#include "microros/xrce_describe_service.h"
 #include "microros/xrce_service_sizes.h"
 
 /* Texts that differ between services, and one that a description has two times. */

@@ -65,10 +65,6 @@ enum { XRCE_FORMAT_REFERENCE = 0x01, XRCE_FORMAT_XML = 0x02, XRCE_FORMAT_BINARY 
 uint8_t * xrce_describe(
   const xrce_client_t * client, uint16_t place, uint8_t kind, uint8_t * blob, uint8_t * format);
 
-/* Same for a replier or requester; empty if the component `services` is not selected. */
-uint8_t * xrce_describe_service(
-  const xrce_client_t * client, uint16_t place, uint8_t * blob, uint8_t * format);
-
 /* Copies the characters of `text` without the terminator; returns their end. */
 uint8_t * xrce_describe_text(uint8_t * at, const MICROROS_ANYWHERE char * text);
 
