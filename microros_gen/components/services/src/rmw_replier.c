@@ -2,6 +2,7 @@
 /*
  * Service servers. The identity of a request stays with the application until it replies; the library
  * stores nothing. */
+#include "microros/error.h"
 #include "microros/lock.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_local_service.h"
@@ -11,6 +12,7 @@
 #include "microros/rmw_service.h"
 #include "microros/xrce_client.h"
 #include "microros/xrce_wire.h"
+#include "rmw_microros/service.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -250,4 +252,20 @@ void rmw_replier_abandon(void)
   microros_lock();
   replier_release(rmw_client_instance());
   microros_unlock();
+}
+
+rmw_ret_t rmw_uros_get_service_statistics(
+  const rmw_service_t * service, rmw_uros_service_statistics_t * statistics)
+{
+  xrce_read_counters_t counted;
+
+  if (!rmw_replier_is_open(service) || statistics == NULL) {
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "service or statistics");
+  }
+  microros_lock();
+  counted = xrce_read_counters(service->data);
+  statistics->dropped = counted.dropped;
+  statistics->refused = counted.refused;
+  microros_unlock();
+  return RMW_RET_OK;
 }

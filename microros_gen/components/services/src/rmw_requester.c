@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Service clients. */
+#include "microros/error.h"
 #include "microros/lock.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_local_service.h"
@@ -9,6 +10,7 @@
 #include "microros/xrce_client.h"
 #include "microros/xrce_place.h"
 #include "microros/xrce_wire.h"
+#include "rmw_microros/service.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -233,4 +235,24 @@ rmw_ret_t rmw_requester_send(const rmw_client_t * client, const void * ros_reque
   result = requester_send(client, ros_request, sequence_number);
   microros_unlock();
   return result;
+}
+
+rmw_ret_t rmw_uros_get_client_statistics(
+  const rmw_client_t * client, rmw_uros_client_statistics_t * statistics)
+{
+  const xrce_requester_t * requester;
+  xrce_read_counters_t counted;
+
+  if (!rmw_requester_is_open(client) || statistics == NULL) {
+    return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "client or statistics");
+  }
+  microros_lock();
+  counted = xrce_read_counters(client->data);
+  statistics->dropped = counted.dropped;
+  statistics->refused = counted.refused;
+  requester = xrce_requests_of(client->data);
+  statistics->given_up = requester->given_up;
+  statistics->interrupted = requester->interrupted;
+  microros_unlock();
+  return RMW_RET_OK;
 }
