@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "rclc/action_client.h"
-
+/* Opens and closes clients of actions. */
 #include "action_msgs/srv/cancel_goal.h"
 #include "microros/action_name.h"
 #include "microros/action_type.h"
 #include "microros/cdr.h"
+#include "microros/cdr_decode.h"
 #include "microros/error.h"
 #include "microros/lock.h"
 #include "microros/plan.h"
@@ -15,8 +15,36 @@
 #include "microros/rmw_names.h"
 #include "microros/rmw_node.h"
 #include "microros/text.h"
+#include "rclc/action_client.h"
 
 #include <string.h>
+
+/* The members of a response: accepted, then the time at which it was, which nothing here needs. */
+enum { CLIENT_RESPONSE_SIZE = 12 };
+
+static void client_decode_response(cdr_in_t * in, void * accepted)
+{
+  cdr_get_bool(in, accepted, 1, "accepted");
+}
+
+static uint32_t client_encode_id(const void * uuid, uint8_t * body, cdr_fault_t * fault)
+{
+  (void)fault;
+  (void)memcpy(body, uuid, UUID_SIZE);
+  return UUID_SIZE;
+}
+
+/* The response to a goal request, the same for all actions. Its message: bool, whether accepted. */
+static const microros_message_type_t client_response_type = {
+  .dds_type_name = MICROROS_ERROR_TYPE("SendGoal_Response_"),
+  .max_encoded_size = CLIENT_RESPONSE_SIZE,
+  .decode = client_decode_response};
+
+/* The request for a result, whose message is the id; the same for all actions. */
+static const microros_message_type_t client_id_type = {
+  .dds_type_name = MICROROS_ERROR_TYPE("GetResult_Request_"),
+  .max_encoded_size = UUID_SIZE,
+  .encode = client_encode_id};
 
 static const char * client_endpoint(uint16_t at)
 {
@@ -100,9 +128,9 @@ static rcl_ret_t client_open(
 
   client->goal_type.dds_type_name = type->send_goal;
   client->goal_type.request = type->goal_request->data;
-  client->goal_type.response = &rclc_action_client_response_type;
+  client->goal_type.response = &client_response_type;
   client->result_type.dds_type_name = type->get_result;
-  client->result_type.request = &rclc_action_client_id_type;
+  client->result_type.request = &client_id_type;
   client->result_type.response = type->result_response->data;
   result = client_open_clients(client, node);
   if (result == RCL_RET_OK) {

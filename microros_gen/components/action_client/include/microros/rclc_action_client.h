@@ -27,11 +27,6 @@ typedef struct rclc_action_client_declared_t {
 
 extern const rclc_action_client_declared_t rclc_action_client_declared[MICROROS_ACTION_CLIENTS];
 
-/* The response to a goal request, and the request for a result, whose message is the id; the same for all actions. */
-extern const microros_message_type_t
-  rclc_action_client_response_type; /* its message: bool, whether accepted */
-extern const microros_message_type_t rclc_action_client_id_type;
-
 /* Returns the name of the action's goal service, for texts. */
 const char * rclc_action_client_name(const rclc_action_client_t * client);
 
