@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Names with their types, nodes and endpoints, as the application asks for them. */
 #include "microros/error.h"
 #include "microros/rcl_graph.h"
 #include "microros/rcl_names_given.h"
+
+#include <stddef.h>
 
 static rcl_ret_t names_check_arguments(
   const rcl_node_t * node, const rcl_allocator_t * allocator, rcl_names_and_types_t * into)
@@ -132,4 +135,77 @@ rcl_ret_t rcl_names_and_types_init(
 rcl_ret_t rcl_names_and_types_fini(rcl_names_and_types_t * names_and_types)
 {
   return rmw_names_and_types_fini(names_and_types);
+}
+
+rcl_ret_t rcl_get_node_names(
+  const rcl_node_t * node, rcl_allocator_t allocator, rcutils_string_array_t * node_names,
+  rcutils_string_array_t * node_namespaces)
+{
+  if (!rcl_graph_node_is_valid(node)) {
+    return RCL_RET_NODE_INVALID;
+  }
+  if (
+    !rcutils_allocator_is_valid(&allocator) || node_names == NULL || node_namespaces == NULL ||
+    node_names->data != NULL || node_namespaces->data != NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "allocator, node_names or node_namespaces");
+  }
+  return rcl_graph_list_nodes(&allocator, node_names, node_namespaces);
+}
+
+static bool enclaves_is_zero(const rcutils_string_array_t * array)
+{
+  return array != NULL && array->data == NULL;
+}
+
+rcl_ret_t rcl_get_node_names_with_enclaves(
+  const rcl_node_t * node, rcl_allocator_t allocator, rcutils_string_array_t * node_names,
+  rcutils_string_array_t * node_namespaces, rcutils_string_array_t * enclaves)
+{
+  if (!rcl_graph_node_is_valid(node)) {
+    return RCL_RET_NODE_INVALID;
+  }
+  if (
+    !rcutils_allocator_is_valid(&allocator) || !enclaves_is_zero(node_names) ||
+    !enclaves_is_zero(node_namespaces) || !enclaves_is_zero(enclaves)) {
+    return microros_error_refuse(
+      RCL_RET_INVALID_ARGUMENT, "allocator, node_names, node_namespaces or enclaves");
+  }
+  return rcl_graph_list_nodes_with_enclaves(&allocator, node_names, node_namespaces, enclaves);
+}
+
+static rcl_ret_t endpoints_read(
+  const rcl_node_t * node, rcutils_allocator_t * allocator, const char * topic_name, bool no_mangle,
+  rcl_graph_kind_t kind, rcl_topic_endpoint_info_array_t * into)
+{
+  const rmw_name_t topic = {{topic_name, "", "", ""}};
+  char full[MICROROS_GRAPH_NAME_SIZE];
+  rcl_ret_t result;
+
+  if (!rcl_graph_node_is_valid(node)) {
+    return RCL_RET_NODE_INVALID;
+  }
+  if (
+    topic_name == NULL || !rcutils_allocator_is_valid(allocator) || into == NULL ||
+    into->info_array != NULL) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "topic_name, allocator or endpoints");
+  }
+  if (no_mangle) {
+    return microros_error_named(RCL_RET_UNSUPPORTED, microros_error_graph, "no_mangle is not supported");
+  }
+  result = rcl_graph_write_name(&topic, full);
+  return result == RCL_RET_OK ? rcl_graph_list_endpoints(kind, full, allocator, into) : result;
+}
+
+rcl_ret_t rcl_get_publishers_info_by_topic(
+  const rcl_node_t * node, rcutils_allocator_t * allocator, const char * topic_name, bool no_mangle,
+  rcl_topic_endpoint_info_array_t * publishers_info)
+{
+  return endpoints_read(node, allocator, topic_name, no_mangle, RCL_GRAPH_PUBLISHERS, publishers_info);
+}
+
+rcl_ret_t rcl_get_subscriptions_info_by_topic(
+  const rcl_node_t * node, rcutils_allocator_t * allocator, const char * topic_name, bool no_mangle,
+  rcl_topic_endpoint_info_array_t * subscriptions_info)
+{
+  return endpoints_read(node, allocator, topic_name, no_mangle, RCL_GRAPH_SUBSCRIPTIONS, subscriptions_info);
 }

@@ -8,14 +8,47 @@
 #include "microros/rcl_client_open.h"
 #include "microros/rcl_graph.h"
 #include "microros/rcl_graph_events_hooks.h"
+#include "microros/rcl_graph_server.h"
 #include "microros/rmw_client.h"
 #include "microros/rmw_node.h"
+#include "microros/rmw_qos.h"
 #include "microros/rmw_service.h"
+#include "microros/xrce_client.h"
 #include "microros/xrce_turn.h"
 #include "microros/xrce_wire.h"
 #include "microros/xrce_write_room.h"
 #include "rcl/error_handling.h"
 #include "rmw/qos_profiles.h"
+
+#include <string.h>
+
+bool events_request(
+  const rcl_graph_event_t * event, microros_graph_msgs__srv__EndpointStatus_Request * request)
+{
+  static char topic_full[MICROROS_GRAPH_NAME_SIZE];
+  static char node_full[MICROROS_GRAPH_NAME_SIZE];
+  const xrce_endpoint_t * const own = event->endpoint;
+  const xrce_participant_t * const participant = &own->client->participants[own->participant];
+  const rmw_name_t node = rmw_name_of_topic(participant->name, participant->name, participant->namespace_);
+  const rmw_name_t topic = {{own->name, "", "", ""}};
+  rmw_qos_profile_t qos;
+
+  if (rmw_name_size(&topic) >= MICROROS_GRAPH_NAME_SIZE || rmw_name_size(&node) >= MICROROS_GRAPH_NAME_SIZE) {
+    return false;
+  }
+  rmw_name_copy(&topic, topic_full);
+  rmw_name_copy(&node, node_full);
+  rmw_qos_actual(own, &qos);
+  (void)memset(request, 0, sizeof(*request));
+  rcl_graph_lend(&request->topic, topic_full);
+  rcl_graph_lend(&request->node, node_full);
+  request->subscription = own->index >= MICROROS_PUBLISHERS_MAX;
+  request->reliability = (uint8_t)qos.reliability;
+  request->durability = (uint8_t)qos.durability;
+  request->deadline = (uint64_t)rmw_time_total_nsec(qos.deadline);
+  request->newest = event->newest;
+  return true;
+}
 
 /* Time until a request is sent once more: no server has answered, or it does not know the endpoint yet. After that many
  * requests without an answer any server may answer. */
@@ -197,7 +230,7 @@ static void events_ask(uint32_t graph, uint32_t now)
   if (is_due) {
     rcl_graph_event_t * const event = rcl_graph_event_at(events_current);
 
-    fits = rcl_graph_event_request(event, &request);
+    fits = events_request(event, &request);
     events_address(event, &request);
     event->is_requested = fits;
     event->is_due = fits; /* a name that cannot be asked for is not tried again before a change */

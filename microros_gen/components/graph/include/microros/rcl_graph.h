@@ -71,8 +71,6 @@ rcl_ret_t rcl_graph_split(
 /* Returns the code of a query that ended with `result`, with a text where the allocator has set none. */
 rcl_ret_t rcl_graph_result(rcl_ret_t result);
 
-/* --- rcl_graph_follow.c --- */
-
 /* Returns a counter of the changes of the graph. */
 uint32_t rcl_graph_changes(void);
 

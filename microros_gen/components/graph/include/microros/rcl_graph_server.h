@@ -45,8 +45,6 @@ void rcl_graph_lend(rosidl_runtime_c__String * string, char * text);
 /* Gives `string` the memory of text `index`. */
 void rcl_graph_bind_text(rosidl_runtime_c__String * string, size_t index);
 
-/* --- rcl_graph_pages.c --- */
-
 /* A page of a response, whatever its items are. */
 typedef struct rcl_graph_page_t {
   uint32_t version;
@@ -67,35 +65,6 @@ typedef struct rcl_graph_reader_t {
 
 /* Reads all pages, and begins again if the graph changes meanwhile. On an error the list is dropped. */
 rcl_ret_t rcl_graph_read(const rcl_graph_reader_t * reader, void * list);
-
-/* --- rcl_graph_list_names.c --- */
-
-/* A request for names, and the page of the last response. */
-typedef struct rcl_graph_names_t {
-  char * node; /* fully qualified, for names of a node; otherwise NULL */
-  rcl_graph_what_t what;
-  uint16_t types_max;
-  microros_graph_msgs__srv__ListNames_Response response;
-} rcl_graph_names_t;
-
-/* Asks for a page of names, after one of page->version. */
-rcl_ret_t rcl_graph_ask_names(rcl_graph_names_t * names, uint32_t first, rcl_graph_page_t * page);
-
-/* --- rcl_graph_list_nodes.c --- */
-
-/* Names of nodes: the request, and where they are stored. */
-typedef struct rcl_graph_nodes_t {
-  rcl_graph_names_t names;
-  rcutils_string_array_t * nodes;
-  rcutils_string_array_t * namespaces;
-  const rcl_allocator_t * allocator;
-} rcl_graph_nodes_t;
-
-/* The functions of a reader; `list` is a rcl_graph_nodes_t, or begins with one. */
-rcl_ret_t rcl_graph_nodes_ask(void * list, uint32_t first, rcl_graph_page_t * page);
-rcl_ret_t rcl_graph_nodes_make(void * list, size_t size);
-rcl_ret_t rcl_graph_nodes_put(void * list, size_t item, size_t index);
-void rcl_graph_nodes_drop(void * list);
 
 #ifdef __cplusplus
 }

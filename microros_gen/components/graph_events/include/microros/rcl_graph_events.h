@@ -44,12 +44,6 @@ bool rcl_graph_event_is_open(const rcl_graph_event_t * event);
 void rcl_graph_event_answer(
   rcl_graph_event_t * event, const microros_graph_msgs__srv__EndpointStatus_Response * response);
 
-/* --- rcl_graph_events_request.c --- */
-
-/* Fills in a request for an event, whose names stay where they are until the next call; false: a name is too long. */
-bool rcl_graph_event_request(
-  const rcl_graph_event_t * event, microros_graph_msgs__srv__EndpointStatus_Request * request);
-
 #ifdef __cplusplus
 }
 #endif

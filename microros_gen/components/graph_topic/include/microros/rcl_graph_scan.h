@@ -30,8 +30,6 @@ typedef struct rcl_graph_scanner_t {
  * text is set and the list was dropped. RCL_RET_TIMEOUT also when `limit` has expired; NULL: no limit. */
 rcl_ret_t rcl_graph_scan(const rcl_graph_scanner_t * scanner, void * list, const rcl_waiting_t * limit);
 
-/* --- rcl_graph_grow.c --- */
-
 /* Makes room for one more element in an array that has `count` of `size` bytes; false: no memory. */
 bool rcl_graph_grow(void ** array, size_t count, size_t size, const rcutils_allocator_t * allocator);
 
