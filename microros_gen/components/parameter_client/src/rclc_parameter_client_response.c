@@ -3,8 +3,11 @@
  * Responses and events are kept in their encoded form: checked when they arrive, copied once, and read again when the
  * application reads a value. So no decoded message takes memory, and strings and arrays are read in place.
  */
+#include "microros/lock.h"
 #include "microros/rclc_parameter_client.h"
 #include "microros/rclc_parameter_in.h"
+#include "microros/rmw_service.h"
+#include "microros/xrce_read.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -275,4 +278,15 @@ void rclc_parameter_client_decode_names(cdr_in_t * in, void * client)
     (void)rclc_parameter_client_read_text(&kept);
   }
   rclc_parameter_client_settle(client, in, &kept, count);
+}
+
+uint16_t rclc_parameter_client_take_large(const rclc_parameter_client_t * client, uint16_t * fits)
+{
+  const rmw_client_t * requester = client->services[client->call].impl;
+  uint16_t large;
+
+  microros_lock();
+  large = xrce_read_large(requester->data, fits);
+  microros_unlock();
+  return large;
 }

@@ -3,16 +3,132 @@
  * Each record is the body of an rcl_interfaces/srv/SetParameters_Request with one parameter, after its size: saved values
  * pass the checks that values from other nodes pass, and firmware with other parameters reads those that it has.
  */
-#include "rclc_parameter/parameter_storage.h"
-
 #include "microros/error.h"
 #include "microros/port_storage.h"
 #include "microros/rclc_parameter_out.h"
-#include "microros/rclc_parameter_value.h"
 #include "microros/rclc_parameter_storage_slot.h"
+#include "microros/rclc_parameter_value.h"
 #include "microros/rclc_parameters.h"
+#include "rclc_parameter/parameter_storage.h"
 
+#include <stddef.h>
 #include <string.h>
+
+/* Output of records: size and checksum of all, and the slot if they are written. */
+typedef struct storage_out_t {
+  uint32_t slot;
+  uint32_t size;
+  uint32_t checksum;
+  bool is_written; /* otherwise only measured */
+  bool failed;
+} storage_out_t;
+
+static const uint32_t storage_mark = 0x5053524du;
+
+/* Returns the offset of the first record in a slot. */
+static uint32_t storage_first(void)
+{
+  return (uint32_t)sizeof(storage_header_t);
+}
+
+uint32_t microros_storage_checksum(uint32_t checksum, const uint8_t * bytes, uint32_t size)
+{
+  uint32_t next = ~checksum;
+
+  for (uint32_t i = 0; i < size; ++i) {
+    next ^= bytes[i];
+    for (uint32_t bit = 0; bit < 8u; ++bit) {
+      next = (next & 1u) != 0u ? (next >> 1) ^ 0xedb88320u : next >> 1;
+    }
+  }
+  return ~next;
+}
+
+static uint32_t storage_own_checksum(const storage_header_t * header)
+{
+  return microros_storage_checksum(
+    0u, (const uint8_t *)header, (uint32_t)offsetof(storage_header_t, checksum));
+}
+
+/* Memory that is erased, or was never written: all bytes are the same. */
+static bool storage_is_erased(const storage_header_t * header)
+{
+  const uint8_t * const bytes = (const uint8_t *)header;
+
+  for (size_t i = 1; i < sizeof(*header); ++i) {
+    if (bytes[i] != bytes[0]) {
+      return false;
+    }
+  }
+  return true;
+}
+
+static bool storage_records_are_good(
+  uint32_t slot, const storage_header_t * header, uint8_t * room, uint32_t room_size)
+{
+  const uint32_t most = room_size - room_size % (uint32_t)STORAGE_UNIT;
+  uint32_t checksum = 0;
+  uint32_t part;
+
+  for (uint32_t done = 0; done < header->size; done += part) {
+    part = header->size - done < most ? header->size - done : most;
+    if (!port_storage_read(slot, storage_first() + done, room, part)) {
+      return false;
+    }
+    checksum = microros_storage_checksum(checksum, room, part);
+  }
+  return checksum == header->records_checksum;
+}
+
+storage_state_t microros_storage_look(
+  uint32_t slot, storage_header_t * header, uint8_t * room, uint32_t room_size)
+{
+  if (!port_storage_read(slot, 0u, (uint8_t *)header, storage_first()) || storage_is_erased(header)) {
+    return STORAGE_EMPTY;
+  }
+  if (header->mark != storage_mark || header->checksum != storage_own_checksum(header)) {
+    return STORAGE_DAMAGED;
+  }
+  if (header->version != (uint32_t)STORAGE_VERSION) {
+    return STORAGE_OTHER_VERSION;
+  }
+  return storage_records_are_good(slot, header, room, room_size) ? STORAGE_GOOD : STORAGE_DAMAGED;
+}
+
+static void storage_put_units(storage_out_t * out, const uint8_t * bytes, uint32_t size)
+{
+  if (size == 0u || out->failed) {
+    return;
+  }
+  if (out->is_written && !port_storage_write(out->slot, storage_first() + out->size, bytes, size)) {
+    out->failed = true;
+  }
+  out->checksum = microros_storage_checksum(out->checksum, bytes, size);
+  out->size += size;
+}
+
+/* Adds bytes; the last unit is padded with zeros. */
+static void storage_put(storage_out_t * out, const uint8_t * bytes, uint32_t size)
+{
+  const uint32_t rest = size % (uint32_t)STORAGE_UNIT;
+
+  storage_put_units(out, bytes, size - rest);
+  if (rest != 0u) {
+    uint8_t last[STORAGE_UNIT] = {0};
+
+    (void)memcpy(last, &bytes[size - rest], rest);
+    storage_put_units(out, last, (uint32_t)STORAGE_UNIT);
+  }
+}
+
+/* Makes a slot valid, after its records were written. Returns false if the memory refuses. */
+static bool storage_commit(const storage_out_t * out, uint32_t sequence)
+{
+  storage_header_t header = {storage_mark, STORAGE_VERSION, sequence, out->size, out->checksum, 0};
+
+  header.checksum = storage_own_checksum(&header);
+  return !out->failed && port_storage_write(out->slot, 0u, (const uint8_t *)&header, storage_first());
+}
 
 enum { STORAGE_SLOTS = 2 };
 
@@ -111,7 +227,7 @@ static size_t storage_apply_all(rclc_parameter_server_t * server, const storage_
   size_t skipped = 0;
 
   while (done + (uint32_t)STORAGE_UNIT <= found->header.size) {
-    const uint32_t at = microros_storage_first() + done;
+    const uint32_t at = storage_first() + done;
     uint32_t prefix[STORAGE_UNIT / sizeof(uint32_t)];
 
     done += (uint32_t)STORAGE_UNIT;
@@ -175,8 +291,8 @@ static void storage_put_all(rclc_parameter_server_t * server, storage_out_t * ou
     rclc_parameter_out_text(&body, place->about->name);
     rclc_parameter_out_value(&body, place);
     prefix[0] = body.position;
-    microros_storage_put(out, (const uint8_t *)prefix, (uint32_t)STORAGE_UNIT);
-    microros_storage_put(out, server->request, body.position);
+    storage_put(out, (const uint8_t *)prefix, (uint32_t)STORAGE_UNIT);
+    storage_put(out, server->request, body.position);
     out->failed = out->failed || body.full;
   }
 }
@@ -207,7 +323,7 @@ rcl_ret_t rclc_parameter_storage_save(rclc_parameter_server_t * parameter_server
     return storage_refuse(MICROROS_ERROR_WORDS("the memory cannot be erased"));
   }
   storage_put_all(parameter_server, &written);
-  if (!microros_storage_commit(&written, is_good ? found.header.sequence + 1u : 0u)) {
+  if (!storage_commit(&written, is_good ? found.header.sequence + 1u : 0u)) {
     return storage_refuse(MICROROS_ERROR_WORDS("the memory cannot be written"));
   }
   if (

@@ -5,6 +5,8 @@
  */
 #include "microros/error.h"
 #include "microros/lock.h"
+#include "microros/rclc_parameter_array.h"
+#include "microros/rclc_parameter_string.h"
 #include "microros/rclc_parameters.h"
 
 #include <string.h>
@@ -66,7 +68,8 @@ rclc_parameter_about_t * rclc_parameter_own(
   return about;
 }
 
-void rclc_parameter_unconstrain(rclc_parameter_about_t * about)
+/* Sets the constraints of a description to none. */
+static void own_unconstrain(rclc_parameter_about_t * about)
 {
   about->range = NULL;
 #if MICROROS_PARAMETER_ONE_OF
@@ -97,6 +100,71 @@ rclc_parameter_place_t * rclc_parameter_create(
   names[number][name->size] = '\0';
   about->name = names[number];
   about->texts = NULL;
-  rclc_parameter_unconstrain(about);
+  own_unconstrain(about);
   return rclc_parameter_place(server, about, type);
 }
+
+/* Set requests that create parameters, where the options of a server allow them. Else none of this is linked. */
+static parameter_outcome_t undeclared_check(
+  const rclc_parameter_server_t * server, const parameter_requested_t * requested, size_t created)
+{
+  if (requested->name.size >= (uint32_t)MICROROS_PARAMETER_NAME_SIZE) {
+    return PARAMETER_NAME_LONG;
+  }
+  if (!rclc_parameter_holds(requested->type)) {
+    return PARAMETER_UNSUPPORTED;
+  }
+  if (!rclc_parameter_string_fits(NULL, requested)) {
+    return PARAMETER_STRING_LONG;
+  }
+  if (!rclc_parameter_array_fits(NULL, requested)) {
+    return PARAMETER_ARRAY_LONG;
+  }
+  return server->count + created <= server->max_params ? PARAMETER_SET : PARAMETER_FULL;
+}
+
+/* The name is shown from a free place. */
+static bool undeclared_accepts(
+  rclc_parameter_server_t * server, const parameter_text_t * name, parameter_state_t * new_state)
+{
+  const rclc_parameter_place_t * place = rclc_parameter_create(server, name, new_state->type);
+  bool result = false;
+
+  if (place != NULL) {
+    new_state->name = place->about->name;
+    result = rclc_parameter_accepts(server, NULL, new_state);
+    rclc_parameter_disown(server, place);
+  }
+  return result;
+}
+
+static void undeclared_add(rclc_parameter_server_t * server, const parameter_requested_t * requested)
+{
+  rclc_parameter_place_t * place = rclc_parameter_create(server, &requested->name, requested->type);
+
+  if (place != NULL) {
+    place->dynamic_typing = true;
+    rclc_parameter_note(server, place, PARAMETER_EVENT_NEW);
+    ++server->count;
+  }
+}
+
+static void undeclared_retype(rclc_parameter_server_t * server, rclc_parameter_place_t * place, uint8_t type)
+{
+  uint32_t number = 0;
+  rcl_ret_t result = RCL_RET_OK;
+  rclc_parameter_about_t * about = rclc_parameter_own(server, place, &number, &result);
+
+  if (about != NULL) {
+    own_unconstrain(about);
+    place->type = type;
+  }
+}
+
+const rclc_parameter_undeclared_t rclc_parameter_undeclared = {
+  undeclared_check,
+  undeclared_accepts,
+  undeclared_add,
+  undeclared_retype,
+  "parameter name '%n' is too long",
+  "no place for parameter '%n'"};

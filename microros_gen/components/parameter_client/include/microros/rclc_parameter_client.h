@@ -95,8 +95,6 @@ rcl_ret_t rclc_parameter_client_judge_results(rclc_parameter_client_t * client);
 /* Returns RCLC_PARAMETER_CLIENT_UNKNOWN with its text. */
 rcl_ret_t rclc_parameter_client_refuse_name(const rclc_parameter_client_t * client);
 
-/* --- rclc_parameter_client_large.c --- */
-
 /* Returns once the size of a response that was too large to be received; otherwise 0. */
 uint16_t rclc_parameter_client_take_large(const rclc_parameter_client_t * client, uint16_t * fits);
 

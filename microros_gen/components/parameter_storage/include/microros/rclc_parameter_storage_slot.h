@@ -32,30 +32,12 @@ typedef enum storage_state_t {
   STORAGE_GOOD
 } storage_state_t;
 
-/* Output of records: size and checksum of all, and the slot if they are written. */
-typedef struct storage_out_t {
-  uint32_t slot;
-  uint32_t size;
-  uint32_t checksum;
-  bool is_written; /* otherwise only measured */
-  bool failed;
-} storage_out_t;
-
 /* Returns the CRC-32 (IEEE 802.3) after more bytes; the first `checksum` is 0. */
 uint32_t microros_storage_checksum(uint32_t checksum, const uint8_t * bytes, uint32_t size);
 
 /* Reads and checks a whole slot. `room` is a temporary buffer of at least STORAGE_UNIT bytes. */
 storage_state_t microros_storage_look(
   uint32_t slot, storage_header_t * header, uint8_t * room, uint32_t room_size);
-
-/* Adds bytes; the last unit is padded with zeros. */
-void microros_storage_put(storage_out_t * out, const uint8_t * bytes, uint32_t size);
-
-/* Makes a slot valid, after its records were written. Returns false if the memory refuses. */
-bool microros_storage_commit(const storage_out_t * out, uint32_t sequence);
-
-/* Returns the offset of the first record in a slot. */
-uint32_t microros_storage_first(void);
 
 #ifdef __cplusplus
 }

@@ -126,7 +126,7 @@ typedef struct parameter_state_t {
 #endif
 } parameter_state_t;
 
-/* Parameters that set requests create: rclc_parameter_undeclared.c. */
+/* Parameters that set requests create: rclc_parameter_own.c. */
 typedef struct rclc_parameter_undeclared_t {
   /* For one of `created` parameters that the request creates; 0: for one that gets another type. */
   parameter_outcome_t (*check)(
@@ -160,7 +160,7 @@ void rclc_parameter_decode_names(cdr_in_t * in, void * server);
 void rclc_parameter_decode_parameters(cdr_in_t * in, void * server);
 void rclc_parameter_decode_list(cdr_in_t * in, void * server);
 
-/* --- numbers: rclc_parameter_divide.c --- */
+/* --- numbers: rclc_parameter_set.c --- */
 
 /* Returns value / by, and value % by in *rest; `by` is not 0. The 64-bit division of the compiler's library takes more
  * code than this. */
@@ -212,13 +212,10 @@ rclc_parameter_place_t * rclc_parameter_create(
 rclc_parameter_about_t * rclc_parameter_own(
   rclc_parameter_server_t * server, rclc_parameter_place_t * place, uint32_t * number, rcl_ret_t * result);
 
-/* Sets the constraints of a description to none. */
-void rclc_parameter_unconstrain(rclc_parameter_about_t * about);
-
 /* One for each parameter of all servers. */
 enum { PARAMETERS_OWN = MICROROS_NODES_MAX * MICROROS_PARAMETERS_MAX };
 
-/* --- calls of the application: rclc_parameter_look.c --- */
+/* --- calls of the application: rclc_parameter.c --- */
 
 /* Notes an error of a parameter; returns `result`. */
 rcl_ret_t rclc_parameter_refuse(rcl_ret_t result, const char * name, const char * why);
