@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Clocks: what all have in common, and those of steady and of system time. */
 #include "microros/error.h"
+#include "microros/port.h"
 #include "microros/rcl_clock.h"
+#include "microros/rcl_clock_epoch.h"
 #include "microros/time_math.h"
 
 #include <string.h>
@@ -105,4 +108,40 @@ rcl_ret_t rcl_difference_times(
   }
   delta->nanoseconds = microros_time_between(start->nanoseconds, finish->nanoseconds);
   return RCL_RET_OK;
+}
+
+static rcl_ret_t clock_steady_now(void * data, rcl_time_point_value_t * now)
+{
+  (void)data;
+  *now = port_time_steady_ns();
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_steady_clock_init(rcl_clock_t * clock, rcl_allocator_t * allocator)
+{
+  return rcl_clock_begin(clock, RCL_STEADY_TIME, clock_steady_now, allocator);
+}
+
+rcl_ret_t rcl_steady_clock_fini(rcl_clock_t * clock)
+{
+  return rcl_clock_end(clock, RCL_STEADY_TIME);
+}
+
+rcl_ret_t rcl_clock_system_now(void * data, rcl_time_point_value_t * now)
+{
+  const int64_t epoch_ns = rcl_clock_epoch_ns();
+
+  (void)data;
+  *now = epoch_ns != 0 ? epoch_ns : port_time_steady_ns(); /* 0: the time of day has not been set yet */
+  return RCL_RET_OK;
+}
+
+rcl_ret_t rcl_system_clock_init(rcl_clock_t * clock, rcl_allocator_t * allocator)
+{
+  return rcl_clock_begin(clock, RCL_SYSTEM_TIME, rcl_clock_system_now, allocator);
+}
+
+rcl_ret_t rcl_system_clock_fini(rcl_clock_t * clock)
+{
+  return rcl_clock_end(clock, RCL_SYSTEM_TIME);
 }

@@ -4,6 +4,7 @@
 
 #include "lifecycle_msgs/msg/transition.h"
 #include "microros/text.h"
+#include "rcl_lifecycle/default_state_machine.h"
 
 /* Positions in rcl_lifecycle_states. */
 enum {
@@ -172,3 +173,12 @@ lifecycle_msgs__msg__State rcl_lifecycle_message_of(const rcl_lifecycle_state_t 
   message.label.capacity = message.label.size + 1u;
   return message;
 }
+
+const char * const rcl_lifecycle_configure_label = "configure";
+const char * const rcl_lifecycle_cleanup_label = "cleanup";
+const char * const rcl_lifecycle_activate_label = "activate";
+const char * const rcl_lifecycle_deactivate_label = "deactivate";
+const char * const rcl_lifecycle_shutdown_label = "shutdown";
+const char * const rcl_lifecycle_transition_success_label = "transition_success";
+const char * const rcl_lifecycle_transition_failure_label = "transition_failure";
+const char * const rcl_lifecycle_transition_error_label = "transition_error";

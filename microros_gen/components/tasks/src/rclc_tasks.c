@@ -9,6 +9,7 @@
 #include "microros/rmw_tasks.h"
 #include "microros/wake.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -303,4 +304,21 @@ uint32_t rclc_task_stack_peak(uint8_t task)
 uint32_t rclc_task_stack_size(uint8_t task)
 {
   return task < (uint8_t)MICROROS_TASKS ? rclc_task_settings[task].stack_size : 0u;
+}
+
+/* The lock keeps the task from being joined meanwhile. */
+rcl_ret_t rclc_task_set_priority(uint8_t task, uint8_t priority)
+{
+  bool is_set;
+
+  if (task >= (uint8_t)MICROROS_TASKS || priority == 0u || priority > (uint8_t)MICROROS_TASKS) {
+    return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "task or priority");
+  }
+  microros_lock();
+  is_set = rclc_task_states[task].is_made &&
+           port_task_set_priority(task, (uint8_t)((uint8_t)MICROROS_TASKS + 1u - priority));
+  microros_unlock();
+  return is_set ? RCL_RET_OK
+                : microros_error_named(
+                    RCL_RET_ERROR, microros_error_tasks, "it does not run, or the system has no priorities");
 }

@@ -49,12 +49,6 @@ void microros_format_dropped(void);
 void microros_format_integer(
   microros_format_t * out, const microros_conversion_t * how, uint64_t value, bool negative);
 
-/* Returns the name of a level, of the next lower one for a number between two levels. */
-const char * microros_format_level(int severity);
-
-/* Puts a time of day as seconds: 1700000000.123456789. */
-void microros_format_time(microros_format_t * out, int64_t time);
-
 /* Puts what is before the text of a line: `[INFO] [1700000000.123456789] [arm]: `. */
 void microros_format_begin(microros_format_t * out, int severity, const char * name, int64_t time);
 
