@@ -2,6 +2,7 @@
 /* Objects in binary (OMG DDS-XRCE 1.0, 7.7.3 and annex A). */
 #include "microros/xrce_client.h"
 #include "microros/xrce_creation.h"
+#include "microros/xrce_describe_service.h"
 #include "microros/xrce_topic_prefix.h"
 #include "microros/xrce_wire.h"
 

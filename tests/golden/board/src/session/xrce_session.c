@@ -227,6 +227,26 @@ bool xrce_session_await(xrce_client_t * client, uint32_t timeout_ms)
   }
 }
 
+bool xrce_session_drain(xrce_client_t * client)
+{
+  const uint32_t start = port_time_ms();
+
+  if (client->session.state != XRCE_READY) {
+    return false;
+  }
+  client->session.state = XRCE_CLOSING; /* accept no further messages */
+  for (;;) {
+    xrce_session_pump(client);
+    if (xrce_session_is_sent(&client->session)) {
+      return true;
+    }
+    if (port_time_ms() - start >= client->close_timeout_ms) {
+      return false;
+    }
+    microros_pause();
+  }
+}
+
 void xrce_session_close(xrce_client_t * client)
 {
   client->session.state = XRCE_CLOSED;

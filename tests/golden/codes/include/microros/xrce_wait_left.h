@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Time until the session has work to do, over all selected components with deadlines. Only for
- * xrce_wait*.c and rmw_uros_session.c: a copy each. */
+ * xrce_wait*.c and rmw_client.c: a copy each. */
 #ifndef MICROROS_XRCE_WAIT_LEFT_H
 #define MICROROS_XRCE_WAIT_LEFT_H
 

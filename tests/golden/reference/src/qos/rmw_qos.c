@@ -2,10 +2,12 @@
 #include "microros/rmw_qos.h"
 
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/xrce_wire.h"
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <string.h>
 
 /* Unset or practically infinite: RMW_DURATION_INFINITE has more than 2^33 seconds. */
 static bool qos_is_unlimited(const struct rmw_time_s * time)
@@ -60,6 +62,32 @@ const char * rmw_qos_to_xrce(const rmw_qos_profile_t * qos, uint8_t * flags, uin
   }
   *depth = (uint16_t)qos->depth;
   return NULL;
+}
+
+static void qos_actual(const xrce_endpoint_t * endpoint, rmw_qos_profile_t * qos)
+{
+  static const struct rmw_time_s unlimited = RMW_DURATION_INFINITE;
+  const uint8_t flags = endpoint->qos;
+
+  (void)memset(qos, 0, sizeof(*qos));
+  qos->reliability = (flags & XRCE_QOS_RELIABLE) != 0u ? RMW_QOS_POLICY_RELIABILITY_RELIABLE
+                                                       : RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT;
+  qos->history =
+    (flags & XRCE_QOS_KEEP_LAST) != 0u ? RMW_QOS_POLICY_HISTORY_KEEP_LAST : RMW_QOS_POLICY_HISTORY_KEEP_ALL;
+  qos->durability = (flags & XRCE_QOS_TRANSIENT_LOCAL) != 0u ? RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL
+                                                             : RMW_QOS_POLICY_DURABILITY_VOLATILE;
+  qos->depth = endpoint->depth;
+  qos->deadline = unlimited;
+  qos->lifespan = unlimited;
+  qos->liveliness = RMW_QOS_POLICY_LIVELINESS_AUTOMATIC;
+  qos->liveliness_lease_duration = unlimited;
+}
+
+void rmw_qos_actual(const xrce_endpoint_t * endpoint, rmw_qos_profile_t * qos)
+{
+  microros_lock();
+  qos_actual(endpoint, qos);
+  microros_unlock();
 }
 
 const rmw_qos_profile_t * rmw_qos_default(void)
