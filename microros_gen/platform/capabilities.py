@@ -52,9 +52,14 @@ def capabilities() -> Mapping[str, Capability]:
     return MappingProxyType(found)
 
 
+@cache
 def declarations(capability: Capability) -> tuple[str, ...]:
-    """Return the prototypes of a capability's functions, as its header has them."""
-    headers = (p for folder in TEMPLATE_FOLDERS for p in folder.glob(f"**/include/{capability.header}"))
+    """Return the prototypes of a capability's functions, as its header has them.
+
+    A component is one folder below those of the templates, a part of a platform two: not all folders are searched.
+    """
+    places = (f"{below}/include/{capability.header}" for below in ("*", "*/*"))
+    headers = (path for place in places for folder in TEMPLATE_FOLDERS for path in folder.glob(place))
     return prototypes(read_text(next(headers)), capability.functions)
 
 
