@@ -50,7 +50,8 @@ def called(component: Component) -> set[str]:
 def test_a_component_asks_for_what_it_calls_and_for_nothing_else(name: str) -> None:
     component = CATALOGUE[name]
     required = {ask.capability for ask in component.asks}
-    used = {c.name for c in capabilities().values() if set(c.functions) & called(component)}
+    calls = called(component)
+    used = {c.name for c in capabilities().values() if set(c.functions) & calls}
     others = {capability for owner, capability in _OF_OTHERS if owner == name}
     assert used - others == required
     for capability in others:
