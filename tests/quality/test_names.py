@@ -40,6 +40,8 @@ def _pattern(words: dict[str, str]) -> re.Pattern[str]:
 _WORDS = _pattern(REFUSED)
 _C_WORDS = _pattern(REFUSED_IN_C)
 _VARIABLE_WORDS = _pattern(REFUSED_VARIABLES)
+_MAYBE_ASSIGNED = re.compile(rf"\b_*(?:{'|'.join(REFUSED_NAMES)})\s*(?:in\b|[^\s\w.\"'])")
+"""A whole name before what can follow where it is assigned: `=`, `:`, a comma, a bracket, `in`, `\\`, a comment."""
 
 
 def refused(text: str) -> Iterator[str]:
@@ -93,6 +95,8 @@ def test_no_variable_has_a_refused_word(folder: str) -> None:
 
 def refused_whole(text: str) -> Iterator[str]:
     """Yield each variable of a Python file whose whole name is a refused word, with what to write."""
+    if _MAYBE_ASSIGNED.search(text) is None:
+        return
     for name in sorted({name.lstrip("_") for name in variables(text)} & REFUSED_NAMES.keys()):
         yield f"{name}: write {REFUSED_NAMES[name]}"
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
-from pathlib import Path
+from collections.abc import Iterator, Mapping
+from functools import cache
+from pathlib import Path, PurePath
 
 import pytest
 
@@ -50,6 +51,8 @@ _OTHER_MEANING = {
     "base",
 }
 """Names that are words of YAML files, too: they count only where a function is asked for the component."""
+DESCRIBING = (".py", ".json", ".yaml", ".j2")
+"""Endings of code, schemas, descriptions and templates."""
 SHARED = (
     "application/application.schema.json",
     "application/model.py",
@@ -185,14 +188,25 @@ MENTIONS = {
 """The modules that name each component today. A number may fall, then it is lowered here; none may rise."""
 
 
-def mentions(tree: ast.AST, names: set[str]) -> Iterator[str]:
-    """Yield each component that a module names."""
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Constant) and node.value in names - _OTHER_MEANING:
+def mentions(text: str, names: set[str]) -> Iterator[str]:
+    """Yield each component that a module names; only a module with one of the words is parsed."""
+    unambiguous = names - _OTHER_MEANING
+    if not re.search(rf"\b(?:{'|'.join(unambiguous)})\b|\b(?:{'|'.join(_ASKS)})\s*\(", text):
+        return
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Constant) and node.value in unambiguous:
             yield node.value
-        if isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] in _ASKS:
+        if isinstance(node, ast.Call) and called(node) in _ASKS:
             values = (*node.args, *(k.value for k in node.keywords if k.arg == "component"))
             yield from (v.value for v in values if isinstance(v, ast.Constant) and v.value in names)
+
+
+def called(call: ast.Call) -> str:
+    """Return the last name of what is called."""
+    function = call.func
+    if isinstance(function, ast.Attribute):
+        return function.attr
+    return function.id if isinstance(function, ast.Name) else ""
 
 
 def counted(package: Path) -> dict[str, int]:
@@ -204,7 +218,7 @@ def counted(package: Path) -> dict[str, int]:
             "agent",
             "components",
         ):  # it knows nothing of components
-            for name in set(mentions(ast.parse(path.read_text(encoding="utf-8")), names)):
+            for name in set(mentions(path.read_text(encoding="utf-8"), names)):
                 found[name] = found.get(name, 0) + 1
     return dict(sorted(found.items()))
 
@@ -219,18 +233,27 @@ def shared_files(name: str, package: Path) -> set[str]:
         rf"""["']{name}["']|^\s*{name}:|\b(?:node|plan|runtime|features)\.{name}\b""", re.MULTILINE
     )
     found = set()
-    for path in package.rglob("*"):
-        shown = path.relative_to(package)
+    for shown, text in texts(package).items():
         own = shown.parts[:2] == ("components", name)
         if (
-            path.suffix not in (".py", ".json", ".yaml", ".j2")
+            shown.suffix not in DESCRIBING
             or own
             or shown.parts[0] in ("agent", "idl", "modes", "ros", "ros_tools")
         ):
             continue
-        if word.search(path.read_text(encoding="utf-8")):
+        if name in text and word.search(text):
             found.add(shown.as_posix())
     return found - _OTHER_FILES
+
+
+@cache
+def texts(package: Path) -> Mapping[PurePath, str]:
+    """Return code, schemas, templates and descriptions of a package by their places in it; each is read once."""
+    return {
+        path.relative_to(package): path.read_text(encoding="utf-8")
+        for path in package.rglob("*.*")
+        if path.suffix in (*DESCRIBING, ".c", ".h")
+    }
 
 
 def test_parameters_are_known_to_at_most_six_shared_files() -> None:
@@ -258,13 +281,12 @@ def knowing(name: str, words: str, package: Path) -> set[str]:
         *(f for n, asks in ASKS_FOR.items() if name in asks for f in OWN_FILES[n]),
     )
     found = set()
-    for path in package.rglob("*"):
-        shown = path.relative_to(package)
+    for shown, text in texts(package).items():
         if (
-            path.suffix in (".py", ".json", ".yaml", ".j2")
+            shown.suffix in DESCRIBING
             and shown.parts[0] not in _ABOUT_OTHERS
             and shown.as_posix() not in others
-            and word.search(path.read_text(encoding="utf-8"))
+            and word.search(text)
         ):
             found.add(shown.as_posix())
     return found
@@ -289,11 +311,10 @@ def naming_in_c(name: str, package: Path) -> set[str]:
     needing = {c.name for c in load_catalogue().values() if name in c.needs} | {name}
     word = re.compile(C_NAMES[name])
     found = set()
-    for path in package.rglob("*"):
-        shown = path.relative_to(package)
+    for shown, text in texts(package).items():
         is_own = shown.parts[0] == "components" and not needing.isdisjoint(shown.parts[1:2])
-        is_c = path.name.removesuffix(".j2").endswith((".c", ".h"))
-        if is_c and not is_own and word.search(path.read_text(encoding="utf-8")):
+        is_c = shown.name.removesuffix(".j2").endswith((".c", ".h"))
+        if is_c and not is_own and word.search(text):
             found.add(shown.as_posix())
     return found
 
