@@ -13,7 +13,6 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from idf_component_tools.manager import ManifestManager
 
 from microros_gen import compiler
 from microros_gen.package.render import describe, plan_package, render_package
@@ -68,6 +67,8 @@ def registered(component: Path, target: str) -> dict[str, list[str]]:
 
 
 def test_the_manifest_is_valid(component: Path) -> None:
+    from idf_component_tools.manager import ManifestManager  # takes long, in each process that collects
+
     manifest = ManifestManager(str(component), "micro_ros_espidf_component").load()
     assert manifest.license == "Apache-2.0"
     assert [(need.name, need.version) for need in manifest.requirements] == [("idf", ">=5.3")]

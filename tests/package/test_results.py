@@ -9,10 +9,9 @@ import json
 import tarfile
 import zipfile
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
-from spdx_tools.spdx.parser.parse_anything import parse_file
-from spdx_tools.spdx.validation.document_validator import validate_full_spdx_document
 
 from microros_gen.package.archive import archive
 from microros_gen.package.find import builtin_packages
@@ -24,6 +23,9 @@ from microros_gen.typesupport.plan.file_names import device_in, equal_but_for_ca
 from tests.support.command_line import Runner
 from tests.support.paths import ROOT
 from tests.support.slices import first
+
+if TYPE_CHECKING:
+    from spdx_tools.spdx.model.document import Document
 
 OWN = "version: 1\nprofiles: [pure_sender]\ntransport: {type: custom}\n"
 
@@ -44,13 +46,22 @@ def test_the_general_plan_is_the_same_each_time(name: str) -> None:
     assert all(content.decode("utf-8").endswith("\n") for content in first.values() if content)
 
 
+def valid(written: Path) -> Document:
+    """Return what an SPDX file holds, which is valid. The tools are imported here: they take long, in each process."""
+    from spdx_tools.spdx.parser.parse_anything import parse_file
+    from spdx_tools.spdx.validation.document_validator import validate_full_spdx_document
+
+    document = parse_file(str(written))
+    assert [message.validation_message for message in validate_full_spdx_document(document)] == []
+    return document
+
+
 @pytest.mark.parametrize("name", first(builtin_packages(), 3))
 def test_the_bill_of_materials_is_valid(name: str, tmp_path: Path) -> None:
     files = rendered(name)
     written = tmp_path / "sbom.spdx.json"
     written.write_bytes(files["sbom.spdx.json"])
-    document = parse_file(str(written))
-    assert [message.validation_message for message in validate_full_spdx_document(document)] == []
+    document = valid(written)
     listed = {
         file.name.removeprefix("./"): {c.algorithm.name: c.value for c in file.checksums}
         for file in document.files
@@ -102,7 +113,7 @@ def test_files_of_messages_have_the_license_of_their_package(
     files = render_package(plan_package(describe("cmake"), config))
     written = tmp_path / "sbom.spdx.json"
     written.write_bytes(files["sbom.spdx.json"])
-    assert validate_full_spdx_document(parse_file(str(written))) == []
+    valid(written)
     document = json.loads(files["sbom.spdx.json"])
     concluded = {file["fileName"]: file["licenseConcluded"] for file in document["files"]}
     of_messages = {name for name in concluded if "/own_msgs/" in name}
