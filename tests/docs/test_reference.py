@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +29,11 @@ SURFACE = yaml.safe_load((ROOT / "tests/runtime/surface.yaml").read_text(encodin
 SCHEMAS = ("application", "profile", "target", "agent")
 
 
+of_all_pages = cache(generated)
+of_the_command_line = cache(command_line.page)
+"""The texts take a second to generate."""
+
+
 def calls(group: click.Group, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
     """Yield every command with its groups, `agent` and `agent udp4`."""
     for name in group.list_commands(click.Context(group)):
@@ -40,7 +46,7 @@ def calls(group: click.Group, path: tuple[str, ...] = ()) -> Iterator[tuple[str,
 @pytest.mark.parametrize("call", list(calls(cli)), ids=" ".join)
 def test_every_option_of_the_help_is_there(call: tuple[str, ...]) -> None:
     reported = CliRunner().invoke(cli, [*call, "--help"], prog_name="microros-gen").output
-    (section,) = re.findall(rf"(?ms)^##+ {' '.join(call)}$(.*?)(?=^#|\Z)", command_line.page())
+    (section,) = re.findall(rf"(?ms)^##+ {' '.join(call)}$(.*?)(?=^#|\Z)", of_the_command_line())
     options = set(re.findall(r"^  (?:-\w, )?(--[\w-]+|-v+)\b", reported, re.MULTILINE)) - {"--help"}
     cells = re.findall(r"(?m)^\| `([^`]+)` \|", section)
     assert options <= set(re.findall(r"(?:^|, )(-[\w-]+)", "\n".join(cells), re.MULTILINE))
@@ -63,12 +69,12 @@ def described(part: Any, path: str = "") -> Iterator[tuple[str, str]]:
 def test_each_page_is_in_the_navigation_once() -> None:
     written = {path.relative_to(ROOT / "docs").as_posix() for path in (ROOT / "docs").rglob("*.md")}
     listed = re.findall(r"(?m)^ +- .*?([\w/]+\.md)$", (ROOT / "mkdocs.yml").read_text(encoding="utf-8"))
-    assert sorted(listed) == sorted(written | set(generated()) | set(OUTSIDE.values()))
+    assert sorted(listed) == sorted(written | set(of_all_pages()) | set(OUTSIDE.values()))
 
 
 @pytest.mark.parametrize("name", SCHEMAS)
 def test_every_key_is_there_with_its_meaning(name: str) -> None:
-    page = generated()[f"reference/{name}_file.md"]
+    page = of_all_pages()[f"reference/{name}_file.md"]
     keys = dict(described(load_schema(SCHEMA_FILES[name])))
     assert not [key for key, meaning in keys.items() if not meaning]
     rows = re.findall(r"(?m)^\| \[?`([^`]+)`.*?\| (.*?) \| (.*) \|$", page)
@@ -102,7 +108,7 @@ def test_what_the_suite_knows_of_the_api_is_there() -> None:
 
 
 def test_each_anchor_is_there_once() -> None:
-    for name, text in generated().items():
+    for name, text in of_all_pages().items():
         anchors = [first or other for first, other in re.findall(r'\{: #(\S+) \}|<a id="(\w+)">', text)]
         assert len(anchors) == len(set(anchors)), name
         assert "{{" not in text
@@ -160,7 +166,7 @@ typedef void (*call_t)(void * data);
 
 
 def test_every_error_number_has_its_text() -> None:
-    rows = re.findall(r"(?m)^\| E(\d+) \| `(.+)` \|$", generated()["reference/error_texts.md"])
+    rows = re.findall(r"(?m)^\| E(\d+) \| `(.+)` \|$", of_all_pages()["reference/error_texts.md"])
     assert [int(number) for number, _ in rows] == list(range(2, len(rows) + 2))
     assert all(text.strip() and '"' not in text for _, text in rows)
 
@@ -169,7 +175,7 @@ def test_the_error_texts_of_troubleshooting_exist() -> None:
     page = (ROOT / "docs/troubleshooting.md").read_text(encoding="utf-8")
     (table,) = re.findall(r"(?m)^\| text contains \|.*\n\|[-|]+\n((?:\|.*\n)+)", page)
     named = re.findall(r"(?m)^\| `([^`]+)` \|", table)
-    texts = generated()["reference/error_texts.md"]
+    texts = of_all_pages()["reference/error_texts.md"]
     assert len(named) > 4
     assert [text for text in named if text not in texts] == []
 
@@ -191,7 +197,7 @@ def test_two_runs_write_the_same() -> None:
     done = subprocess.run(
         [sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True
     )
-    assert json.loads(done.stdout) == generated()
+    assert json.loads(done.stdout) == of_all_pages()
 
 
 @pytest.mark.system
@@ -199,9 +205,9 @@ def test_the_example_of_the_python_api_runs(tmp_path: Path) -> None:
     program = [sys.executable, "-c", python_api.EXAMPLE]
     done = subprocess.run(program, cwd=tmp_path, text=True, capture_output=True, check=True)
     assert (tmp_path / done.stdout.strip()).is_file()
-    assert python_api.EXAMPLE in generated()["reference/python_api.md"]
+    assert python_api.EXAMPLE in of_all_pages()["reference/python_api.md"]
 
 
 def test_everything_that_the_python_api_exports_is_documented() -> None:
-    page = generated()["reference/python_api.md"]
+    page = of_all_pages()["reference/python_api.md"]
     assert [name for name in compiler.__all__ if f"### {name}\n" not in page] == []
