@@ -43,6 +43,7 @@ _CLASSES = {
 }
 """Classes of diagnostics, and of faults that become one at their place."""
 _METHODS = {"error", "warning", "too_large"}
+_MAYBE_CALL = re.compile(rf"\b(?:{'|'.join((*_CLASSES, *_METHODS, '_error'))})\s*\(")
 
 
 @cache
@@ -52,7 +53,10 @@ def calls() -> list[tuple[str, ast.Call]]:
     for path in sorted(PACKAGE.rglob("*.py")):
         if path.name == "diagnostic.py":
             continue
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        text = path.read_text(encoding="utf-8")
+        if _MAYBE_CALL.search(text) is None:
+            continue  # parsing takes most of the time
+        for node in ast.walk(ast.parse(text)):
             if isinstance(node, ast.Call) and _makes_diagnostic(node):
                 found.append((f"{path.relative_to(PACKAGE)}:{node.lineno}", node))
     return found
@@ -62,11 +66,12 @@ def _makes_diagnostic(node: ast.Call) -> bool:
     function = node.func
     if isinstance(function, ast.Name):
         return function.id in _CLASSES
-    if ast.unparse(function) == "self._error" and len(node.args) == 3:
+    if not isinstance(function, ast.Attribute):
+        return False
+    if function.attr == "_error" and ast.unparse(function) == "self._error" and len(node.args) == 3:
         return True
     return (
-        isinstance(function, ast.Attribute)
-        and function.attr in _METHODS
+        function.attr in _METHODS
         and re.search(r"diagnostics|found|warnings", ast.unparse(function.value)) is not None
         and bool(node.args)
     )
