@@ -201,7 +201,8 @@ def test_an_output_folder_that_is_not_writable(run: Runner) -> None:
 
 
 def test_a_measured_budget_that_is_exceeded_names_the_largest(run: Runner, folder: Path) -> None:
-    put(folder, APPLICATION + "memory: {flash_budget: 1 KiB}\n")
+    small = APPLICATION.replace("sensor_msgs/msg/Imu", "std_msgs/msg/Int32")
+    put(folder, small + "memory: {flash_budget: 1 KiB}\n")
     outcome = run("build", "-o", "out")
     assert outcome.status == 1
     assert re.search(r"microros\.yaml:9:\d+: error: .*flash_budget is 1024 \(largest: \w+ \d+", outcome.err)
