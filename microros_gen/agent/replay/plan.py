@@ -117,8 +117,8 @@ class Plan:
         of_client = isinstance(reply, StatusReply) and (reply.object, reply.status) == (OBJECT_CLIENT, 0)
         if not of_client:
             return False
-        asked, self._leaves = self._leaves, False
-        return not asked
+        was_requested, self._leaves = self._leaves, False
+        return not was_requested
 
     def _send(self, message: Message) -> None:
         if (message.data, self._answers) == self._before:  # sent again, without an answer

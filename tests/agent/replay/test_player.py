@@ -82,8 +82,8 @@ def test_the_farewell_of_an_agent_that_ended_is_not_expected(tmp_path: Path) -> 
     play(player, Bench())
     assert (player.difference, player.done, player.compared) == ("", True, 7)
     delete = replace(farewell, of_client=True, data=bytes.fromhex("81000000 03010400 0002fffe"))
-    asked = replace(farewell, number=last.number + 2)
-    player = Player(replace(conversation, messages=(*messages, delete, asked)), False, wait_s=2)
+    requested = replace(farewell, number=last.number + 2)
+    player = Player(replace(conversation, messages=(*messages, delete, requested)), False, wait_s=2)
     play(player, Bench())
     assert (player.difference, player.done, player.compared) == ("", True, 8)
 

@@ -7,7 +7,8 @@
 
 enum { SECOND_DIGITS = 10, FRACTION_DIGITS = 9 };
 
-/* Returns the name of a level, of the next lower one for a number between two levels. Shorter than g_rcutils_log_severity_names, which has a place for each number. */
+/* Returns the name of a level, of the next lower one for a number between two levels. Shorter than
+ * g_rcutils_log_severity_names, which has a place for each number. */
 static const char * line_level(int severity)
 {
   if (severity >= RCUTILS_LOG_SEVERITY_FATAL) {

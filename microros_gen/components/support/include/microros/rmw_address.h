@@ -32,8 +32,7 @@ static inline bool rmw_address_is_port(const char * text)
 
 /* Sets the agent's address in rmw_options: ip of at most RMW_UXRCE_MAX_HOST_SIZE - 1 characters, port 1 to
  * 65535; both are copied. RMW_RET_INVALID_ARGUMENT otherwise, or if one is NULL. */
-static inline rmw_ret_t rmw_address_set(
-  rmw_init_options_t * rmw_options, const char * ip, const char * port)
+static inline rmw_ret_t rmw_address_set(rmw_init_options_t * rmw_options, const char * ip, const char * port)
 {
   if (ip == NULL || port == NULL || rmw_options == NULL) {
     return microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "ip, port or rmw_options");
