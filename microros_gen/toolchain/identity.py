@@ -37,8 +37,8 @@ class Identity:
 
 
 def identify(compiler: str, environ: Mapping[str, str]) -> Identity:
-    """Return the identity of a compiler, which is run for that."""
-    probe = ["-v", "-E", "-x", "c", os.devnull, "-o", os.devnull]
+    """Return the identity of a compiler, whose driver is run for that: it says what it would run, and runs nothing."""
+    probe = ["-###", "-x", "c", "-c", os.devnull, "-o", os.devnull]
     folder = Path(Path.cwd().anchor)  # clang says in which folder it runs
     probed = run([compiler, CALL_GRAPH, *probe], folder)
     call_graph = probed.returncode == 0

@@ -2,6 +2,7 @@
 #include "rcl/node.h"
 
 #include "microros/error.h"
+#include "microros/lock.h"
 #include "microros/rcl_names_expand.h"
 #include "microros/rcl_names_given.h"
 #include "microros/rcl_node_open.h"
@@ -193,4 +194,40 @@ rcl_ret_t rcl_node_options_fini(rcl_node_options_t * options)
     return microros_error_refuse(RCL_RET_INVALID_ARGUMENT, "options");
   }
   return RCL_RET_OK;
+}
+
+/* Writes `namespace.name`, of a namespace that begins with a slash; one `/` separates others. */
+static void logger_name_write(char * text, const char * namespace_, const char * name)
+{
+  size_t used = 0;
+
+  for (const char * next = &namespace_[1]; *next != '\0' && used + 1u < MICROROS_NODE_LOGGER_NAME_SIZE;
+       ++next) {
+    text[used] = *next == '/' ? '.' : *next;
+    ++used;
+  }
+  text[used] = '.';
+  for (const char * next = name; *next != '\0' && used + 2u < MICROROS_NODE_LOGGER_NAME_SIZE; ++next) {
+    ++used;
+    text[used] = *next;
+  }
+  text[used + 1u] = '\0';
+}
+
+const char * rcl_node_get_logger_name(const rcl_node_t * node)
+{
+  static char names[MICROROS_NODES_MAX][MICROROS_NODE_LOGGER_NAME_SIZE];
+  char * text = NULL;
+
+  if (!rcl_node_is_valid(node)) {
+    return NULL;
+  }
+  if (node->impl->namespace_[1] == '\0') {
+    return node->impl->name;
+  }
+  microros_lock();
+  text = names[rmw_node_index(node->impl)];
+  logger_name_write(text, node->impl->namespace_, node->impl->name);
+  microros_unlock();
+  return text;
 }
