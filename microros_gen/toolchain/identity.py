@@ -38,7 +38,7 @@ class Identity:
 
 def identify(compiler: str, environ: Mapping[str, str]) -> Identity:
     """Return the identity of a compiler, whose driver is run for that: it says what it would run, and runs nothing."""
-    probe = ["-###", "-x", "c", "-c", os.devnull, "-o", os.devnull]
+    probe = ["-###", "-x", "c", "-S", os.devnull, "-o", os.devnull]
     folder = Path(Path.cwd().anchor)  # clang says in which folder it runs
     probed = run([compiler, CALL_GRAPH, *probe], folder)
     call_graph = probed.returncode == 0

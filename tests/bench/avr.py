@@ -27,6 +27,9 @@ def bench_avr(folder: Path) -> None:
     for label, application in IMAGES:
         cells = []
         for board in (UNO, MEGA):
+            if board == UNO and application == ANSWERS:
+                cells.append("the stack has no room")  # `build` refuses it (MG-8608)
+                continue
             built = builds.build(board, application)
             flash, ram = flash_and_ram(built, built.image)
             cells.append(f"{flash:,} / {ram:,} / {bounded(built, built.image)[0]:,}")

@@ -141,7 +141,7 @@ def declaring(found: compiler.Planned) -> str:
 
 
 def test_only_declared_parameters_bring_the_files_for_them(tmp_path: Path) -> None:
-    files = {"src/parameters/rclc_parameter_" + name for name in ("copy.c", "declare.c", "declared.c")}
+    files = {"src/parameters/rclc_parameter_" + name for name in ("declare.c", "declared.c")}
     assert compiler.render(planned(tmp_path, DECLARED)).keys() >= files
     assert not compiler.render(planned(tmp_path, BARE)).keys() & files
 

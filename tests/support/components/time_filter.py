@@ -85,11 +85,11 @@ class Filter:
         config = f"#define MICROROS_TIME_SLEW_PPM {slew_ppm}u\n#define MICROROS_TIME_STEP_US {step_us}u\n"
         (folder / "microros_config.h").write_text(config)
         component = load_catalogue()["time_source"].folder
-        sources = [component / "src" / f"xrce_time_{part}.c" for part in ("filter", "served")]
+        source = component / "src" / "xrce_time_filter.c"
         includes = (f"-I{folder}", f"-I{component / 'include'}")
         flags = ("-std=c99", "-O1", *_WARNINGS, *_SANITIZE, *includes)
         target = folder / "filter"
-        run("gcc", *flags, UNITS / "unit_time_filter.c", *sources, "-o", target)
+        run("gcc", *flags, UNITS / "unit_time_filter.c", source, "-o", target)
         return target
 
     def _order(self, *words: str | int) -> int:

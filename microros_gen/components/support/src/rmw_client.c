@@ -91,7 +91,7 @@ bool rmw_client_flush(xrce_client_t * client, uint32_t timeout_ms)
 static bool session_is_open(const rmw_context_t * context)
 {
   if (context == NULL || context->impl == NULL) {
-    microros_error_set(microros_error_argument, "context", NULL, 0, 0);
+    (void)microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "context");
     return false;
   }
   return true;
@@ -172,7 +172,7 @@ rmw_ret_t rmw_uros_options_set_client_key(uint32_t client_key, rmw_init_options_
 static bool timing_is_valid(const rmw_context_t * context, int session_timeout)
 {
   if (context == NULL || context->impl == NULL || session_timeout < 0) {
-    microros_error_set(microros_error_argument, "context or session_timeout", NULL, 0, 0);
+    (void)microros_error_refuse(RMW_RET_INVALID_ARGUMENT, "context or session_timeout");
     return false;
   }
   return true;
