@@ -80,6 +80,9 @@ def _check(
         if name not in capabilities:
             hint = nearest(name, capabilities) or f"Known: {', '.join(capabilities)}"
             diagnostics.error(f"unknown capability '{name}'", span, hint, id="MG-4066")
+    if "common" in tree.entries:
+        hint = "Remove it: it says which templates of the tool's own components are compiled ahead"
+        diagnostics.error("`common` is for built-in components", _span(tree, "common"), hint, id="MG-9875")
     _check_files(tree, folder, diagnostics)
     for item in items(tree.get("implies")):
         _check_type(item, diagnostics)

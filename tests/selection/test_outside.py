@@ -241,6 +241,7 @@ FAULTS = [
         "layer: lower",
         "component.yaml:3:8: error: 'layer' must be micro-ROS, middleware or port",
     ),
+    ("asks: [time]", "common: true", "component.yaml:6:1: error: `common` is for built-in components"),
     ("asks: [time]", "asks: [tides]", "component.yaml:6:8: error: unknown capability 'tides'"),
     (
         "needs: [publish]",
