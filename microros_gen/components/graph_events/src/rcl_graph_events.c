@@ -22,7 +22,7 @@
 
 #include <string.h>
 
-bool events_request(
+static bool events_request(
   const rcl_graph_event_t * event, microros_graph_msgs__srv__EndpointStatus_Request * request)
 {
   static char topic_full[MICROROS_GRAPH_NAME_SIZE];

@@ -92,7 +92,7 @@ bool rclc_parameter_is(
   if (place != NULL && place->type != (uint8_t)type) {
     *result = rclc_parameter_refuse(error, name, MICROROS_ERROR_WORDS("it has another type"));
   }
-  return *result == RCL_RET_OK;
+  return place != NULL && *result == RCL_RET_OK;
 }
 
 /* Values are copied from and to messages as they are. */
