@@ -233,7 +233,7 @@ def test_a_mistake_without_settings_is_shown_where_the_component_is_selected(tmp
 def test_limits_ages_requests_and_times(tmp_path: Path) -> None:
     """Every limit from both sides, both clocks over their wraps."""
     out = rendered(tmp_path, MODES + CHECKS)
-    parts = ("check", "times")
+    parts = ("check", "judge", "times")
     sources = [out / "src" / "diagnosis" / f"rcl_diagnosis_{part}.c" for part in parts]
     sources += [out / "src" / "diagnosis" / "rclc_diagnosis.c", tmp_path / "tables.c"]
     text = (out / "src" / "diagnosis" / "rcl_diagnosis_declared.c").read_text()
