@@ -125,7 +125,9 @@ def test_lost_messages_are_reported(arm: Running) -> None:
     )
     with subprocess.Popen(flood, env=environment(own_domain()), stdout=subprocess.DEVNULL) as publisher:
         try:
-            with running(own_domain(), "microros_gen", "topic", "echo", "/flood") as echo:
+            with running(
+                own_domain(), "microros_gen", "topic", "echo", "/flood", "std_msgs/msg/Int32"
+            ) as echo:
                 echo.wait_for("data: 0")
                 end = deadline(60)
                 while not any(line.startswith("\ttotal count change:") for line in echo.lines):
