@@ -89,6 +89,7 @@ int probe_index(const char * topic)
 """
 SOURCES = (
     "node/rcl_names.c",
+    "node/rcl_names_expand.c",
     "node/rmw_names.c",
     "node/rcl_topic_name.c",
     "name_substitutions/rcl_names_substitute.c",
@@ -165,7 +166,8 @@ def names(tmp_path_factory: pytest.TempPathFactory) -> Names:
     (folder / "probe.c").write_text(PROBE, encoding="utf-8")
     command = ["gcc", "-shared", "-fPIC", "-Wall", "-Wextra", "-Werror", f"-I{tree.include}"]
     sources = [str(folder / "src" / source) for source in SOURCES]
-    subprocess.run([*command, str(folder / "probe.c"), *sources, "-o", str(folder / "names.so")], check=True)
+    parts = [str(folder / "probe.c"), *sources, "-Wl,--no-undefined", "-o", str(folder / "names.so")]
+    subprocess.run([*command, *parts], check=True)
     return Names(folder / "names.so")
 
 
