@@ -86,7 +86,7 @@ class Admission:
         self._deliveries = deliveries
         self.keeping = Keeping(limits.keep_s, deliveries, log)
         self._conflicts = KeyConflicts(log, limits.clients)
-        self._newcomers = Newcomers(limits.newcomers)
+        self.newcomers = Newcomers(limits.newcomers)
         self._full_until = 0.0
         self._strangers = Strangers(limits.adopt_after_s, limits.clients, limits.strangers_per_second)
         self._places = Places(clients, limits, budgets, self.dismiss)
@@ -108,7 +108,7 @@ class Admission:
         the caller to process the message.
         """
         header = Header.decode(data)
-        if (newcomer := self._newcomers.proved(header, address)) is not None:
+        if (newcomer := self.newcomers.proved(header, address)) is not None:
             return self._let_in(newcomer, now)
         if client is None:
             self._strangers.count(now)
@@ -126,7 +126,7 @@ class Admission:
                 return self._adopt(header, submessage, address, transport, now)
             self._strangers.forget(transport, address)  # it opens its session again by itself
             if isinstance(submessage, GetInfo):
-                known = header.session in OUT_OF_SESSION and bool(client or self._newcomers.at(address))
+                known = header.session in OUT_OF_SESSION and bool(client or self.newcomers.at(address))
                 if client is not None and known:
                     client.last_received = now
                 answer = agent_info(submessage, known)
@@ -251,7 +251,7 @@ class Admission:
             self._full_until = now + LOOK_AGAIN_S
         if not known and now < self._full_until:
             return Status.RESOURCES
-        self._newcomers.note(newcomer)
+        self.newcomers.note(newcomer)
         return Status.OK
 
     def _let_in(self, newcomer: Newcomer, now: float) -> Client:
@@ -266,7 +266,7 @@ class Admission:
 
     def _admit(self, newcomer: Newcomer, now: float) -> Status:
         link, address, transport = newcomer.link, newcomer.address, newcomer.transport
-        self._newcomers.forget(address)
+        self.newcomers.forget(address)
         client, heritage = self._clients.with_key(link.key), {}
         access = self.gatekeeper.decide(link.key, transport, address, client)
         if access is None:  # the policy, or who has its key, has changed

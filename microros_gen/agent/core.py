@@ -39,7 +39,7 @@ from microros_gen.agent.transport.base import Transport
 from microros_gen.agent.turns import Turns
 from microros_gen.agent.wire.constants import STREAM_RELIABLE
 from microros_gen.agent.wire.errors import MalformedError
-from microros_gen.agent.wire.message import header_size, is_cut
+from microros_gen.agent.wire.message import Header, header_size, is_cut
 
 WORDS = {
     "no_session": "message from {peer} ignored: it is of a session that this agent does not know ({detail}),"
@@ -310,11 +310,13 @@ class Agent:
         session_id = data[0]
         client = self.clients.at(address) if start == 4 else self.clients.with_key(data[4:8])
         self._turns.start(now)
-        if client is None or session_id != client.session.link.session:
+        elsewhere = start == 8 and client is not None and client.address != address
+        restarted = elsewhere and self._admission.newcomers.knows(Header.decode(data), address)
+        if client is None or restarted or session_id != client.session.link.session:
             client = self._admission.handle_outside_session(data, start, client, address, transport, now)
             if client is None:
                 return
-        elif start == 8 and client.address != address:
+        elif elsewhere:
             self._admission.check_move(client, transport, address)
         self._payer = account = client.account
         client.received += 1

@@ -72,14 +72,16 @@ class Newcomers:
         """Return the newcomer of an address, or None."""
         return self._by_address.get(address)
 
-    def proved(self, header: Header, address: Hashable) -> Newcomer | None:
-        """Remove and return the newcomer to whose session a message from `address` belongs."""
+    def knows(self, header: Header, address: Hashable) -> bool:
+        """Return whether a message from `address` belongs to the session of a newcomer."""
         found = self._by_address.get(address)
         if found is None or header.session != found.link.session:
-            return None
-        if header.session < SESSION_NONE_WITHOUT_KEY and header.key != found.link.key:
-            return None
-        return self._by_address.pop(address)
+            return False
+        return header.session >= SESSION_NONE_WITHOUT_KEY or header.key == found.link.key
+
+    def proved(self, header: Header, address: Hashable) -> Newcomer | None:
+        """Remove and return the newcomer to whose session a message from `address` belongs."""
+        return self._by_address.pop(address) if self.knows(header, address) else None
 
 
 def who_gives_way(clients: Iterable[Client], now: float, silent_s: float) -> Client | None:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 
 import pytest
 
@@ -69,7 +70,7 @@ def test_a_flood_of_forged_sessions_locks_no_client_out() -> None:
     for key in range(0x1000, 0x1000 + 2_000):
         bench.say(hello(key, timeout_ms=10_000_000), f"forged {key}")
     assert len(bench.agent.clients) == 1
-    assert len(bench.agent._admission._newcomers) == 64
+    assert len(bench.agent._admission.newcomers) == 64
     assert connect(bench, 0x78, "new") == OK
     assert create(bench, "new")
     assert len(bench.agent.clients) == 2
@@ -80,7 +81,7 @@ def test_what_a_forged_session_leaves_is_small() -> None:
     bench = over_udp(Limits(newcomers=1_000, strangers_per_second=1_000_000))
     for key in range(1, 1_001):
         bench.say(hello(key), f"forged {key}")
-    newcomers = bench.agent._admission._newcomers._by_address
+    newcomers = bench.agent._admission.newcomers._by_address
     each = next(iter(newcomers.values()))
     assert len(newcomers) == 1_000
     assert sys.getsizeof(newcomers) / 1_000 + sys.getsizeof(each.__dict__) + sys.getsizeof(each.link) < 1_000
@@ -110,6 +111,19 @@ def test_a_restart_from_another_port_is_the_same_client() -> None:
     assert create(bench, "b")
     assert len(bench.agent.clients) == 1
     assert len(bench.bridge.graph) == 1
+
+
+def test_a_restart_from_another_port_begins_again_where_the_session_has_a_key() -> None:
+    """The key and session id are those of the session before; the streams are new, and so is the next restart."""
+    bench = over_udp()
+    head = Header(0x01, 0x80, 0, (1).to_bytes(4, "big"))
+    for address, count in (("a", 4), ("b", 2), ("a", 1)):
+        bench.say(hello(1, 0x01), address)
+        for number, item in enumerate(entities()[:count]):
+            bench.say(join(replace(head, sequence=number), [encode(item)]), address)
+        (client,) = bench.agent.clients
+        assert client.address == address
+        assert client.session.acknack(0x80)[12:14] == count.to_bytes(2, "little")
 
 
 @pytest.mark.parametrize("silent", ["empty", "asleep", "silent"])

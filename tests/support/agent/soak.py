@@ -146,7 +146,8 @@ class Place:
             client.ask(partial(_create, self.world.domain, *description)) for description in descriptions
         ]
         yield lambda: all(number in client.statuses for number in numbers)
-        assert all(client.statuses[number] in (0, 1) for number in numbers), client.statuses
+        refused = {n: f"{client.statuses[n]:#04x}" for n in numbers if client.statuses[n] not in (0, 1)}
+        assert not refused, f"requests {refused} of {numbers} were refused"
         for source in (READER, CALLER, SERVER):
             client.ask(partial(_read, source))
 
