@@ -40,11 +40,15 @@ class Agent:
 def agent_process(folder: Path, domain: int, timeout_s: float, forget_s: float) -> Iterator[Agent]:
     """Run an agent with UDP, TCP and a pseudo-terminal."""
     limits = ("--limit", f"client_timeout_s={timeout_s}", "--limit", f"sleep_timeout_s={forget_s}")
+    most = (
+        "--max-clients",
+        "512",
+    )  # a hundred with nine objects each, and those that vanished and are not forgotten
     ways = ("udp4", "--port", "0", "tcp4", "--port", "0", "pty", "--link", str(folder / "line"))
     log = folder / "agent.log"
     with log.open("w") as out:
         process = subprocess.Popen(
-            [sys.executable, "-m", "microros_gen", "agent", "--log-format", "json", *limits, *ways],
+            [sys.executable, "-m", "microros_gen", "agent", "--log-format", "json", *limits, *most, *ways],
             env=environment(domain),
             stdout=subprocess.PIPE,
             stderr=out,
