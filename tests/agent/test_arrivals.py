@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import select
 import socket
 from collections.abc import Callable
 from types import SimpleNamespace
@@ -41,6 +42,22 @@ def test_a_bell_counts_what_arrives(new: NewBell) -> None:
     ring(1)
     assert bell.arrived() == 3
     assert bell.arrived() == 0
+    bell.release()
+    os.close(descriptor)
+
+
+@pytest.mark.parametrize("new", [PlainBell, new_bell])
+def test_counting_takes_no_wake_up_away(new: NewBell) -> None:
+    """The count is that of the eventfd: to read it removes an event that epoll has not told yet."""
+    bell, descriptor, ring = ringing(new)
+    with select.epoll() as epoll:
+        epoll.register(descriptor, select.EPOLLIN | select.EPOLLET)
+        for samples in (1, 3):
+            bell.arm()
+            ring(samples)
+            assert bell.arrived() == samples
+            assert epoll.poll(0) == [(descriptor, select.EPOLLIN)]
+            assert bell.arrived() == 0
     bell.release()
     os.close(descriptor)
 

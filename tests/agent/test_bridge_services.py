@@ -28,6 +28,7 @@ from tests.support.agent.bridging import (
     types_body,
 )
 from tests.support.agent.observer import Observer
+from tests.support.patience import deadline
 
 pytestmark = pytest.mark.ros
 
@@ -46,6 +47,25 @@ def test_twenty_slow_requests_each_get_their_answer(bridged: Bridged, bridge_obs
         replier.reply(identity, types_body([len(name) for name in read_names(request)]))
     bridged.wait(lambda: None not in bridge_observer.ask(do="replies"))
     assert bridge_observer.ask(do="replies") == [[len(a), len(b)] for a, b in names]
+    node.destroy()
+
+
+def test_counting_requests_takes_no_wake_up_away(bridged: Bridged, bridge_observer: Observer) -> None:
+    """Short of memory, the agent counts what each client has to read, perhaps before it was told of it."""
+    node = bridged.bridge.create_node("counted", bridged.domain)
+    replier = node.create_replier(get_types("counted"))
+    bridged.named()
+    for calls in range(1, 4):
+        before = replier.unread()
+        bridge_observer.ask(do="call", service="/counted", type=GET_TYPES, names=[["x"]] * calls)
+        end = deadline(15)
+        while replier.unread() < before + calls:
+            assert time.monotonic() < end
+        assert replier.unread() == before + calls
+        requests = bridged.take(replier, calls)
+        assert replier.take() is None
+        for identity, _ in requests:
+            replier.reply(identity, types_body([1]))
     node.destroy()
 
 

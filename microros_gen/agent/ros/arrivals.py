@@ -6,7 +6,6 @@ With quick_calls.c, if that was compiled, else with ctypes.
 
 from __future__ import annotations
 
-import contextlib
 import os
 from collections.abc import Callable
 from ctypes import addressof, c_void_p
@@ -45,6 +44,7 @@ class PlainBell:
     def __init__(self, descriptor: int, eventfd_write: int) -> None:
         self._descriptor = descriptor
         self._function = eventfd_write
+        self._own = 0
 
     def call(self) -> tuple[int, int]:
         """See Bell."""
@@ -58,10 +58,22 @@ class PlainBell:
         return False
 
     def arrived(self) -> int:
-        """See Bell."""
-        with contextlib.suppress(BlockingIOError):
-            return os.eventfd_read(self._descriptor)
-        return 0
+        """See Bell. Reading the eventfd may take away what has not woken the agent yet: it is rung again."""
+        arrived, self._own = read_and_ring(self._descriptor, self._own)
+        return arrived
+
+
+def read_and_ring(descriptor: int, own: int) -> tuple[int, int]:
+    """Read the count of an eventfd and write 1 to it if it was written to.
+
+    `own` is what the last call wrote; return the count of others, and what this call wrote.
+    """
+    try:
+        count = os.eventfd_read(descriptor)
+    except BlockingIOError:
+        return 0, 0
+    os.eventfd_write(descriptor, 1)
+    return count - own, 1
 
 
 NewBell = Callable[[int, int], Bell]

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import ctypes
 import os
 import struct
@@ -13,6 +12,7 @@ from collections.abc import Callable
 from ctypes import byref, c_char_p, c_void_p
 from typing import Any, Protocol
 
+from microros_gen.agent.ros.arrivals import read_and_ring
 from microros_gen.agent.ros.bridge import BridgeError, NoClient
 from microros_gen.agent.ros.endpoints import RawSource, Ros
 from microros_gen.agent.ros.graph import Endpoint, Events
@@ -140,6 +140,8 @@ class RawService(RawSource):
         self._types = ros.types
         self._take = take
         self._reported = 0
+        self._own = 0
+        """Part of the eventfd's count that is of this agent."""
         self._info = ServiceInfo()
         self._ignored = RawMessage()
         self._arguments = (self._pointer, byref(self._info), byref(self._ignored))
@@ -148,9 +150,10 @@ class RawService(RawSource):
         while self._descriptor >= 0:
             if not self._reported:
                 try:
-                    self._reported = os.eventfd_read(self._descriptor)
+                    self._reported, self._own = os.eventfd_read(self._descriptor) - self._own, 0
                 except BlockingIOError:
                     return None
+                continue
             self._reported -= 1
             result = self._take(*self._arguments)
             if result == OK:
@@ -163,8 +166,8 @@ class RawService(RawSource):
     def unread(self) -> int:
         """See Source."""
         if self._descriptor >= 0:
-            with contextlib.suppress(BlockingIOError):
-                self._reported += os.eventfd_read(self._descriptor)
+            arrived, self._own = read_and_ring(self._descriptor, self._own)
+            self._reported += arrived
         return self._reported
 
     def _compare(self) -> None:
