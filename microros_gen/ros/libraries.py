@@ -157,7 +157,8 @@ class Libraries:
         By default, Fast DDS delivers to a participant of the same process in the call of the writer, and takes locks of
         both. A writer of a service holds one of them while Python serializes for it. A thread that creates an endpoint
         of the other participant holds Python's interpreter lock meanwhile, and neither would ever get the other's:
-        for example the agent, and its parameter server in another thread.
+        for example the agent, and its parameter server in another thread. Besides, a reader with KEEP_ALL that was full
+        may get nothing more within a process: Fast DDS 2.14.5 does not deliver again what it has refused.
         """
         _load_profiles(_SEPARATE_PARTICIPANTS)
 
