@@ -4,15 +4,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
 
 from tests.bench.agent_rates import (
     Case,
     Rate,
+    client_to_client,
     client_to_dds,
     dds_to_client,
     dds_to_dds,
@@ -31,24 +32,27 @@ PACED = 17_000
 """Samples a second on a best-effort stream; the rate at which the public agent was recorded."""
 CLIENTS = (1, 10, 100)
 Measure = Callable[[Programs, Target, Case, int, int], Rate]
-_WAYS: tuple[tuple[str, Measure], ...] = (("client to DDS", client_to_dds), ("DDS to client", dds_to_client))
+_WAYS: tuple[tuple[str, Measure], ...] = (
+    ("client to DDS", client_to_dds),
+    ("DDS to client", dds_to_client),
+    ("client to client", client_to_client),
+)
 
 
 @dataclass(frozen=True)
 class Row:
-    """A case, its number of samples, and what is recorded of the public agent: each way, samples a second or text."""
+    """A case, its number of samples, and what is recorded of the public agent, by way."""
 
     case: Case
     samples: int
-    to_dds: str = ""
-    to_client: str = ""
+    recorded: Mapping[str, str] = field(default_factory=dict)
 
 
 ROWS = (
-    Row(Case(64, 512, RELIABLE), SAMPLES, "43,000 /s, 28 us"),
-    Row(Case(1024, 2048, RELIABLE), SAMPLES, "44,000 /s"),
-    Row(Case(1024, 512, RELIABLE), FRAGMENTED, "18,000 /s"),
-    Row(Case(64, 512, BEST_EFFORT, PACED), SAMPLES, "17,000 /s, 11.5 us"),
+    Row(Case(64, 512, RELIABLE), SAMPLES, {"client to DDS": "43,000 /s, 28 us"}),
+    Row(Case(1024, 2048, RELIABLE), SAMPLES, {"client to DDS": "44,000 /s"}),
+    Row(Case(1024, 512, RELIABLE), FRAGMENTED, {"client to DDS": "18,000 /s"}),
+    Row(Case(64, 512, BEST_EFFORT, PACED), SAMPLES, {"client to DDS": "17,000 /s, 11.5 us"}),
     Row(Case(1024, 2048, BEST_EFFORT, PACED), SAMPLES),
 )
 TRIP_RECORDED = "83 to 95 us median, 172 us p99"
@@ -142,7 +146,7 @@ class _Rates:
             print(f"  {title:<99} recorded")
             for row in self._rows(title):
                 rate = median_of([self._once(measure, row, target) for _ in range(self.runs)])
-                recorded = row.to_dds if measure is client_to_dds else row.to_client
+                recorded = row.recorded.get(title, "")
                 print(f"    {row.case!s:<48} {rate!s:<48} {recorded}", flush=True)
 
     def print_ratios(self, target: Target, compared: Target) -> None:

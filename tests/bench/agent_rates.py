@@ -26,6 +26,8 @@ from tests.bench.agent_sides import (
     started,
 )
 
+OTHER_KEYS = 0x08000000
+"""From the key of a client to that of the one it sends to."""
 SETTLE_S = 0.5
 """Seconds from the peer's finding the agent's endpoint to the agent's surely having found the peer's."""
 
@@ -101,6 +103,31 @@ def dds_to_client(programs: Programs, target: Target, case: Case, count: int, ke
                 os.close(sends)
                 seen = receiver.result()
         client.leave()
+    return _rate(seen, used())
+
+
+def client_to_client(programs: Programs, target: Target, case: Case, count: int, key: int) -> Rate:
+    """Let a client send `count` samples to another client of the agent; count them there."""
+    topic = f"bench_{key:x}"
+    with (
+        LoadClient(target, key, case.mtu) as source,
+        LoadClient(target, key + OTHER_KEYS, case.mtu) as sink,
+    ):
+        writer, _ = source.make(topic, case.flags, ways=[WRITER])
+        _, reader = sink.make(topic, case.flags, ways=[READER])
+        sink.read(reader, case.stream)
+        time.sleep(SETTLE_S)
+        taking = load_command(programs, "receive", sink, reader, case.stream, case.size, count)
+        sending = load_command(programs, "send", source, writer, case.stream, case.size, count, case.rate)
+        with (
+            _processor(target) as used,
+            started(taking, 0, descriptors=(sink.descriptor,)) as receiver,
+            started(sending, 0, descriptors=(source.descriptor,)) as sender,
+        ):
+            sender.result()
+            seen = receiver.result()
+        source.leave()
+        sink.leave()
     return _rate(seen, used())
 
 
