@@ -82,3 +82,13 @@ def test_a_check_warns(run: Runner, monkeypatch: pytest.MonkeyPatch) -> None:
     assert (result.status, result.out) == (0, "no faults\n")
     assert "MG-9873" in result.err
     assert "MG-9873" not in run("agent", "pty", "--check").err
+
+
+@pytest.mark.parametrize("more", [(), ("--workers", "2")])
+def test_a_check_adds_the_limits_up(run: Runner, more: tuple[str, ...]) -> None:
+    """As the start does; status 2 as for a fault in a file."""
+    result = run("agent", "pty", "--limit", f"object_bytes={128 * MIB}", *more, "--check")
+    assert (result.status, result.out) == (2, "")
+    assert "or set memory_bytes: 327155712 [MG-9708]" in result.err
+    enough = ("--limit", "memory_bytes=327155712")
+    assert run("agent", "pty", "--limit", f"object_bytes={128 * MIB}", *enough, *more, "--check").status == 0

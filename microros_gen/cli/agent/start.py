@@ -49,6 +49,7 @@ def serve(options: AgentOptions, signals: EarlySignals) -> None:
     for diagnostic in (*files.warnings, *([tight] if tight is not None else [])):
         echo_found(f"{diagnostic.render()}\n")
     checked_places(options)
+    check_memory(options.limits)
     if options.check:
         click.echo("no faults")
         return
@@ -60,7 +61,6 @@ def serve(options: AgentOptions, signals: EarlySignals) -> None:
             " use the one here will misread it"
         )
         log.emit(Level.WARNING, "type_hash_differs", text, type=name)
-    check_memory(options.limits)
     if options.workers > 1:
         announce = partial(_announce, EventLog(sys.stdout, as_json))
         serve_with_workers(options, files, log, announce, signals)
