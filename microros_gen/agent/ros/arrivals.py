@@ -45,6 +45,7 @@ class PlainBell:
         self._descriptor = descriptor
         self._function = eventfd_write
         self._own = 0
+        """Part of the eventfd's count that `arrived` wrote."""
 
     def call(self) -> tuple[int, int]:
         """See Bell."""
@@ -59,21 +60,21 @@ class PlainBell:
 
     def arrived(self) -> int:
         """See Bell. Reading the eventfd may take away what has not woken the agent yet: it is rung again."""
-        arrived, self._own = read_and_ring(self._descriptor, self._own)
+        own = self._own
+        arrived = self.drain()
+        if arrived or own:
+            os.eventfd_write(self._descriptor, 1)
+            self._own = 1
         return arrived
 
-
-def read_and_ring(descriptor: int, own: int) -> tuple[int, int]:
-    """Read the count of an eventfd and write 1 to it if it was written to.
-
-    `own` is what the last call wrote; return the count of others, and what this call wrote.
-    """
-    try:
-        count = os.eventfd_read(descriptor)
-    except BlockingIOError:
-        return 0, 0
-    os.eventfd_write(descriptor, 1)
-    return count - own, 1
+    def drain(self) -> int:
+        """Return what `arrived` does, for a caller that takes all of it now: only later ones wake the agent."""
+        try:
+            count = os.eventfd_read(self._descriptor)
+        except BlockingIOError:
+            return 0
+        own, self._own = self._own, 0
+        return count - own
 
 
 NewBell = Callable[[int, int], Bell]

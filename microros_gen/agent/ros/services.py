@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import ctypes
-import os
 import struct
 import time
 from collections import deque
@@ -12,7 +11,7 @@ from collections.abc import Callable
 from ctypes import byref, c_char_p, c_void_p
 from typing import Any, Protocol
 
-from microros_gen.agent.ros.arrivals import read_and_ring
+from microros_gen.agent.ros.arrivals import PlainBell
 from microros_gen.agent.ros.bridge import BridgeError, NoClient
 from microros_gen.agent.ros.endpoints import RawSource, Ros
 from microros_gen.agent.ros.graph import Endpoint, Events
@@ -136,12 +135,12 @@ class RawService(RawSource):
         endpoints: tuple[Endpoint, ...],
     ) -> None:
         super().__init__(handle, ros, notify, events, endpoints)
+        assert isinstance(self._bell, PlainBell), "the default"
+        self._drain = self._bell.drain
         self._compared = False
         self._types = ros.types
         self._take = take
         self._reported = 0
-        self._own = 0
-        """Part of the eventfd's count that is of this agent."""
         self._info = ServiceInfo()
         self._ignored = RawMessage()
         self._arguments = (self._pointer, byref(self._info), byref(self._ignored))
@@ -149,11 +148,9 @@ class RawService(RawSource):
     def _take_next(self) -> bytes | None:
         while self._descriptor >= 0:
             if not self._reported:
-                try:
-                    self._reported, self._own = os.eventfd_read(self._descriptor) - self._own, 0
-                except BlockingIOError:
-                    return None
-                continue
+                self._reported = self._drain()
+            if not self._reported:
+                return None
             self._reported -= 1
             result = self._take(*self._arguments)
             if result == OK:
@@ -166,8 +163,7 @@ class RawService(RawSource):
     def unread(self) -> int:
         """See Source."""
         if self._descriptor >= 0:
-            arrived, self._own = read_and_ring(self._descriptor, self._own)
-            self._reported += arrived
+            self._reported += self._bell.arrived()
         return self._reported
 
     def _compare(self) -> None:

@@ -40,10 +40,8 @@ class Agent:
 def agent_process(folder: Path, domain: int, timeout_s: float, forget_s: float) -> Iterator[Agent]:
     """Run an agent with UDP, TCP and a pseudo-terminal."""
     limits = ("--limit", f"client_timeout_s={timeout_s}", "--limit", f"sleep_timeout_s={forget_s}")
-    most = (
-        "--max-clients",
-        "512",
-    )  # a hundred with nine objects each, and those that vanished and are not forgotten
+    # A hundred with nine objects each, and those that vanished and are not forgotten yet.
+    most = ("--max-clients", "512")
     ways = ("udp4", "--port", "0", "tcp4", "--port", "0", "pty", "--link", str(folder / "line"))
     log = folder / "agent.log"
     with log.open("w") as out:
